@@ -1,0 +1,67 @@
+"""How a mesh is looked at: values without Qt and without VTK, shared by the window and by off-screen pictures."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class ClipPlane:
+    """A half-space that is cut away: what lies on the side that `normal` points to is hidden.
+
+    Parameters
+    ----------
+    normal : tuple of 3 floats
+        Of unit length.
+    origin : tuple of 3 floats
+        A point of the plane, in the mesh's unit of length.
+    crinkle : bool
+        Whole elements (True: an element is shown when its centre is on the kept side) or a smooth cut through them.
+    """
+
+    normal: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    crinkle: bool = True
+
+    def __post_init__(self) -> None:
+        length = float(np.linalg.norm(self.normal))
+        if not length > 0 or not np.isfinite(length):
+            raise ValueError(f"the plane's normal is {self.normal}: expected a direction")
+        object.__setattr__(self, "normal", tuple(float(c) / length for c in self.normal))
+        object.__setattr__(self, "origin", tuple(float(c) for c in self.origin))
+
+    def signed_distance(self, points: np.ndarray) -> np.ndarray:
+        """Distance of (k, 3) points from the plane, positive on the hidden side."""
+        return np.asarray(points) @ np.array(self.normal) - float(np.dot(self.normal, self.origin))
+
+    def flipped(self) -> ClipPlane:
+        """The same plane hiding the other side."""
+        return dataclasses.replace(self, normal=tuple(-c for c in self.normal))
+
+
+@dataclass(frozen=True)
+class Look:
+    """Everything that decides what is drawn of a mesh and how.
+
+    Parameters
+    ----------
+    clip : ClipPlane, optional
+        None shows the mesh uncut.
+    quality_range : (low, high), optional
+        Elements whose q lies outside are hidden; None shows all.
+    colour_range : (low, high)
+        The q that the ends of the colour map stand for.
+    colour_map : str
+        A name of `hexmend_app.scene.colours.MAPS`.
+    edges : bool
+        Draw the elements' edges.
+    """
+
+    clip: ClipPlane | None = None
+    quality_range: tuple[float, float] | None = None
+    colour_range: tuple[float, float] = (0.0, 1.0)
+    colour_map: str = "viridis"
+    edges: bool = True

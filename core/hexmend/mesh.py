@@ -1,0 +1,179 @@
+"""The mesh: points, hexahedra, which nodes are fixed, and what the file said besides, carried through."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.errors import MeshError
+from hexmend.hexahedron import EDGES
+from hexmend.topology import Topology
+
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cells of lower dimension that a file holds beside its hexes; carried through, never computed with.
+
+    Parameters
+    ----------
+    kind : {"vertex", "line", "triangle", "quad"}
+    nodes : (k, width) int32
+    data : mapping of name to (k, ...) array
+    """
+
+    kind: str
+    nodes: np.ndarray
+    data: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A hexahedral mesh. Immutable: `with_points` returns a copy that shares everything else.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        Coordinates in any unit of length; kept read-only.
+    hexes : (m, 8) int32
+        Corner nodes from 0, numbered as in `hexmend.hexahedron`; kept read-only.
+    pinned : (n,) bool, optional
+        Nodes to be kept fixed besides those of the boundary.
+    node_data, hex_data : mapping of name to (n, ...) or (m, ...) array
+        Ids, references and other values of the file.
+    node_sets, hex_sets : mapping of name to (k,) int array
+        Named groups.
+    cells : tuple of Cells
+        Cells of lower dimension (boundary quads with references, feature edges).
+    name : str
+        What to call the mesh; the file's stem.
+
+    Raises
+    ------
+    MeshError
+        Where a coordinate is no finite number, a node number is out of range, or an array has the wrong shape.
+
+    Examples
+    --------
+    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> mesh = Mesh(UNIT_CUBE, [[0, 1, 2, 3, 4, 5, 6, 7]])
+    >>> mesh.n_hexes, mesh.n_nodes, int(mesh.free.sum())
+    (1, 8, 0)
+    """
+
+    points: np.ndarray
+    hexes: np.ndarray
+    pinned: np.ndarray | None = None
+    node_data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    hex_data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    node_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    hex_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    cells: tuple[Cells, ...] = ()
+    name: str = ""
+    topology: Topology = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        points = np.array(self.points, dtype=np.float64, order="C", copy=True)
+        numbers = np.asarray(self.hexes)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise MeshError(f"points have shape {points.shape}: expected (n, 3)")
+        if numbers.ndim != 2 or numbers.shape[1] != 8 or numbers.shape[0] == 0:
+            raise MeshError(f"hexes have shape {numbers.shape}: expected (m, 8) with at least one hex")
+        check_finite(points)
+        check_node_numbers(numbers, len(points))
+        self._set(points=_frozen(points), hexes=_frozen(np.array(numbers, dtype=np.int32, order="C", copy=True)))
+        if self.pinned is not None:
+            pinned = np.asarray(self.pinned, dtype=bool)
+            if pinned.shape != (len(points),):
+                raise MeshError(f"pinned has shape {pinned.shape}: expected ({len(points)},)")
+            self._set(pinned=_frozen(pinned.copy()))
+        for kind, data, length in (("node", self.node_data, len(points)), ("hex", self.hex_data, len(numbers))):
+            for name, values in data.items():
+                if len(values) != length:
+                    raise MeshError(f"{kind} data {name!r} has {len(values)} rows: expected {length}")
+        self._set(topology=Topology(self.hexes, len(points)))
+
+    def _set(self, **values: object) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def n_nodes(self) -> int:
+        """Number of nodes, used by a hex or not."""
+        return len(self.points)
+
+    @property
+    def n_hexes(self) -> int:
+        """Number of hexes."""
+        return len(self.hexes)
+
+    @cached_property
+    def fixed(self) -> np.ndarray:
+        """True for each node that no method moves: boundary, pinned, and nodes that no hex uses; (n,) bool."""
+        fixed = self.topology.boundary | ~self.topology.used
+        return _frozen(fixed if self.pinned is None else fixed | self.pinned)
+
+    @cached_property
+    def free(self) -> np.ndarray:
+        """True for each node that methods may move, (n,) bool."""
+        return _frozen(~self.fixed)
+
+    @cached_property
+    def mean_edge_length(self) -> float:
+        """Mean length of the hexes' edges, each counted once a hex."""
+        total = 0.0
+        for a, b in EDGES:
+            total += np.linalg.norm(self.points[self.hexes[:, a]] - self.points[self.hexes[:, b]], axis=1).sum()
+        return float(total / (12 * self.n_hexes))
+
+    def with_points(self, points: np.ndarray) -> Mesh:
+        """The same mesh with its nodes elsewhere; connectivity, topology, sets and data are shared.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Taken as it is, not copied, and made read-only.
+        """
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        if points.shape != self.points.shape:
+            raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
+        check_finite(points)
+        copy = object.__new__(Mesh)
+        for one in dataclasses.fields(self):
+            object.__setattr__(copy, one.name, getattr(self, one.name))
+        for known in ("fixed", "free"):
+            if known in self.__dict__:
+                object.__setattr__(copy, known, self.__dict__[known])
+        copy._set(points=_frozen(points))
+        return copy
+
+    def replace(self, **changes: object) -> Mesh:
+        """A copy with other pins, data, sets or name (not points or hexes); topology is shared."""
+        if "points" in changes or "hexes" in changes:
+            raise MeshError("replace() changes what is carried; use with_points() or make a new Mesh")
+        copy = dataclasses.replace(self, **changes)
+        copy._set(topology=self.topology)
+        return copy
+
+
+def check_finite(points: np.ndarray) -> None:
+    """Raise `MeshError` naming the first node whose coordinates are not all finite."""
+    if not np.isfinite(points).all():
+        i = int(np.nonzero(~np.isfinite(points).all(axis=1))[0][0])
+        raise MeshError(f"node {i} (counted from 0) has the coordinates {points[i].tolist()}: expected finite numbers")
+
+
+def check_node_numbers(hexes: np.ndarray, n: int) -> None:
+    """Raise `MeshError` naming the first hex that uses a node which does not exist."""
+    if hexes.min() < 0 or hexes.max() >= n:
+        h = int(np.nonzero(((hexes < 0) | (hexes >= n)).any(axis=1))[0][0])
+        raise MeshError(f"hex {h} (counted from 0) uses the nodes {hexes[h].tolist()}: expected numbers from 0 to {n - 1}")
+
+
+def _frozen(array: np.ndarray) -> np.ndarray:
+    array.flags.writeable = False
+    return array

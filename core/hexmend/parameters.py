@@ -1,0 +1,169 @@
+"""Declared parameters: one declaration from which the form, the command line's option, the docs and the tests come.
+
+A configurable thing is a frozen dataclass whose fields are made by `parameter`::
+
+    @dataclass(frozen=True)
+    class Blend(Parametrised):
+        rho: float = parameter(0.5, low=0, high=1, help="share of the new place")
+
+`declared(Blend)` lists the declarations, `from_strings(Blend, {"rho": "0.7"})` makes one from text, and making one
+with a value out of bounds raises `ParameterError`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+import typing
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from hexmend.errors import ParameterError
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter as declared: name, type, default, bounds (inclusive), choices, unit and a sentence of help."""
+
+    name: str
+    type: type
+    default: Any
+    low: float | None
+    high: float | None
+    choices: tuple[str, ...] | None
+    unit: str
+    help: str
+
+    def check(self, value: Any) -> Any:
+        """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
+
+        >>> Parameter("rho", float, 0.5, 0, 1, None, "", "").check(2)
+        Traceback (most recent call last):
+        hexmend.errors.ParameterError: rho = 2 is out of range: expected a number from 0 to 1
+        """
+        if self.choices is not None:
+            if value not in self.choices:
+                raise ParameterError(f"{self.name} = {value!r} is unknown: expected one of {', '.join(self.choices)}")
+            return value
+        if self.type is bool:
+            if not isinstance(value, bool):
+                raise ParameterError(f"{self.name} = {value!r} is not a switch: expected true or false")
+            return value
+        if self.type is str:
+            return str(value)
+        try:
+            number = self.type(value)
+            if isinstance(value, bool) or math.isnan(number) or number != float(value):
+                raise ValueError
+        except (TypeError, ValueError, OverflowError):
+            kind = "a whole number" if self.type is int else "a number"
+            raise ParameterError(f"{self.name} = {value!r} is not {kind}: expected {self.range}") from None
+        if (self.low is not None and number < self.low) or (self.high is not None and number > self.high):
+            raise ParameterError(f"{self.name} = {value} is out of range: expected {self.range}")
+        return number
+
+    @property
+    def range(self) -> str:
+        """The admitted values in words."""
+        if self.choices is not None:
+            return f"one of {', '.join(self.choices)}"
+        if self.type is bool:
+            return "true or false"
+        kind = "a whole number" if self.type is int else "a number"
+        if self.low is not None and self.high is not None:
+            return f"{kind} from {self.low:g} to {self.high:g}"
+        if self.low is not None:
+            return f"{kind} of at least {self.low:g}"
+        if self.high is not None:
+            return f"{kind} of at most {self.high:g}"
+        return kind
+
+    def parse(self, text: str) -> Any:
+        """The value that a word of the command line or of a recipe stands for."""
+        if self.type is bool:
+            words = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
+            if text.strip().lower() not in words:
+                raise ParameterError(f"{self.name} = {text!r} is not a switch: expected true or false")
+            return words[text.strip().lower()]
+        if self.type is int:
+            try:
+                return self.check(int(text))
+            except ValueError:
+                return self.check(text)
+        return self.check(text)
+
+    def to_json(self) -> dict[str, Any]:
+        """The row of `hexmend methods --json`."""
+        choices = list(self.choices) if self.choices is not None else None
+        return {
+            "name": self.name,
+            "default": self.default,
+            "low": self.low,
+            "high": self.high,
+            "choices": choices,
+            "unit": self.unit,
+            "help": self.help,
+        }
+
+
+def parameter(
+    default: Any,
+    *,
+    low: float | None = None,
+    high: float | None = None,
+    choices: tuple[str, ...] | None = None,
+    unit: str = "",
+    help: str,
+) -> Any:
+    """Declare a dataclass field as a parameter; its type is the field's annotation."""
+    return dataclasses.field(
+        default=default, metadata={"parameter": {"low": low, "high": high, "choices": choices, "unit": unit, "help": help}}
+    )
+
+
+def declared(kind: type | Any) -> tuple[Parameter, ...]:
+    """The parameters that a `Parametrised` class (or an instance of it) declares, in order."""
+    cls = kind if isinstance(kind, type) else type(kind)
+    types = typing.get_type_hints(cls)
+    return tuple(
+        Parameter(name=field.name, type=types[field.name], default=field.default, **field.metadata["parameter"])
+        for field in dataclasses.fields(cls)
+        if "parameter" in field.metadata
+    )
+
+
+@dataclass(frozen=True)
+class Parametrised:
+    """Base of frozen dataclasses with declared parameters: their values are checked as they are made."""
+
+    def __post_init__(self) -> None:
+        for declaration in declared(self):
+            object.__setattr__(self, declaration.name, declaration.check(getattr(self, declaration.name)))
+
+    def values(self) -> dict[str, Any]:
+        """Parameter values by name."""
+        return {declaration.name: getattr(self, declaration.name) for declaration in declared(self)}
+
+
+def from_strings(cls: type[T], words: Mapping[str, str], owner: str = "") -> T:
+    """Make `cls` from textual values, as the command line and recipes give them.
+
+    Raises
+    ------
+    ParameterError
+        For a name that is not declared (the message suggests the nearest) or a value out of bounds.
+    """
+    by_name = {declaration.name: declaration for declaration in declared(cls)}
+    values = {}
+    for name, text in words.items():
+        key = name.replace("-", "_")
+        if key not in by_name:
+            near = difflib.get_close_matches(key, by_name, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(by_name) or 'none'}"
+            raise ParameterError(f"{owner or cls.__name__} has no parameter {name!r}: {hint}")
+        values[key] = by_name[key].parse(text)
+    return cls(**values)

@@ -1,0 +1,110 @@
+"""Topology: what a mesh's connectivity alone determines, built once, when first asked for, as arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.hexahedron import FACES
+from hexmend.kernels import incidence
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows of different lengths in one array: row i is `items[start[i]:start[i + 1]]`.
+
+    Parameters
+    ----------
+    start : (rows + 1,) int32
+    items : (start[-1],) int32
+    """
+
+    start: np.ndarray
+    items: np.ndarray
+
+    def __getitem__(self, i: int) -> np.ndarray:
+        return self.items[self.start[i] : self.start[i + 1]]
+
+    def __len__(self) -> int:
+        return self.start.size - 1
+
+
+class Topology:
+    """Incidences of a hexahedral mesh.
+
+    Parameters
+    ----------
+    hexes : (m, 8) int32
+        Corner nodes, numbered as in `hexmend.hexahedron`.
+    n : int
+        Number of nodes, used by a hex or not.
+    """
+
+    def __init__(self, hexes: np.ndarray, n: int):
+        self.hexes = hexes
+        self.n = n
+
+    @cached_property
+    def node_corners(self) -> Rows:
+        """Corners of hexes at each node: items are 8 * hex + corner."""
+        return Rows(*incidence.node_corners(self.hexes, self.n))
+
+    @cached_property
+    def used(self) -> np.ndarray:
+        """True for each node that a hex uses, (n,) bool."""
+        used = np.zeros(self.n, dtype=bool)
+        used[self.hexes.ravel()] = True
+        return used
+
+    @cached_property
+    def _faces(self) -> tuple[np.ndarray, int]:
+        return incidence.face_neighbours(self.hexes, self.n)
+
+    @property
+    def face_neighbours(self) -> np.ndarray:
+        """The hex behind each face of `hexmend.hexahedron.FACES`, -1 on the boundary, (m, 6) int32."""
+        return self._faces[0]
+
+    @property
+    def crowded_faces(self) -> int:
+        """Faces that more than two hexes share, counted once a hex; a sound mesh has none. They count as boundary."""
+        return self._faces[1]
+
+    @cached_property
+    def boundary_faces(self) -> np.ndarray:
+        """Nodes of each boundary face, counter-clockwise from outside, (k, 4) int32."""
+        h, f = np.nonzero(self.face_neighbours < 0)
+        return self.hexes[h[:, None], FACES[f]]
+
+    @cached_property
+    def boundary(self) -> np.ndarray:
+        """True for each node of a boundary face, (n,) bool."""
+        return incidence.boundary_mask(self.hexes, self.face_neighbours, self.n)
+
+    @cached_property
+    def rings(self) -> Rows:
+        """Edge neighbours of each node, ascending."""
+        return Rows(*incidence.node_rings(self.hexes, self.node_corners.start, self.node_corners.items))
+
+    @cached_property
+    def edges(self) -> np.ndarray:
+        """Every edge once, lower node first, (e, 2) int32."""
+        low = np.repeat(np.arange(self.n, dtype=np.int32), np.diff(self.rings.start))
+        once = low < self.rings.items
+        return np.column_stack([low[once], self.rings.items[once]])
+
+    def colouring(self, chosen: np.ndarray) -> Rows:
+        """The chosen nodes in groups, one a colour, so that no hex holds two nodes of one colour.
+
+        Nodes of a group can move at the same time without knowing of each other.
+
+        Parameters
+        ----------
+        chosen : (n,) bool
+        """
+        rows = self.node_corners
+        colour = incidence.greedy_colours(self.hexes, rows.start, rows.items, chosen)
+        count = int(colour.max(initial=-1)) + 1
+        return Rows(*incidence.grouped(colour, count))
