@@ -1,3 +1,82 @@
-"""Hexmend: quality, smoothing and untangling of hexahedral meshes."""
+"""Hexmend: quality, smoothing and untangling of hexahedral meshes.
+
+>>> import hexmend as hx
+>>> mesh = hx.gallery.make("five-side", size=500)
+>>> result = hx.smooth(mesh, "local-sd")
+>>> result.after.q_mean > result.before.q_mean
+True
+
+Names are imported when they are first used: a command that compiles nothing does not wait for the compiler.
+"""
+
+import importlib as _importlib
+from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 __version__ = "0.1.0"
+
+if _TYPE_CHECKING:
+    from hexmend import gallery
+    from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
+    from hexmend.io import read, write
+    from hexmend.mesh import Cells, Mesh
+    from hexmend.optimise import Iteration, Outcome, Result
+    from hexmend.quality import METRICS, Summary, measure, summarise
+    from hexmend.run import Run, Stop, iterate, smooth
+    from hexmend.smoothers import METHODS, Smoother
+    from hexmend.smoothers.laplacian import Laplacian
+    from hexmend.smoothers.local_sd import LocalSteepestDescent
+    from hexmend.smoothers.smart_laplacian import SmartLaplacian
+
+_HOMES = {
+    "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
+    "io": ("read", "write"),
+    "mesh": ("Cells", "Mesh"),
+    "optimise": ("Iteration", "Outcome", "Result"),
+    "quality": ("METRICS", "Summary", "measure", "summarise"),
+    "run": ("Run", "Stop", "iterate", "smooth"),
+    "smoothers": ("METHODS", "Smoother"),
+    "smoothers.laplacian": ("Laplacian",),
+    "smoothers.local_sd": ("LocalSteepestDescent",),
+    "smoothers.smart_laplacian": ("SmartLaplacian",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "METHODS",
+    "METRICS",
+    "Cells",
+    "FileError",
+    "HexmendError",
+    "Iteration",
+    "Laplacian",
+    "LocalSteepestDescent",
+    "Mesh",
+    "MeshError",
+    "Outcome",
+    "ParameterError",
+    "Result",
+    "Run",
+    "SmartLaplacian",
+    "Smoother",
+    "Stop",
+    "Summary",
+    "gallery",
+    "iterate",
+    "measure",
+    "read",
+    "smooth",
+    "summarise",
+    "write",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name == "gallery":
+        return _importlib.import_module("hexmend.gallery")
+    if name in _HOME_OF:
+        return getattr(_importlib.import_module(f"hexmend.{_HOME_OF[name]}"), name)
+    raise AttributeError(f"module 'hexmend' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -1,0 +1,9 @@
+"""Quality of hexes and of meshes: one metric a file, and the summary."""
+
+from hexmend.quality.measure import ElementQuality, locked, measure
+from hexmend.quality.metric import METRICS, Metric
+from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
+from hexmend.quality.shape import Q
+from hexmend.quality.summary import Summary, objective, summarise
+
+__all__ = ["METRICS", "SCALED_JACOBIAN", "ElementQuality", "Metric", "Q", "Summary", "locked", "measure", "objective", "summarise"]

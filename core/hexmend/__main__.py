@@ -1,0 +1,7 @@
+"""`python -m hexmend` is the program `hexmend`."""
+
+import sys
+
+from hexmend.cli.main import main
+
+sys.exit(main())

@@ -1,0 +1,36 @@
+"""`hexmend info`: the figures of a mesh, and what is wrong with it."""
+
+from __future__ import annotations
+
+import argparse
+
+
+class Info:
+    """Quality and counts of one mesh."""
+
+    name = "info"
+    help = "Print the quality and the counts of a mesh."
+
+    def arguments(self, parser: argparse.ArgumentParser) -> None:
+        parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+        parser.add_argument("--json", action="store_true", help="print JSON for other programs")
+
+    def run(self, args: argparse.Namespace) -> int:
+        from hexmend.io import doctor, read
+        from hexmend.quality import summarise
+        from hexmend.report import to_json
+
+        mesh = read(args.mesh)
+        summary = summarise(mesh)
+        if args.json:
+            print(to_json(summary.to_dict()))
+            return 0
+        from hexmend.cli.tables import print_summaries
+
+        print_summaries(args.mesh, [""], [summary])
+        for finding in doctor.examine(mesh):
+            print(f"note: {finding.message} {finding.remedy}".rstrip())
+        return 0
+
+
+command = Info()

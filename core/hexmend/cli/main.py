@@ -1,0 +1,104 @@
+"""The program `hexmend`: finds the command, runs it, says in one line what went wrong.
+
+Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used; 4 done, and hexes are still inverted;
+130 interrupted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import pkgutil
+import sys
+from collections.abc import Callable, Sequence
+from importlib.metadata import entry_points
+
+from hexmend import cli
+from hexmend.cli.command import Command
+
+_NOT_COMMANDS = {"main", "command", "tables"}
+
+#: The command that a bare mesh, or nothing, stands for.
+_DEFAULT = "view"
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    loaders = commands()
+    if words and words[0] in ("-h", "--help"):
+        return _help(loaders)
+    if words and words[0] == "--version":
+        from hexmend import __version__
+
+        print(f"hexmend {__version__}")
+        return 0
+    if not words or words[0] not in loaders:
+        if words and _looks_like_a_command(words[0]):
+            return _unknown(words[0], loaders)
+        words.insert(0, _DEFAULT)
+    if words[0] not in loaders:
+        print("hexmend: the viewer is not installed: run  pip install 'hexmend[app]'", file=sys.stderr)
+        return 2
+    return _run(loaders[words[0]], words[1:])
+
+
+def commands() -> dict[str, Callable[[], Command]]:
+    """A loader for each command, the core's own first."""
+    loaders: dict[str, Callable[[], Command]] = {}
+    for module in pkgutil.iter_modules(cli.__path__):
+        if module.name not in _NOT_COMMANDS:
+            loaders[module.name] = lambda name=module.name: importlib.import_module(f"hexmend.cli.{name}").command
+    for entry in entry_points(group="hexmend.commands"):
+        loaders.setdefault(entry.name, entry.load)
+    return loaders
+
+
+def _run(load: Callable[[], Command], words: list[str]) -> int:
+    from hexmend.errors import FileError, HexmendError, MeshError
+
+    try:
+        command = load()
+        parser = argparse.ArgumentParser(prog=f"hexmend {command.name}", description=command.help, allow_abbrev=False)
+        command.arguments(parser)
+        try:
+            args = parser.parse_args(words)
+        except SystemExit as leave:  # argparse has said what is wrong
+            return int(leave.code or 0)
+        return command.run(args)
+    except HexmendError as error:
+        print(f"hexmend: {error}".replace("\n", " "), file=sys.stderr)
+        return 3 if isinstance(error, FileError | MeshError) else 2
+    except KeyboardInterrupt:
+        print("hexmend: interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:  # the reader (head, less) has gone: nothing more to say
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _looks_like_a_command(word: str) -> bool:
+    return not word.startswith("-") and not any(c in word for c in "./\\") and not os.path.exists(word)
+
+
+def _unknown(word: str, loaders: dict[str, Callable[[], Command]]) -> int:
+    known = ", ".join(loaders)
+    print(f"hexmend: {word!r} is neither a command nor a file. Commands: {known}; a file opens in the viewer.", file=sys.stderr)
+    return 2
+
+
+def _help(loaders: dict[str, Callable[[], Command]]) -> int:
+    print("hexmend: see a hexahedral mesh, and mend it while you watch.\n")
+    print("usage: hexmend [MESH]              open the viewer")
+    print("       hexmend COMMAND --help      what a command takes\n")
+    for name, load in loaders.items():
+        try:
+            print(f"  {name:<10} {load().help}")
+        except ImportError:
+            print(f"  {name:<10} not installed: pip install 'hexmend[app]'")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

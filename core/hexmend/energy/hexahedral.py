@@ -1,0 +1,46 @@
+"""eta(H), the energy of a hex: (3.1), (3.2), (B.20)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.kernels import elements
+from hexmend.quality.measure import read_only
+
+
+def energies(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0) -> np.ndarray:
+    """Energy of every hex: mean of eta(T) over its corners minus 1.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    delta : float
+        In the unit of sigma, the cube of the points' unit of length.
+
+    Returns
+    -------
+    (m,) float64
+        0 for a cube; +inf for an inverted hex at delta = 0.
+
+    Examples
+    --------
+    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> energies(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
+    array([0.])
+    """
+    eta = np.empty(len(hexes))
+    elements.energies(read_only(points), read_only(hexes), float(delta), eta)
+    return eta
+
+
+def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, p: float = 2.0) -> float:
+    """(sum eta(H)^p)^(1/p) over all hexes, (3.3).
+
+    Examples
+    --------
+    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> float(objective(UNIT_CUBE, np.arange(8, dtype=np.int32)[None]))
+    0.0
+    """
+    return float(np.power(energies(points, hexes, delta), p).sum() ** (1 / p))

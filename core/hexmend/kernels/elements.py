@@ -1,0 +1,86 @@
+"""Figures of every hex in one pass over its eight corner tetrahedra."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.kernels import CHUNK, parallel, serial
+from hexmend.kernels.shape import barrier, determinant, power_minus_two_thirds
+
+
+@serial
+def corner_edges(x, t):
+    """The columns of S at corner tetrahedron t: edges from its apex; x is (8, 3)."""
+    a, b, c, d = CORNER_TETRAHEDRA[t, 0], CORNER_TETRAHEDRA[t, 1], CORNER_TETRAHEDRA[t, 2], CORNER_TETRAHEDRA[t, 3]
+    return (
+        x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2],
+        x[c, 0] - x[a, 0], x[c, 1] - x[a, 1], x[c, 2] - x[a, 2],
+        x[d, 0] - x[a, 0], x[d, 1] - x[a, 1], x[d, 2] - x[a, 2],
+    )  # fmt: skip
+
+
+@parallel
+def measure(points, hexes, q, sigma, jacobian, eta):
+    """Quality of every hex at delta = 0.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    q : (m,) float64, written
+        q(H), the mean of q(T) = 3 sigma^(2/3)/|S|^2, 0 where sigma <= 0: (2.8), (2.10).
+    sigma : (m,) float64, written
+        The least of the eight corner determinants, (2.9).
+    jacobian : (m,) float64, written
+        Scaled Jacobian: the least of sigma/(|e1||e2||e3|); 0 at a corner with an edge of no length.
+    eta : (m,) float64, written
+        eta(H) = mean of eta(T) - 1, (B.20); +inf where sigma <= 0.
+    """
+    m = hexes.shape[0]
+    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
+        x = np.empty((8, 3))
+        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
+            for c in range(8):
+                for k in range(3):
+                    x[c, k] = points[hexes[h, c], k]
+            q_sum, eta_sum, lowest, worst = 0.0, 0.0, np.inf, np.inf
+            for t in range(8):
+                ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
+                det = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+                u2 = ux * ux + uy * uy + uz * uz
+                v2 = vx * vx + vy * vy + vz * vz
+                w2 = wx * wx + wy * wy + wz * wz
+                shape = (u2 + v2 + w2) * power_minus_two_thirds(det) / 3  # eta(T), (3.1)
+                eta_sum += shape
+                if det > 0:
+                    q_sum += 1 / shape  # (2.8)
+                else:
+                    eta_sum = np.inf
+                lowest = min(lowest, det)
+                lengths = np.sqrt(u2) * np.sqrt(v2) * np.sqrt(w2)
+                worst = min(worst, det / lengths if lengths > 0 else 0.0)
+            q[h] = q_sum / 8
+            sigma[h] = lowest
+            jacobian[h] = worst
+            eta[h] = max(eta_sum / 8 - 1, 0.0)
+
+
+@parallel
+def energies(points, hexes, delta, eta):
+    """eta(H) of every hex with the barrier of (3.2) softened by delta, in the unit of sigma; writes eta (m,)."""
+    m = hexes.shape[0]
+    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
+        x = np.empty((8, 3))
+        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
+            for c in range(8):
+                for k in range(3):
+                    x[c, k] = points[hexes[h, c], k]
+            total = 0.0
+            for t in range(8):
+                ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
+                det = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+                square = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
+                total += square * power_minus_two_thirds(barrier(det, delta)[0]) / 3
+            eta[h] = max(total / 8 - 1, 0.0)

@@ -1,0 +1,95 @@
+"""Figures of every hex of a mesh, measured in one pass."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.kernels import elements
+
+
+@dataclass(frozen=True, eq=False)
+class ElementQuality:
+    """Figures of every hex.
+
+    Parameters
+    ----------
+    q : (m,) float64
+        q(H) in [0, 1], (2.10).
+    sigma : (m,) float64
+        Least corner determinant, in the cube of the mesh's unit of length, (2.9).
+    scaled_jacobian : (m,) float64
+        In [-1, 1].
+    eta : (m,) float64
+        Energy eta(H) at delta = 0, (B.20): 0 for a cube, +inf for an inverted hex.
+    """
+
+    q: np.ndarray
+    sigma: np.ndarray
+    scaled_jacobian: np.ndarray
+    eta: np.ndarray
+
+    @cached_property
+    def inverted(self) -> np.ndarray:
+        """True for each hex with a corner determinant that is not positive, (m,) bool."""
+        return ~(self.sigma > 0)
+
+    @cached_property
+    def n_inverted(self) -> int:
+        """Number of inverted hexes."""
+        return int(np.count_nonzero(self.inverted))
+
+
+def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
+    """Measure every hex.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+
+    Examples
+    --------
+    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> measure(UNIT_CUBE, np.arange(8, dtype=np.int32)[None]).q
+    array([1.])
+    """
+    q, sigma, jacobian, eta = np.empty((4, len(hexes)))
+    elements.measure(read_only(points), read_only(hexes), q, sigma, jacobian, eta)
+    return ElementQuality(q, sigma, jacobian, eta)
+
+
+def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:
+    """True for each inverted hex that has a corner tetrahedron with sigma <= 0 whose four nodes are all fixed.
+
+    No method that keeps the fixed nodes can mend such a hex: their number is the lower bound of any untangler.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    fixed : (n,) bool
+    inverted : (m,) bool
+
+    Returns
+    -------
+    (m,) bool
+    """
+    where = np.flatnonzero(inverted)
+    corners = hexes[where][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
+    x = points[corners]
+    held = fixed[corners].all(axis=2)
+    edges = x[:, :, 1:] - x[:, :, :1]
+    answer = np.zeros(len(hexes), dtype=bool)
+    answer[where] = (held & ~(np.linalg.det(edges) > 0)).any(axis=1)
+    return answer
+
+
+def read_only(array: np.ndarray) -> np.ndarray:
+    """A read-only view: kernels are compiled once, for arrays that they do not write to."""
+    view = array.view()
+    view.flags.writeable = False
+    return view

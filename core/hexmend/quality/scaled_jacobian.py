@@ -1,0 +1,16 @@
+"""Scaled Jacobian: the least corner volume of unit edges; the figure that other tools print."""
+
+from hexmend.quality.metric import METRICS, Metric
+
+SCALED_JACOBIAN = METRICS.add(
+    "scaled-jacobian",
+    Metric(
+        name="scaled-jacobian",
+        title="Scaled Jacobian",
+        formula="least over the eight corners of σ / (|e₁||e₂||e₃|)",
+        source="Knupp 2000; Verdict Library Reference Manual",
+        full_range=(-1.0, 1.0),
+        acceptable=(0.2, 1.0),
+        of=lambda figures: figures.scaled_jacobian,
+    ),
+)

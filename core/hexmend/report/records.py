@@ -1,0 +1,57 @@
+"""Records of a run for other programs: JSON and CSV."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+from hexmend.errors import FileError
+from hexmend.io.atomic import replacing
+from hexmend.optimise import Result
+
+#: Columns of a history, in order.
+HISTORY = ("iteration", "seconds", "objective", "q_min", "q_mean", "inverted", "largest_move")
+
+
+def record(result: Result) -> dict[str, Any]:
+    """The report of `hexmend smooth --json`."""
+    return {
+        "method": result.method,
+        "parameters": dict(result.parameters),
+        "outcome": result.outcome.key,
+        "message": result.message,
+        "iterations": result.iterations,
+        "seconds": result.seconds,
+        "setup_seconds": result.setup_seconds,
+        "before": result.before.to_dict(),
+        "after": result.after.to_dict(),
+        "history": [{column: row[column] for column in HISTORY} for row in result.history],
+    }
+
+
+def to_json(data: Any) -> str:
+    """JSON text; a number that JSON cannot hold is a programming error, not written as NaN."""
+    return json.dumps(data, indent=2, allow_nan=False)
+
+
+def write_json(path: str | Path, data: Any) -> None:
+    """Write JSON beside the target and rename it."""
+    _write(path, to_json(data) + "\n")
+
+
+def write_history(path: str | Path, result: Result) -> None:
+    """Write the history as CSV, an empty field where the objective is infinite."""
+    with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+        rows = csv.DictWriter(file, HISTORY, extrasaction="ignore")
+        rows.writeheader()
+        rows.writerows(result.history)
+
+
+def _write(path: str | Path, text: str) -> None:
+    try:
+        with replacing(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise FileError(path, f"cannot be written: {error.strerror}", "Choose another place.") from error

@@ -1,0 +1,52 @@
+"""What a smoother is, and the registry of them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeVar
+
+from hexmend.mesh import Mesh
+from hexmend.optimise import Step
+from hexmend.parameters import Parametrised, declared
+from hexmend.registry import Registry
+
+
+@dataclass(frozen=True)
+class Smoother(Parametrised, ABC):
+    """A method that moves the free nodes of a mesh.
+
+    A smoother is a frozen dataclass of declared parameters with one method, `steps`. It owns no clock, no limit, no
+    record and no window: `hexmend.run` does.
+    """
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    help: ClassVar[str]
+    source: ClassVar[str]
+
+    @abstractmethod
+    def steps(self, mesh: Mesh) -> Iterator[Step]:
+        """Yield the initial points once what the method prepares is ready, then the points after each step.
+
+        The iterator goes on until nobody asks for more, or ends by itself where the method has no further step.
+        Yielded arrays are never changed afterwards; rows of fixed nodes stay as they are to the last bit.
+        """
+
+    @classmethod
+    def to_json(cls) -> dict[str, Any]:
+        """The method's entry in `hexmend methods --json`."""
+        parameters = [declaration.to_json() for declaration in declared(cls)]
+        return {"name": cls.name, "title": cls.title, "help": cls.help, "source": cls.source, "parameters": parameters}
+
+
+S = TypeVar("S", bound=type[Smoother])
+
+METHODS: Registry[type[Smoother]] = Registry("method")
+
+
+def method(cls: S) -> S:
+    """Class decorator: register a smoother under its name."""
+    METHODS.add(cls.name, cls)
+    return cls
