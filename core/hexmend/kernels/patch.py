@@ -166,7 +166,9 @@ def value_and_gradient(table, rest, size, delta, p, eta):
             ey += stretch * table[BY, t] - squeeze * table[GY, t]
             ez += stretch * table[BZ, t] - squeeze * table[GZ, t]
             energy += eta[t]
-        energy = max(energy / 8 - 1, 0.0)
+        energy = energy / 8 - 1
+        if not energy > 0:  # a perfect hex; softened by delta, one better than perfect counts as perfect
+            continue
         weight = energy if p == 2 else energy ** (p - 1)
         total += energy * weight
         gx += weight * ex / 8

@@ -19,9 +19,11 @@ def barrier(sigma, delta):
 
     For sigma < 0 it is 2 delta^2/(r - sigma), the same number without cancellation.
     """
+    if delta == 0:  # also where sigma^2 would overflow
+        return max(sigma, 0.0), abs(sigma)
     r = np.sqrt(sigma * sigma + 4 * delta * delta)
     u = abs(sigma) + r
-    h = 0.5 * u if sigma >= 0 else 2 * delta * delta / max(u, 1e-300)
+    h = 0.5 * u if sigma >= 0 else 2 * delta * delta / u
     return h, r
 
 

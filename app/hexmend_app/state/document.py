@@ -1,0 +1,149 @@
+"""The open mesh: where it came from, where its nodes are now, and the way back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from hexmend.mesh import Mesh
+from hexmend.quality import ElementQuality, Summary, measure, summarise
+from PySide6.QtCore import QObject, Signal
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """A mesh with its figures.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    figures : ElementQuality
+    summary : Summary
+    """
+
+    mesh: Mesh
+    figures: ElementQuality
+    summary: Summary
+
+    @classmethod
+    def of(cls, mesh: Mesh) -> State:
+        """Measure a mesh."""
+        figures = measure(mesh.points, mesh.hexes)
+        return cls(mesh, figures, summarise(mesh, figures))
+
+
+@dataclass(frozen=True, eq=False)
+class Change:
+    """A state that undo can come back to, and what led to it."""
+
+    title: str
+    state: State
+
+
+class Document(QObject):
+    """The open mesh and its changes.
+
+    Signals
+    -------
+    mesh_replaced
+        Another mesh is open (or the first).
+    points_moved
+        The same mesh, its nodes elsewhere: an iteration, undo, redo, reset.
+    changes_changed
+        What undo, redo or saving would do has changed.
+    """
+
+    mesh_replaced = Signal()
+    points_moved = Signal()
+    changes_changed = Signal()
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.path: Path | None = None
+        self.now: State | None = None
+        self._changes: list[Change] = []
+        self._at = 0
+        self._saved = 0
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a mesh is open."""
+        return self.now is not None
+
+    @property
+    def start(self) -> State:
+        """The mesh as it was opened."""
+        return self._changes[0].state
+
+    @property
+    def name(self) -> str:
+        """What to call the mesh."""
+        return self.path.name if self.path is not None else (self.now.mesh.name if self.now else "")
+
+    @property
+    def modified(self) -> bool:
+        """Whether there is something that was not saved."""
+        return self.is_open and self._at != self._saved
+
+    def replace(self, state: State, path: Path | None) -> None:
+        """Open another mesh; its changes begin anew."""
+        self.path = path
+        self.now = state
+        self._changes = [Change("open", state)]
+        self._at = self._saved = 0
+        self.mesh_replaced.emit()
+        self.changes_changed.emit()
+
+    def preview(self, state: State) -> None:
+        """Show nodes on their way; no change is recorded."""
+        self.now = state
+        self.points_moved.emit()
+
+    def commit(self, title: str, state: State) -> None:
+        """Record where the nodes are now as one change that undo takes back."""
+        if state.mesh.points is not self._changes[self._at].state.mesh.points:
+            del self._changes[self._at + 1 :]
+            if self._saved > self._at:
+                self._saved = -1  # what was saved can no longer be reached
+            self._changes.append(Change(title, state))
+            self._at += 1
+        self._show()
+
+    @property
+    def undo_title(self) -> str | None:
+        """What undo would take back; None if there is nothing."""
+        return self._changes[self._at].title if self._at > 0 else None
+
+    @property
+    def redo_title(self) -> str | None:
+        """What redo would do again; None if there is nothing."""
+        return self._changes[self._at + 1].title if self._at + 1 < len(self._changes) else None
+
+    def undo(self) -> None:
+        """Take the last change back."""
+        if self._at > 0:
+            self._at -= 1
+            self._show()
+
+    def redo(self) -> None:
+        """Do again what was taken back."""
+        if self._at + 1 < len(self._changes):
+            self._at += 1
+            self._show()
+
+    def reset(self) -> None:
+        """Put the nodes back to where they were when the mesh was opened; undo takes that back too."""
+        if not np.array_equal(self.now.mesh.points, self.start.mesh.points):
+            self.commit("reset", self.start)
+
+    def saved(self, path: Path) -> None:
+        """Remember that the mesh as it is now is on disk."""
+        self.path = path
+        self._saved = self._at
+        self.changes_changed.emit()
+
+    def _show(self) -> None:
+        self.now = self._changes[self._at].state
+        self.points_moved.emit()
+        self.changes_changed.emit()

@@ -1,0 +1,118 @@
+"""The thread that a smoother runs in, and the mailbox between it and the window."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+
+from hexmend.mesh import Mesh
+from hexmend.optimise import Iteration, Result
+from hexmend.quality import summarise
+from hexmend.run import Run, Stop, iterate
+from hexmend.smoothers import Smoother
+from PySide6.QtCore import QThread
+
+from hexmend_app.state.document import State
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """An iteration with what the window shows of it, measured in the worker."""
+
+    iteration: Iteration
+    state: State
+
+
+class Mailbox:
+    """One slot: a new frame takes the place of one that nobody has fetched yet.
+
+    The window is never behind by more than one frame and never keeps a queue of meshes in memory.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._frame: Frame | None = None
+
+    def put(self, frame: Frame) -> None:
+        """Leave the newest frame."""
+        with self._lock:
+            self._frame = frame
+
+    def take(self) -> Frame | None:
+        """Fetch the newest frame, once."""
+        with self._lock:
+            frame, self._frame = self._frame, None
+            return frame
+
+
+class Worker(QThread):
+    """Runs one smoother on one mesh, one iteration at a time as the gate lets it.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    smoother : Smoother
+    stop : Stop
+    """
+
+    def __init__(self, mesh: Mesh, smoother: Smoother, stop: Stop):
+        super().__init__()
+        self.setObjectName(f"smoother {smoother.name}")
+        self.mailbox = Mailbox()
+        self.result: Result | None = None
+        self.last: Frame | None = None
+        self.error: Exception | None = None
+        self.prepared = threading.Event()
+        self._order = (mesh, smoother, stop)
+        self._gate = threading.Condition()
+        self._granted: float = 0  # iterations that may still be made; infinite while running
+        self._ended = False
+
+    def grant(self, iterations: float) -> None:
+        """Let that many further iterations pass; infinity runs on, 0 pauses after the one at hand."""
+        with self._gate:
+            self._granted = iterations
+            self._gate.notify_all()
+
+    def grant_one_more(self) -> None:
+        """Let one further iteration pass: a step."""
+        with self._gate:
+            self._granted = 1 if self._granted == float("inf") else self._granted + 1
+            self._gate.notify_all()
+
+    def end(self) -> None:
+        """End the run after the iteration at hand, paused or not."""
+        with self._gate:
+            self._ended = True
+            self._gate.notify_all()
+
+    @property
+    def waiting(self) -> bool:
+        """Whether the worker has used up its grant."""
+        return self._granted <= 0
+
+    def run(self) -> None:
+        """What the thread does; everything that goes wrong ends in `error`."""
+        try:
+            mesh, smoother, stop = self._order
+            run = iterate(mesh, smoother, stop)
+            self.prepared.set()
+            while self._may_go_on(run):
+                iteration = next(run, None)
+                if iteration is not None:
+                    moved = mesh.with_points(iteration.points)
+                    self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)))
+                    self.mailbox.put(self.last)
+            run.close()
+            self.result = run.result()
+        except Exception as error:  # whatever it is, the window has to say it
+            self.error = error
+        finally:
+            self.prepared.set()
+
+    def _may_go_on(self, run: Run) -> bool:
+        with self._gate:
+            while run.outcome is None and not self._ended and self._granted <= 0:
+                self._gate.wait()
+            self._granted -= 1
+            return run.outcome is None and not self._ended

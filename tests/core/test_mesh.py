@@ -1,0 +1,78 @@
+"""Mesh: validation, immutability, what is shared."""
+
+import numpy as np
+import pytest
+from hexmend.errors import MeshError
+from hexmend.hexahedron import UNIT_CUBE
+from hexmend.mesh import Mesh
+
+from tests.core.grids import grid
+
+
+def test_arrays_are_read_only_copies():
+    points = UNIT_CUBE.copy()
+    mesh = Mesh(points, [range(8)])
+    points[0] = 9
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+    with pytest.raises(ValueError, match="read-only"):
+        mesh.points[0, 0] = 1
+
+
+def test_with_points_shares_topology_and_leaves_the_original():
+    mesh = grid(3)
+    _ = mesh.topology.face_neighbours, mesh.free
+    moved = mesh.with_points(mesh.points + 1)
+    assert moved.topology is mesh.topology
+    assert moved.hexes is mesh.hexes
+    assert moved.free is mesh.free
+    assert mesh.points[0, 0] == 0
+    assert moved.points[0, 0] == 1
+
+
+def test_replace_carries_and_does_not_move():
+    mesh = grid(2)
+    assert mesh.replace(name="other").name == "other"
+    assert mesh.replace(name="other").topology is mesh.topology
+    with pytest.raises(MeshError, match="with_points"):
+        mesh.replace(points=mesh.points)
+
+
+@pytest.mark.parametrize(
+    ("points", "hexes", "words"),
+    [
+        (UNIT_CUBE[:, :2], [range(8)], r"points have shape \(8, 2\): expected"),
+        (UNIT_CUBE, [range(7)], r"hexes have shape \(1, 7\): expected"),
+        (UNIT_CUBE, np.empty((0, 8), int), "at least one hex"),
+        (UNIT_CUBE, [[0, 1, 2, 3, 4, 5, 6, 8]], "hex 0 .* expected numbers from 0 to 7"),
+        (UNIT_CUBE, [[0, 1, 2, 3, 4, 5, 6, -1]], "hex 0 .* expected numbers from 0 to 7"),
+        (np.where(UNIT_CUBE > 0, np.nan, 0), [range(8)], "node 1 .* expected finite"),
+    ],
+)
+def test_what_is_no_mesh_is_said(points, hexes, words):
+    with pytest.raises(MeshError, match=words):
+        Mesh(points, hexes)
+
+
+def test_data_must_have_a_row_a_node_or_hex():
+    with pytest.raises(MeshError, match="node data 'id' has 3 rows: expected 8"):
+        Mesh(UNIT_CUBE, [range(8)], node_data={"id": np.arange(3)})
+    with pytest.raises(MeshError, match="hex data 'id' has 3 rows: expected 1"):
+        Mesh(UNIT_CUBE, [range(8)], hex_data={"id": np.arange(3)})
+
+
+def test_fixed_are_boundary_pinned_and_unused():
+    mesh = grid(4)
+    inner = int(np.flatnonzero(mesh.free)[0])
+    pinned = np.zeros(mesh.n_nodes + 1, dtype=bool)
+    pinned[inner] = True
+    more = Mesh(np.vstack([mesh.points, [[9, 9, 9]]]), mesh.hexes, pinned=pinned)
+    assert mesh.free.sum() == 27
+    assert more.free.sum() == 26
+    assert more.fixed[inner]
+    assert more.fixed[-1]
+
+
+def test_mean_edge_length():
+    mesh = grid(3)
+    assert mesh.mean_edge_length == pytest.approx(1)
+    assert mesh.with_points(mesh.points * [1, 2, 3]).mean_edge_length == pytest.approx(2)

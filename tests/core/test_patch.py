@@ -1,0 +1,75 @@
+"""The patch table against the energy of whole hexes, and its gradient against differences."""
+
+import numpy as np
+import pytest
+from hexmend.energy import energies
+from hexmend.kernels import patch
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.core.grids import grid, scrambled
+
+
+def patch_of(mesh, node, delta):
+    rows = mesh.topology.node_corners
+    begin, end = rows.start[node], rows.start[node + 1]
+    scale = patch.scale_of(mesh.points, mesh.hexes, rows.items, begin, end)
+    size = end - begin
+    table, rest = np.empty((9, 4 * size)), np.empty(size)
+    patch.tabulate(mesh.points, mesh.hexes, rows.items, begin, end, scale, delta, np.empty((8, 3)), table, rest)
+    return table, rest, int(size), float(scale)
+
+
+CASES = st.tuples(
+    st.integers(0, 2**32 - 1), st.sampled_from([0.1, 0.4, 0.9]), st.sampled_from([1.0, 2.0, 3.5]), st.booleans()
+)
+
+
+@given(CASES)
+def test_value_is_the_energy_of_the_attached_hexes(case):
+    seed, amplitude, p, soft = case
+    mesh = scrambled(grid(3), amplitude, seed)
+    delta = 0.05 if soft else 0.0
+    node = int(np.flatnonzero(mesh.free)[seed % 8])
+    table, rest, size, scale = patch_of(mesh, node, delta)
+    y = np.random.default_rng(seed).uniform(-0.2, 0.2, 3)
+    points = mesh.points.copy()
+    points[node] += y / scale
+    attached = mesh.hexes[mesh.topology.node_corners[node] // 8]
+    expected = (energies(points * scale, attached, delta) ** p).sum() ** (1 / p)
+    got = patch.value(table, rest, size, *y, delta, p, np.empty(4 * size))
+    assert got == pytest.approx(expected, rel=1e-9)
+
+
+@given(CASES)
+def test_gradient_is_that_of_central_differences(case):
+    seed, amplitude, p, soft = case
+    mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
+    delta = 0.05 if soft else 0.0
+    node = int(np.flatnonzero(mesh.free)[seed % 8])
+    table, rest, size, _ = patch_of(mesh, node, delta)
+    eta = np.empty(4 * size)
+    f, *gradient = patch.value_and_gradient(table, rest, size, delta, p, eta)
+    assert f == pytest.approx(patch.value(table, rest, size, 0.0, 0.0, 0.0, delta, p, eta))
+    step = 1e-6
+    for k in range(3):
+        y = np.zeros(3)
+        y[k] = step
+        rise = patch.value(table, rest, size, *y, delta, p, eta) - patch.value(table, rest, size, *-y, delta, p, eta)
+        assert rise / (2 * step) == pytest.approx(gradient[k], rel=1e-5, abs=1e-5 * max(1, f))
+
+
+def test_a_perfect_patch_has_no_gradient():
+    mesh = grid(2)
+    table, rest, size, _ = patch_of(mesh, 13, 0.0)
+    f, *gradient = patch.value_and_gradient(table, rest, size, 0.0, 2.0, np.empty(4 * size))
+    assert f == pytest.approx(0, abs=1e-12)
+    assert gradient == pytest.approx([0, 0, 0], abs=1e-12)
+
+
+def test_a_corner_is_in_four_tetrahedra_and_apart_from_four():
+    for corner in range(8):
+        assert (patch.AROUND[corner] == corner).any(axis=1).all()
+        assert corner == patch.AROUND[corner, 0, 0]
+        assert (patch.AROUND[corner, 1:, 1] == corner).all()
+        assert len(set(patch.APART[corner].tolist())) == 4

@@ -1,0 +1,156 @@
+"""Metrics on hexes whose figures are known, and their invariances."""
+
+import numpy as np
+import pytest
+from hexmend.energy import energies, objective
+from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, locked, measure, summarise
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.stats import special_ortho_group
+
+from tests.core.grids import grid, scrambled
+
+ONE = np.arange(8, dtype=np.int32)[None]
+
+
+def by_the_book(x):
+    """q, sigma, scaled Jacobian and eta of one hex, straight from (2.8)-(2.10) and (B.20)."""
+    q, sigma, jacobian, eta = [], [], [], []
+    for a, b, c, d in CORNER_TETRAHEDRA:
+        S = np.column_stack([x[b] - x[a], x[c] - x[a], x[d] - x[a]])
+        det, square = np.linalg.det(S), (S**2).sum()
+        sigma.append(det)
+        jacobian.append(det / np.prod(np.linalg.norm(S, axis=0)))
+        q.append(3 * det ** (2 / 3) / square if det > 0 else 0)
+        eta.append(square / (3 * det ** (2 / 3)) if det > 0 else np.inf)
+    return np.mean(q), min(sigma), min(jacobian), np.mean(eta) - 1
+
+
+def test_the_cube_is_perfect():
+    figures = measure(UNIT_CUBE, ONE)
+    assert figures.q[0] == pytest.approx(1, abs=1e-14)
+    assert figures.scaled_jacobian[0] == 1
+    assert figures.sigma[0] == 1
+    assert figures.eta[0] == pytest.approx(0, abs=1e-14)
+    assert figures.n_inverted == 0
+
+
+@pytest.mark.parametrize("flat", [UNIT_CUBE * [1, 1, 0], UNIT_CUBE * [1, 0, 0], UNIT_CUBE * 0])
+def test_a_collapsed_hex_is_inverted_and_has_no_quality(flat):
+    figures = measure(flat, ONE)
+    assert figures.q[0] == 0
+    assert figures.sigma[0] == 0
+    assert figures.scaled_jacobian[0] == 0
+    assert figures.eta[0] == np.inf
+    assert figures.n_inverted == 1
+
+
+def test_a_mirrored_cube_is_inside_out():
+    figures = measure(UNIT_CUBE * [-1, 1, 1], ONE)
+    assert figures.q[0] == 0
+    assert figures.scaled_jacobian[0] == -1
+    assert figures.eta[0] == np.inf
+
+
+def test_one_corner_pushed_through_inverts_some_corners_only():
+    x = UNIT_CUBE.copy()
+    x[6] = [0.2, 0.2, 0.2]
+    figures = measure(x, ONE)
+    assert figures.n_inverted == 1
+    assert 0 < figures.q[0] < 1
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(0, 1.5))
+def test_figures_are_those_of_the_book(seed, amplitude):
+    x = UNIT_CUBE + np.random.default_rng(seed).uniform(-amplitude, amplitude, (8, 3))
+    figures = measure(x, ONE)
+    q, sigma, jacobian, eta = by_the_book(x)
+    np.testing.assert_allclose(
+        [figures.q[0], figures.sigma[0], figures.scaled_jacobian[0]], [q, sigma, jacobian], rtol=1e-9, atol=1e-11
+    )
+    assert (figures.eta[0] == np.inf) == (eta == np.inf)
+    if eta < np.inf:
+        assert figures.eta[0] == pytest.approx(eta, rel=1e-8, abs=1e-12)
+    assert 0 <= figures.q[0] <= 1 + 1e-14
+    assert -1 - 1e-14 <= figures.scaled_jacobian[0] <= 1 + 1e-14
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(-60, 60))
+def test_quality_does_not_depend_on_place_turn_or_size(seed, exponent):
+    random = np.random.default_rng(seed)
+    x = UNIT_CUBE + random.uniform(-0.25, 0.25, (8, 3))
+    turned = (x @ special_ortho_group.rvs(3, random_state=random).T) * 10.0**exponent
+    here, there = measure(x, ONE), measure(turned, ONE)
+    for name in ("q", "scaled_jacobian"):
+        np.testing.assert_allclose(getattr(here, name), getattr(there, name), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(energies(x, ONE), energies(turned, ONE), rtol=1e-7, atol=1e-12)
+
+
+def test_energy_is_softened_by_delta_and_unsoftened_at_zero():
+    x = UNIT_CUBE.copy()
+    x[6] = [0.2, 0.2, 0.2]
+    assert energies(x, ONE)[0] == np.inf
+    soft = [energies(x, ONE, delta)[0] for delta in (1e-3, 1e-2, 1e-1)]
+    assert np.isfinite(soft).all()
+    assert soft == sorted(soft, reverse=True)
+    assert energies(UNIT_CUBE, ONE, 0.0)[0] == pytest.approx(0, abs=1e-14)
+    assert energies(UNIT_CUBE * 1.1, ONE, 1e-9)[0] == pytest.approx(0, abs=1e-9)
+
+
+@given(st.floats(1, 8))
+def test_objective_is_the_p_norm(p):
+    mesh = scrambled(grid(3), 0.1)
+    eta = energies(mesh.points, mesh.hexes)
+    assert objective(mesh.points, mesh.hexes, p=p) == pytest.approx((eta**p).sum() ** (1 / p))
+
+
+def test_summary_of_a_tangled_mesh():
+    mesh = scrambled(grid(4), 0.9)
+    summary = summarise(mesh)
+    figures = measure(mesh.points, mesh.hexes)
+    assert summary.inverted == figures.n_inverted > 0
+    assert summary.objective is None
+    assert summary.locked_inverted == 0
+    assert (summary.hexes, summary.nodes, summary.free_nodes) == (64, 125, 27)
+    assert summary.q_std == pytest.approx(figures.q.std())
+
+
+def test_summary_of_a_sound_mesh():
+    mesh = scrambled(grid(4), 0.1)
+    q = measure(mesh.points, mesh.hexes).q
+    summary = summarise(mesh)
+    assert summary.q_norm == pytest.approx(1 / np.sqrt(np.mean(1 / q**2)))
+    assert summary.objective == pytest.approx(np.sum(energies(mesh.points, mesh.hexes) ** 2))
+
+
+def test_a_corner_of_fixed_nodes_locks_its_hex():
+    mesh = grid(2)
+    points = mesh.points.copy()
+    corner = int(np.flatnonzero((points == 0).all(axis=1))[0])
+    points[corner] = [0.9, 0.9, 0.9]  # a boundary node pushed through its three neighbours
+    bad = mesh.with_points(points)
+    summary = summarise(bad)
+    assert summary.inverted >= summary.locked_inverted >= 1
+    free = summarise(bad.with_points(mesh.points))
+    assert free.locked_inverted == 0
+    figures = measure(points, mesh.hexes)
+    assert locked(points, mesh.hexes, np.zeros(27, bool), figures.inverted).sum() == 0
+
+
+def test_metrics_declare_what_they_are_and_stay_in_range():
+    mesh = scrambled(grid(3), 0.6)
+    figures = measure(mesh.points, mesh.hexes)
+    for name, metric in METRICS.items():
+        assert metric.name == name
+        assert metric.formula
+        assert metric.source
+        values = metric.of(figures)
+        assert values.shape == (27,)
+        assert (values >= metric.full_range[0] - 1e-12).all()
+        assert (values <= metric.full_range[1] + 1e-12).all()
+
+
+def test_single_hex_mesh_summary():
+    assert summarise(Mesh(UNIT_CUBE, ONE)).q_mean == pytest.approx(1)

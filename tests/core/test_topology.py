@@ -1,0 +1,94 @@
+"""Topology against counts known by formula and against brute force."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from hexmend.hexahedron import EDGES, FACES
+from hexmend.mesh import Mesh
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.core.grids import grid
+
+SIZES = st.tuples(*[st.integers(1, 4)] * 3)
+
+
+@given(SIZES)
+def test_counts_of_a_grid(size):
+    nx, ny, nz = size
+    mesh = grid(nx, ny, nz)
+    topology = mesh.topology
+    assert len(topology.boundary_faces) == 2 * (nx * ny + ny * nz + nz * nx)
+    assert mesh.free.sum() == (nx - 1) * (ny - 1) * (nz - 1)
+    edges = nx * (ny + 1) * (nz + 1) + ny * (nx + 1) * (nz + 1) + nz * (nx + 1) * (ny + 1)
+    assert len(topology.edges) == edges
+    assert topology.crowded_faces == 0
+
+
+@given(SIZES, st.randoms())
+def test_tables_agree_with_brute_force_whatever_the_numbering(size, random):
+    mesh = grid(*size)
+    order = list(range(mesh.n_nodes))
+    random.shuffle(order)
+    hexes = np.array(order)[mesh.hexes]
+    points = np.empty_like(mesh.points)
+    points[order] = mesh.points
+    topology = Mesh(points, hexes).topology
+
+    faces = Counter(frozenset(f) for h in hexes for f in h[FACES].tolist())
+    for h, row in enumerate(topology.face_neighbours):
+        for f, other in enumerate(row):
+            face = frozenset(hexes[h][FACES[f]].tolist())
+            assert (other < 0) == (faces[face] == 1)
+            assert other < 0 or (other != h and face <= set(hexes[other].tolist()))
+    edges = {tuple(sorted(e)) for h in hexes for e in h[EDGES].tolist()}
+    assert {tuple(e) for e in topology.edges.tolist()} == edges
+    for i in range(mesh.n_nodes):
+        assert set(topology.rings[i].tolist()) == {b if a == i else a for a, b in edges if i in (a, b)}
+        corners = [8 * h + c for h in range(len(hexes)) for c in range(8) if hexes[h, c] == i]
+        assert topology.node_corners[i].tolist() == corners
+
+
+@given(SIZES)
+def test_colours_part_the_chosen_nodes_and_never_meet_in_a_hex(size):
+    mesh = grid(*size)
+    chosen = np.arange(mesh.n_nodes) % 5 != 0
+    groups = mesh.topology.colouring(chosen)
+    assert sorted(groups.items.tolist()) == np.flatnonzero(chosen).tolist()
+    for k in range(len(groups)):
+        within = np.isin(mesh.hexes, groups[k]).sum(axis=1)
+        assert within.max(initial=0) <= 1
+
+
+def test_nothing_chosen_is_no_colour():
+    assert len(grid(2).topology.colouring(np.zeros(27, dtype=bool))) == 0
+
+
+def test_a_face_of_three_hexes_counts_as_boundary_and_is_reported():
+    mesh = grid(2, 1, 1)
+    hexes = np.vstack([mesh.hexes, mesh.hexes[:1]])
+    topology = Mesh(mesh.points, hexes).topology
+    assert topology.crowded_faces == 3
+    assert topology.boundary[mesh.points[:, 0] == 1].all()
+
+
+def test_boundary_faces_point_outwards():
+    mesh = grid(3)
+    x = mesh.points[mesh.topology.boundary_faces]
+    normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    assert (np.einsum("ij,ij->i", normal, x.mean(axis=1) - 1.5) > 0).all()
+
+
+def test_nodes_that_no_hex_uses():
+    mesh = grid(1)
+    topology = Mesh(np.vstack([mesh.points, [[5, 5, 5]]]), mesh.hexes).topology
+    assert topology.used.tolist() == [True] * 8 + [False]
+    assert len(topology.rings[8]) == 0
+    assert not topology.boundary[8]
+
+
+def test_rows_know_their_number():
+    rows = grid(2).topology.rings
+    assert len(rows) == 27
+    assert rows[13].tolist() == pytest.approx([4, 10, 12, 14, 16, 22])
