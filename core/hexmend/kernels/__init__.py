@@ -10,13 +10,55 @@ where they are only read, as `Mesh` keeps them.
 
 from __future__ import annotations
 
+import hashlib
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
 import numba
-
-#: A kernel that runs on one thread, or a piece of one.
-serial = numba.njit(nogil=True, cache=True, error_model="numpy")
-
-#: A kernel whose `prange` loops share the threads.
-parallel = numba.njit(nogil=True, cache=True, parallel=True, error_model="numpy")
 
 #: Hexes (or nodes) that one thread takes at a time.
 CHUNK = 256
+
+
+def _cache_folder() -> Path:
+    """Where compiled kernels are kept: a folder for each state of their sources.
+
+    Numba's own cache looks only at the file of the kernel, not at those whose functions it calls, nor at its options;
+    a change there would go unseen.
+    """
+    here = Path(__file__).parent
+    digest = hashlib.sha256()
+    for source in sorted([*here.glob("*.py"), here.parent / "hexahedron.py"]):
+        digest.update(source.read_bytes())
+    home = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".cache"
+    folder = Path(home) / "hexmend" / f"kernels-{digest.hexdigest()[:16]}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:  # a home that cannot be written to
+        return Path(tempfile.gettempdir()) / f"hexmend-{digest.hexdigest()[:16]}"
+    return folder
+
+
+_CACHE = str(_cache_folder())
+
+
+def _compiled(**options: Any) -> Callable[[Callable], Callable]:
+    def decorate(function: Callable) -> Callable:
+        theirs = numba.config.CACHE_DIR
+        numba.config.CACHE_DIR = theirs or _CACHE  # read as the function is decorated, and by nobody after
+        try:
+            return numba.njit(nogil=True, cache=True, error_model="numpy", **options)(function)
+        finally:
+            numba.config.CACHE_DIR = theirs
+
+    return decorate
+
+
+#: A kernel that runs on one thread, or a piece of one.
+serial = _compiled()
+
+#: A kernel whose `prange` loops share the threads.
+parallel = _compiled(parallel=True)
