@@ -1,0 +1,66 @@
+"""What a gallery mesh is, and the registry of them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar, TypeVar
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.parameters import Parametrised, parameter
+from hexmend.registry import Registry
+
+
+@dataclass(frozen=True)
+class GalleryMesh(Parametrised, ABC):
+    """A mesh that is made from nothing, the same each time.
+
+    Subclasses declare `size` (about how many hexes) and what else shapes them, and give `regular`; scrambling is common
+    to all.
+    """
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    help: ClassVar[str]
+    source: ClassVar[str]
+
+    scramble: float = parameter(
+        0.0, low=0, high=5, unit="local edge length", help="How far free nodes are displaced at random at most."
+    )
+    seed: int = parameter(0, low=0, high=2**31 - 1, help="Seed of the displacements.")
+
+    @abstractmethod
+    def regular(self) -> Mesh:
+        """The mesh before it is scrambled."""
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        mesh = self.regular()
+        mesh = mesh.replace(name=f"{self.name}-{mesh.n_hexes}")
+        return scrambled(mesh, self.scramble, self.seed) if self.scramble > 0 else mesh
+
+
+def scrambled(mesh: Mesh, amplitude: float, seed: int) -> Mesh:
+    """Displace each free node uniformly within a ball of `amplitude` times the mean length of its edges."""
+    ring, points = mesh.topology.rings, mesh.points
+    owner = np.repeat(np.arange(mesh.n_nodes), np.diff(ring.start))
+    length = np.linalg.norm(points[ring.items] - points[owner], axis=1)
+    mean = np.bincount(owner, length, minlength=mesh.n_nodes) / np.maximum(np.diff(ring.start), 1)
+    random = np.random.default_rng(seed)
+    direction = random.normal(size=points.shape)
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    radius = amplitude * mean * np.cbrt(random.uniform(size=mesh.n_nodes))
+    return mesh.with_points(points + np.where(mesh.free, radius, 0.0)[:, None] * direction)
+
+
+G = TypeVar("G", bound=type[GalleryMesh])
+
+GALLERY: Registry[type[GalleryMesh]] = Registry("gallery mesh")
+
+
+def gallery_mesh(cls: G) -> G:
+    """Class decorator: register a gallery mesh under its name."""
+    GALLERY.add(cls.name, cls)
+    return cls
