@@ -44,9 +44,7 @@ EDGES = np.array(
 )
 
 #: The six faces, (6, 4), each seen counter-clockwise from outside: x-, x+, y-, y+, z-, z+.
-FACES = np.array(
-    [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]], dtype=np.int64
-)
+FACES = np.array([[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]], dtype=np.int64)
 
 #: Where VTK_VOXEL (type 11) keeps the corners of a hexahedron: hexahedron = voxel[VOXEL_ORDER].
 VOXEL_ORDER = np.array([0, 1, 3, 2, 4, 5, 7, 6], dtype=np.int64)

@@ -14,7 +14,6 @@ from hexmend.hexahedron import EDGES
 from hexmend.topology import Topology
 
 
-
 @dataclass(frozen=True, eq=False)
 class Cells:
     """Cells of lower dimension that a file holds beside its hexes; carried through, never computed with.
@@ -171,7 +170,9 @@ def check_node_numbers(hexes: np.ndarray, n: int) -> None:
     """Raise `MeshError` naming the first hex that uses a node which does not exist."""
     if hexes.min() < 0 or hexes.max() >= n:
         h = int(np.nonzero(((hexes < 0) | (hexes >= n)).any(axis=1))[0][0])
-        raise MeshError(f"hex {h} (counted from 0) uses the nodes {hexes[h].tolist()}: expected numbers from 0 to {n - 1}")
+        raise MeshError(
+            f"hex {h} (counted from 0) uses the nodes {hexes[h].tolist()}: expected numbers from 0 to {n - 1}"
+        )
 
 
 def _frozen(array: np.ndarray) -> np.ndarray:

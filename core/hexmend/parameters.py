@@ -85,7 +85,16 @@ class Parameter:
     def parse(self, text: str) -> Any:
         """The value that a word of the command line or of a recipe stands for."""
         if self.type is bool:
-            words = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
+            words = {
+                "true": True,
+                "yes": True,
+                "on": True,
+                "1": True,
+                "false": False,
+                "no": False,
+                "off": False,
+                "0": False,
+            }
             if text.strip().lower() not in words:
                 raise ParameterError(f"{self.name} = {text!r} is not a switch: expected true or false")
             return words[text.strip().lower()]
@@ -121,7 +130,8 @@ def parameter(
 ) -> Any:
     """Declare a dataclass field as a parameter; its type is the field's annotation."""
     return dataclasses.field(
-        default=default, metadata={"parameter": {"low": low, "high": high, "choices": choices, "unit": unit, "help": help}}
+        default=default,
+        metadata={"parameter": {"low": low, "high": high, "choices": choices, "unit": unit, "help": help}},
     )
 
 

@@ -35,7 +35,11 @@ class Stop(Parametrised):
         help="Converged when no node moves further than this in an iteration (Algorithm A.1).",
     )
     max_seconds: float = parameter(
-        0.0, low=0, high=1e7, unit="s", help="Most seconds in the smoother; 0 sets no limit. The iteration at hand ends."
+        0.0,
+        low=0,
+        high=1e7,
+        unit="s",
+        help="Most seconds in the smoother; 0 sets no limit. The iteration at hand ends.",
     )
 
 

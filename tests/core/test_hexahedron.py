@@ -1,6 +1,7 @@
 """The reference hexahedron against itself."""
 
 import numpy as np
+
 from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES, FACES, UNIT_CUBE, VOXEL_ORDER
 
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from hexmend.energy import energies
-from hexmend.kernels import patch
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend.energy import energies
+from hexmend.kernels import patch
 from tests.core.grids import grid, scrambled
 
 

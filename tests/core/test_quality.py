@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from hexmend.energy import energies, objective
-from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, locked, measure, summarise
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
+from hexmend.energy import energies, objective
+from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, locked, measure, summarise
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]

@@ -4,11 +4,11 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from hexmend.hexahedron import EDGES, FACES
-from hexmend.mesh import Mesh
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend.hexahedron import EDGES, FACES
+from hexmend.mesh import Mesh
 from tests.core.grids import grid
 
 SIZES = st.tuples(*[st.integers(1, 4)] * 3)

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from PySide6.QtCore import QObject, Signal
+
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
-from PySide6.QtCore import QObject, Signal
 
 
 @dataclass(frozen=True, eq=False)

@@ -52,8 +52,10 @@ class Look:
         None shows the mesh uncut.
     quality_range : (low, high), optional
         Elements whose q lies outside are hidden; None shows all.
+    metric : str
+        A name of `hexmend.quality.METRICS`: what the colours show.
     colour_range : (low, high)
-        The q that the ends of the colour map stand for.
+        The values that the ends of the colour map stand for.
     colour_map : str
         A name of `hexmend_app.scene.colours.MAPS`.
     edges : bool
@@ -62,6 +64,7 @@ class Look:
 
     clip: ClipPlane | None = None
     quality_range: tuple[float, float] | None = None
+    metric: str = "q"
     colour_range: tuple[float, float] = (0.0, 1.0)
     colour_map: str = "viridis"
     edges: bool = True

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hexmend.errors import HexmendError
-from hexmend.io import read
 from PySide6.QtCore import QObject, QThread, Signal
 
+from hexmend.errors import HexmendError
+from hexmend.io import read
 from hexmend_app.state.document import Document, State
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from enum import Enum
 
+from PySide6.QtCore import QObject, QTimer, Signal
+
 from hexmend.optimise import Result
 from hexmend.run import Stop
 from hexmend.smoothers import Smoother
-from PySide6.QtCore import QObject, QTimer, Signal
-
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.worker import Frame, Worker
 
@@ -95,6 +95,13 @@ class Smoothing(QObject):
         """End the run after the iteration at hand; what was reached stays."""
         if self._worker is not None:
             self._worker.end()
+
+    def end_now(self) -> None:
+        """End the run and wait for the iteration at hand; what was reached is recorded as usual."""
+        if self._worker is not None:
+            self._worker.end()
+            self._worker.wait()
+            self._finish(self._worker)
 
     def shut_down(self) -> None:
         """End the run and wait until its thread is gone; nothing is emitted any more."""

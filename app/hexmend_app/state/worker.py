@@ -5,13 +5,13 @@ from __future__ import annotations
 import threading
 from dataclasses import dataclass
 
+from PySide6.QtCore import QThread
+
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
-from PySide6.QtCore import QThread
-
 from hexmend_app.state.document import State
 
 

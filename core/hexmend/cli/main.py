@@ -84,7 +84,10 @@ def _looks_like_a_command(word: str) -> bool:
 
 def _unknown(word: str, loaders: dict[str, Callable[[], Command]]) -> int:
     known = ", ".join(loaders)
-    print(f"hexmend: {word!r} is neither a command nor a file. Commands: {known}; a file opens in the viewer.", file=sys.stderr)
+    print(
+        f"hexmend: {word!r} is neither a command nor a file. Commands: {known}; a file opens in the viewer.",
+        file=sys.stderr,
+    )
     return 2
 
 

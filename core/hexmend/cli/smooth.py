@@ -24,9 +24,7 @@ class Smooth:
         parser.add_argument("-o", "--output", metavar="OUT", required=True, help="where to write the smoothed mesh")
         parser.add_argument("--method", metavar="NAME", help="see `hexmend methods`")
         parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="a parameter of the method")
-        parser.add_argument(
-            "--max-iterations", metavar="N", help=f"most iterations (default {limits.max_iterations})"
-        )
+        parser.add_argument("--max-iterations", metavar="N", help=f"most iterations (default {limits.max_iterations})")
         parser.add_argument(
             "--tolerance",
             metavar="X",

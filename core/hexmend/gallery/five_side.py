@@ -30,7 +30,9 @@ class FiveSide(GalleryMesh):
     help = "A pentagonal prism, turned and tapered: semi-structured and convex, in any size. The thesis's scaling mesh."
     source = "Wilson 4.3; shape by trial, the thesis's own files being unpublished"
 
-    size: int = parameter(7350, low=5, high=10**8, help="About how many hexes; the thesis's sizes have its own divisions.")
+    size: int = parameter(
+        7350, low=5, high=10**8, help="About how many hexes; the thesis's sizes have its own divisions."
+    )
     height: float = parameter(1.5, low=0.01, high=100, unit="circumradius", help="Height of the prism.")
     turn: float = parameter(108.0, low=-360, high=360, unit="°", help="Angle of the top against the bottom.")
     taper: float = parameter(0.225, low=0.01, high=10, help="Size of the top over that of the bottom.")
@@ -87,7 +89,9 @@ def pentagon(spokes: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarra
         x = u * (1 - v) * middle[k - 1] + u * v * corner[k] + (1 - u) * v * middle[k]
         number = count + np.arange((a + 1) * (b + 1)).reshape(a + 1, b + 1)
         quads.append(
-            np.column_stack([number[:-1, :-1].ravel(), number[1:, :-1].ravel(), number[1:, 1:].ravel(), number[:-1, 1:].ravel()])
+            np.column_stack(
+                [number[:-1, :-1].ravel(), number[1:, :-1].ravel(), number[1:, 1:].ravel(), number[:-1, 1:].ravel()]
+            )
         )
         points.append(x.reshape(-1, 2))
         block.append(np.full(a * b, k + 1))

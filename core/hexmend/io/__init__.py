@@ -1,0 +1,11 @@
+"""Meshes from and to files: one format a file, each announcing itself in FORMATS.
+
+>>> sorted(FORMATS)
+['medit', 'medit-binary', 'vtk', 'vtu']
+"""
+
+from hexmend.io import medit, medit_binary, vtk_legacy, vtu  # noqa: F401  (they register themselves)
+from hexmend.io.files import read, readable_suffixes, writable_suffixes, write, writer_for
+from hexmend.io.format import FORMATS, Format
+
+__all__ = ["FORMATS", "Format", "read", "readable_suffixes", "writable_suffixes", "write", "writer_for"]

@@ -6,4 +6,15 @@ from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
 from hexmend.quality.shape import Q
 from hexmend.quality.summary import Summary, objective, summarise
 
-__all__ = ["METRICS", "SCALED_JACOBIAN", "ElementQuality", "Metric", "Q", "Summary", "locked", "measure", "objective", "summarise"]
+__all__ = [
+    "METRICS",
+    "SCALED_JACOBIAN",
+    "ElementQuality",
+    "Metric",
+    "Q",
+    "Summary",
+    "locked",
+    "measure",
+    "objective",
+    "summarise",
+]

@@ -7,7 +7,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-from hexmend.errors import FileError
 from hexmend.io.atomic import replacing
 from hexmend.optimise import Result
 
@@ -38,7 +37,8 @@ def to_json(data: Any) -> str:
 
 def write_json(path: str | Path, data: Any) -> None:
     """Write JSON beside the target and rename it."""
-    _write(path, to_json(data) + "\n")
+    with replacing(path) as temporary:
+        temporary.write_text(to_json(data) + "\n", encoding="utf-8")
 
 
 def write_history(path: str | Path, result: Result) -> None:
@@ -47,11 +47,3 @@ def write_history(path: str | Path, result: Result) -> None:
         rows = csv.DictWriter(file, HISTORY, extrasaction="ignore")
         rows.writeheader()
         rows.writerows(result.history)
-
-
-def _write(path: str | Path, text: str) -> None:
-    try:
-        with replacing(path) as temporary:
-            temporary.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise FileError(path, f"cannot be written: {error.strerror}", "Choose another place.") from error

@@ -1,0 +1,100 @@
+"""What the user can do, as data: from it come menus, tool bar, shortcuts and tooltips."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class ActionSpec:
+    """One action.
+
+    Parameters
+    ----------
+    id : str
+        What the window's handlers and tests know it by.
+    text : str
+        In the menu.
+    menu : str
+        The menu it stands in.
+    shortcut : str
+        Portable key sequence, "" for none.
+    icon : str
+        A Material Design icon's name, "" for none.
+    help : str
+        One sentence, shown as tooltip.
+    tool : str
+        Its word in the tool bar; "" keeps it out.
+    checkable : bool
+    needs_mesh : bool
+        Enabled only while a mesh is open.
+    separated : bool
+        A line stands above it.
+    """
+
+    id: str
+    text: str
+    menu: str
+    shortcut: str = ""
+    icon: str = ""
+    help: str = ""
+    tool: str = ""
+    checkable: bool = False
+    needs_mesh: bool = True
+    separated: bool = False
+
+
+ACTIONS: tuple[ActionSpec, ...] = (
+    ActionSpec(
+        "open", "&Open…", "&File", "Ctrl+O", "folder-open-outline", "Open a mesh file.", "Open", needs_mesh=False
+    ),
+    ActionSpec(
+        "open_demo", "Open the &demo mesh", "&File", help="Open the mesh that comes with Hexmend.", needs_mesh=False
+    ),
+    ActionSpec(
+        "save", "&Save mesh as…", "&File", "Ctrl+S", "content-save-outline", "Save the mesh as it is now.", "Save"
+    ),
+    ActionSpec(
+        "screenshot",
+        "Save &picture…",
+        "&File",
+        "Ctrl+P",
+        "camera-outline",
+        "Save the view as PNG, at any size.",
+        "Picture",
+    ),
+    ActionSpec("quit", "&Quit", "&File", "Ctrl+Q", help="Close the window.", needs_mesh=False, separated=True),
+    ActionSpec("undo", "&Undo", "&Edit", "Ctrl+Z", "undo", "Take back the last change of the mesh.", "Undo"),
+    ActionSpec("redo", "&Redo", "&Edit", "Ctrl+Shift+Z", "redo", "Do again what was taken back.", "Redo"),
+    ActionSpec("run", "&Run or pause", "&Smooth", "F5", "play", "Run the chosen method, pause it, or go on."),
+    ActionSpec("step", "One &step", "&Smooth", "F10", "step-forward", "Make one iteration and hold."),
+    ActionSpec("stop", "S&top", "&Smooth", "Shift+F5", "stop", "End the run and keep what has been reached."),
+    ActionSpec("reset", "R&eset", "&Smooth", "Ctrl+R", "restore", "Put all nodes back to where they were when opened."),
+    ActionSpec("fit", "&Fit", "&View", "F", "fit-to-page-outline", "Show the whole mesh.", "Fit"),
+    ActionSpec("view_iso", "&Isometric", "&View", "0", "axis-arrow", "Look from a corner.", "Iso"),
+    ActionSpec("view_x", "Along &X", "&View", "1", "axis-x-arrow", "Look along the X axis.", "X"),
+    ActionSpec("view_y", "Along &Y", "&View", "2", "axis-y-arrow", "Look along the Y axis.", "Y"),
+    ActionSpec("view_z", "Along &Z", "&View", "3", "axis-z-arrow", "Look along the Z axis.", "Z"),
+    ActionSpec(
+        "parallel",
+        "&Parallel projection",
+        "&View",
+        "P",
+        "",
+        "Without perspective, for figures.",
+        checkable=True,
+        separated=True,
+    ),
+    ActionSpec("edges", "&Edges", "&View", "E", "grid", "Draw the edges of the elements.", "Edges", checkable=True),
+    ActionSpec(
+        "clip",
+        "&Clipping plane",
+        "&View",
+        "C",
+        "box-cutter",
+        "Cut the mesh open along a plane.",
+        "Clip",
+        checkable=True,
+    ),
+    ActionSpec("about", "&About Hexmend", "&Help", help="Version, licence and sources.", needs_mesh=False),
+)

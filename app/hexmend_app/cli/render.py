@@ -1,0 +1,127 @@
+"""`hexmend render`: a picture of a mesh, without a window and without an X server."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hexmend.mesh import Mesh
+    from hexmend_app.state.look import ClipPlane
+
+
+class Render:
+    """A mesh as PNG."""
+
+    name = "render"
+    help = "Write a picture of a mesh; needs neither a window nor an X server."
+
+    def arguments(self, parser: argparse.ArgumentParser) -> None:
+        parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+        parser.add_argument("-o", "--output", metavar="PNG", required=True, help="where to write the picture")
+        parser.add_argument(
+            "--clip", metavar="PLANE", help="x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5)"
+        )
+        parser.add_argument("--flip", action="store_true", help="hide the other side of the plane")
+        cut = parser.add_mutually_exclusive_group()
+        cut.add_argument("--crinkle", action="store_true", help="show elements whole (the default)")
+        cut.add_argument("--smooth", action="store_true", help="cut through the elements")
+        parser.add_argument("--size", metavar="WxH", default="1600x1000", help="in pixels (default %(default)s)")
+        parser.add_argument("--metric", metavar="NAME", default="q", help="q or scaled-jacobian (default %(default)s)")
+        parser.add_argument("--colour-range", metavar="LOW,HIGH", help="values at the ends of the colours")
+        parser.add_argument("--colour-map", metavar="NAME", default="viridis", help="viridis, cividis, plasma, inferno")
+        parser.add_argument("--quality-range", metavar="LOW,HIGH", help="show only elements of a q in this range")
+        parser.add_argument(
+            "--view", metavar="FROM", default="iso", help="iso, +x, -x, ..., or x,y,z (default %(default)s)"
+        )
+        parser.add_argument("--transparent", action="store_true", help="leave the background out")
+        parser.add_argument("--no-edges", action="store_true", help="leave the elements' edges out")
+        parser.add_argument("--no-bar", action="store_true", help="leave the colour bar out")
+
+    def run(self, args: argparse.Namespace) -> int:
+        from hexmend.io import read
+        from hexmend.io.atomic import replacing
+        from hexmend.quality import measure
+
+        size = _size(args.size)
+        mesh = read(args.mesh)
+        figures = measure(mesh.points, mesh.hexes)
+        look = _look(args, mesh)
+        view = args.view if args.view in _NAMED else _numbers(args.view, 3, "--view")
+        from hexmend_app.scene.graphics import prepare_off_screen
+
+        prepare_off_screen()
+        from hexmend_app.scene.picture import picture
+
+        image = picture(
+            mesh, figures, look, size, view=view, transparent=args.transparent, bar=not args.no_bar
+        )  # fmt: skip
+        with replacing(args.output) as temporary:
+            image.save(temporary, format="PNG")
+        print(f"{args.output}: {size[0]} × {size[1]} pixels")
+        return 0
+
+
+_NAMED = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
+_AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def _look(args: argparse.Namespace, mesh: Mesh):
+    from hexmend.quality import METRICS
+    from hexmend_app.scene.colours import MAPS
+    from hexmend_app.state.look import Look
+
+    if args.colour_map not in MAPS:
+        raise _wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
+    metric = METRICS[args.metric]
+    low, high = metric.full_range
+    return Look(
+        clip=plane(args.clip, mesh, crinkle=not args.smooth, flip=args.flip) if args.clip else None,
+        quality_range=_numbers(args.quality_range, 2, "--quality-range") if args.quality_range else None,
+        colour_range=_numbers(args.colour_range, 2, "--colour-range") if args.colour_range else (max(low, 0.0), high),
+        colour_map=args.colour_map,
+        edges=not args.no_edges,
+        metric=metric.name,
+    )
+
+
+def plane(text: str, mesh: Mesh, *, crinkle: bool, flip: bool) -> ClipPlane:
+    """The plane that `--clip` names: an axis or a normal, and how far through the mesh it stands."""
+    from hexmend_app.state.look import ClipPlane
+
+    direction, _, position = text.partition(":")
+    normal = _AXES.get(direction.lower()) or _numbers(direction, 3, "--clip")
+    if not any(normal):
+        raise _wrong("--clip", text, "a normal that is not zero")
+    (share,) = _numbers(position, 1, "--clip") if position else (0.5,)
+    along = mesh.points @ normal
+    place = along.min() + share * (along.max() - along.min())
+    origin = tuple(c * place / sum(n * n for n in normal) for c in normal)
+    answer = ClipPlane(normal, origin, crinkle)
+    return answer.flipped() if flip else answer
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, _, height = text.lower().partition("x")
+    if not (width.isdigit() and height.isdigit() and 16 <= int(width) <= 16384 and 16 <= int(height) <= 16384):
+        raise _wrong("--size", text, "WIDTHxHEIGHT of 16 to 16384 pixels, as in 1600x1000")
+    return int(width), int(height)
+
+
+def _numbers(text: str, count: int, option: str) -> tuple[float, ...]:
+    try:
+        numbers = tuple(float(word) for word in text.split(","))
+    except ValueError:
+        numbers = ()
+    if len(numbers) != count or any(number != number or abs(number) == float("inf") for number in numbers):
+        raise _wrong(option, text, f"{count} number{'s' * (count > 1)} separated by commas")
+    return numbers
+
+
+def _wrong(option: str, text: str, expected: str):
+    from hexmend.errors import ParameterError
+
+    return ParameterError(f"{option} {text!r} cannot be used: expected {expected}")
+
+
+command = Render()

@@ -1,0 +1,19 @@
+"""Where the program's own files lie: in the installed package, or beside the sources."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+def resource(name: str) -> Path:
+    """The path of a file of `resources/`."""
+    here = Path(__file__).resolve().parent
+    for folder in (here / "resources", here.parents[1] / "resources"):
+        if (folder / name).exists():
+            return folder / name
+    raise FileNotFoundError(f"resource {name!r} is missing from the installation: install Hexmend again")
+
+
+def demo_mesh() -> Path:
+    """The mesh that the viewer opens where none is named."""
+    return resource("demo.vtu")

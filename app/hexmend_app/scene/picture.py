@@ -1,0 +1,108 @@
+"""Pictures of a mesh at any size, drawn off screen, with a colour bar that is as sharp as the picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pyvista as pv
+from PIL import Image, ImageDraw, ImageFont
+
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, ElementQuality
+from hexmend_app.scene.colours import INVERTED, table
+from hexmend_app.scene.viewport import Viewport
+from hexmend_app.state.look import Look
+
+_INK = (31, 38, 48)
+
+
+def picture(
+    mesh: Mesh,
+    figures: ElementQuality,
+    look: Look,
+    size: tuple[int, int],
+    *,
+    view: str | tuple[float, float, float] = "iso",
+    camera: pv.Camera | None = None,
+    transparent: bool = False,
+    bar: bool = True,
+) -> Image.Image:
+    """Draw a mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    figures : ElementQuality
+        Of the mesh.
+    look : Look
+    size : (width, height)
+        In pixels, the colour bar included.
+    view : str or vector
+        The direction to look from, where no camera is given.
+    camera : pyvista.Camera, optional
+        To be looked through.
+    transparent : bool
+        Leave the background out.
+    bar : bool
+        Draw the colour bar below.
+    """
+    width, height = size
+    strip = max(30, round(height * 0.075)) if bar else 0
+    plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
+    try:
+        viewport = Viewport(plotter)
+        viewport.set_look(look)
+        viewport.set_mesh(mesh, figures)
+        viewport.view(view)
+        if camera is not None:
+            plotter.camera.DeepCopy(camera)
+            plotter.camera_set = True
+            plotter.renderer.ResetCameraClippingRange()
+        plotter.camera_set = True
+        viewport.still()
+        plotter.show(auto_close=False, interactive=False)
+        pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
+    finally:
+        plotter.close()
+    image = Image.fromarray(np.asarray(pixels))
+    if not bar:
+        return image
+    whole = Image.new(image.mode, size, (255, 255, 255, 0) if transparent else (255, 255, 255))
+    whole.paste(image, (0, 0))
+    whole.paste(colour_bar(look, figures.n_inverted, (width, strip), image.mode), (0, height - strip))
+    return whole
+
+
+def colour_bar(look: Look, inverted: int, size: tuple[int, int], mode: str = "RGB") -> Image.Image:
+    """The colours from the worst quality to the best, ticks, and the swatch of inverted elements; `size` in pixels."""
+    width, height = size
+    image = Image.new(mode, size, (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
+    draw = ImageDraw.Draw(image)
+    unit = height / 30
+    font = ImageFont.truetype(_font(), max(8, round(11 * unit)))
+    low, high = look.colour_range
+    title = METRICS[look.metric].title
+    left, right = round(20 * unit + font.getlength(title)), width - round(150 * unit)
+    top, bottom = round(3 * unit), round(14 * unit)
+    gradient = Image.fromarray(np.ascontiguousarray(table(look.colour_map)[None])).resize(
+        (max(1, right - left), bottom - top)
+    )
+    image.paste(gradient, (left, top))
+    draw.text((round(8 * unit), (top + bottom) / 2), title, _INK, font, anchor="lm")
+    for k in range(6):
+        x, value = left + (right - left) * k / 5, low + (high - low) * k / 5
+        draw.line((x, bottom, x, bottom + 2 * unit), _INK, max(1, round(unit)))
+        draw.text((x, bottom + 3 * unit), f"{value:.3g}", _INK, font, anchor="mt")
+    swatch = right + round(24 * unit)
+    draw.rectangle((swatch, top, swatch + round(11 * unit), bottom), INVERTED)
+    count = f"inverted ({inverted:,})"
+    draw.text((swatch + round(17 * unit), (top + bottom) / 2), count, _INK, font, anchor="lm")
+    return image
+
+
+def _font() -> str:
+    """A font file that comes with matplotlib, so that pictures look the same everywhere."""
+    import matplotlib
+
+    return str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")

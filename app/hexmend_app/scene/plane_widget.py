@@ -1,0 +1,79 @@
+"""The clipping plane that is dragged and turned in the view."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import pyvista as pv
+from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
+
+from hexmend_app.state.look import ClipPlane
+
+
+class PlaneWidget:
+    """VTK's implicit plane widget without its box.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter
+        One with an interactor.
+    moved : callable
+        Called with (origin, normal) as the user drags; never for what is set by `set`.
+    """
+
+    def __init__(self, plotter: pv.BasePlotter, moved: Callable[[tuple, tuple], None]):
+        self._moved = moved
+        self._placed = False
+        shape = vtkImplicitPlaneRepresentation()
+        shape.SetPlaceFactor(1.08)
+        shape.OutlineTranslationOff()
+        shape.ScaleEnabledOff()
+        shape.SetDrawOutline(False)
+        shape.SetTubing(False)
+        shape.GetPlaneProperty().SetColor(0.36, 0.45, 0.58)
+        shape.GetPlaneProperty().SetOpacity(0.14)
+        shape.GetSelectedPlaneProperty().SetColor(0.0, 0.45, 0.70)
+        shape.GetSelectedPlaneProperty().SetOpacity(0.25)
+        shape.GetNormalProperty().SetColor(0.0, 0.45, 0.70)
+        shape.GetSelectedNormalProperty().SetColor(0.84, 0.37, 0.0)
+        shape.GetEdgesProperty().SetColor(0.30, 0.36, 0.45)
+        shape.GetOutlineProperty().SetOpacity(0)
+        self._shape = shape
+        self._widget = vtkImplicitPlaneWidget2()
+        self._widget.SetInteractor(plotter.iren.interactor)
+        self._widget.SetCurrentRenderer(plotter.renderer)
+        self._widget.SetRepresentation(shape)
+        self._widget.AddObserver("InteractionEvent", self._announce)
+
+    def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
+        """Take the size of the mesh; the plane is drawn a little larger."""
+        self._shape.PlaceWidget(bounds)
+        self._placed = True
+
+    def set(self, clip: ClipPlane | None, shown: bool = True) -> None:
+        """Show the plane where `clip` has it, or nothing."""
+        on = clip is not None and shown and self._placed
+        if on:
+            self._shape.SetNormal(clip.normal)
+            self._shape.SetOrigin(clip.origin)
+        if bool(self._widget.GetEnabled()) != on:
+            self._widget.SetEnabled(on)
+
+    @contextmanager
+    def hidden(self) -> Iterator[None]:
+        """Leave the plane out of what is drawn meanwhile."""
+        shown = self._shape.GetVisibility()
+        self._shape.SetVisibility(False)
+        try:
+            yield
+        finally:
+            self._shape.SetVisibility(shown)
+
+    def close(self) -> None:
+        """Let go of the interactor."""
+        self._widget.Off()
+        self._widget.SetInteractor(None)
+
+    def _announce(self, *_: object) -> None:
+        self._moved(tuple(self._shape.GetOrigin()), tuple(self._shape.GetNormal()))

@@ -1,0 +1,212 @@
+"""The 3D view of one mesh, in whatever plotter: a window's or one off screen."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, ElementQuality
+from hexmend_app.scene import cut
+from hexmend_app.scene.colours import colours
+from hexmend_app.scene.skin import Faces, Skin
+from hexmend_app.scene.surface import Surface, quads, set_colours, set_points
+from hexmend_app.state.look import Look
+
+_BACKGROUND = ("#f7f8fa", "#dfe4ec")  # below, above
+_OUTLINE = "#8a93a3"
+_CLOSER = 1.35  # VTK leaves room for the sphere around the box
+
+#: Directions to look from: the place of the camera, and what is up.
+VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
+    "iso": ((1.0, -1.3, 0.8), (0.0, 0.0, 1.0)),
+    "+x": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "-x": ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "+y": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    "-y": ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
+    "+z": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+    "-z": ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
+}
+
+
+class Viewport:
+    """Draws a mesh by its skin, coloured by quality, cut and filtered as a `Look` says.
+
+    Nothing is rendered here: the caller does, once for several changes.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter
+    """
+
+    def __init__(self, plotter: pv.BasePlotter):
+        self._plotter = plotter
+        self._mesh: Mesh | None = None
+        self._look = Look()
+        plotter.set_background(_BACKGROUND[0], top=_BACKGROUND[1])
+        plotter.render_window.SetMultiSamples(0)
+        self._skin_surface = Surface(plotter, "skin")
+        self._section_surface = Surface(plotter, "section")
+        self._outline = None
+        plotter.add_axes(line_width=2, labels_off=False, viewport=(0, 0, 0.13, 0.18), color="#39414d")
+
+    # What is drawn
+
+    def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
+        """Draw another mesh, seen whole from a corner."""
+        self._mesh, self._figures, self._points = mesh, figures, mesh.points
+        self._skin = Skin(mesh)
+        self._faces: Faces | None = None
+        self._add_outline()
+        self._rebuild()
+        self.view("iso")
+
+    def set_points(self, points: np.ndarray, figures: ElementQuality) -> None:
+        """Draw the same mesh with its nodes elsewhere.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+        figures : ElementQuality
+            Of the mesh at these points.
+        """
+        self._points, self._figures = points, figures
+        same_faces = self._look.quality_range is None and (self._look.clip is None or not self._look.clip.crinkle)
+        if same_faces and self._faces is not None:
+            self._move()
+        else:
+            self._rebuild()
+
+    def set_look(self, look: Look) -> None:
+        """Draw it differently."""
+        before, self._look = self._look, look
+        for surface in (self._skin_surface, self._section_surface):
+            surface.show_edges(look.edges)
+        if self._mesh is not None and look != before:
+            self._rebuild()
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float, float, float]:
+        """x low, x high, y low, y high, z low, z high of the mesh as it was opened."""
+        low, high = self._mesh.points.min(axis=0), self._mesh.points.max(axis=0)
+        return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
+
+    def kept(self) -> np.ndarray | None:
+        """The hexes that are shown whole or in part, (m,) bool; None for all."""
+        look, keep = self._look, None
+        if look.quality_range is not None:
+            low, high = look.quality_range
+            keep = (self._figures.q >= low) & (self._figures.q <= high)
+        if look.clip is not None and look.clip.crinkle:
+            inside = look.clip.signed_distance(self._centres()) <= 0
+            keep = inside if keep is None else keep & inside
+        return keep
+
+    def _centres(self) -> np.ndarray:
+        """Mean of each hex's corners, (m, 3)."""
+        centres = self._points[self._mesh.hexes[:, 0]]
+        for c in range(1, 8):
+            centres += self._points[self._mesh.hexes[:, c]]
+        return centres / 8
+
+    def _rebuild(self) -> None:
+        """Find the visible faces anew."""
+        keep = self.kept()
+        self._faces = self._skin.visible(keep)
+        self._whole = quads(self._points[self._faces.nodes], self._faces.quads, self._face_colours())
+        self._cut(keep)
+        if self._outline is not None:
+            hidden = self._look.clip is not None or self._look.quality_range is not None
+            self._outline.SetVisibility(hidden)
+
+    def _move(self) -> None:
+        """The same faces, elsewhere and in other colours."""
+        set_points(self._whole, self._points[self._faces.nodes])
+        set_colours(self._whole, self._face_colours())
+        self._cut(None)
+
+    def _cut(self, keep: np.ndarray | None) -> None:
+        plane = self._look.clip
+        if plane is None or plane.crinkle:
+            if self._skin_surface.poly is not self._whole:
+                self._skin_surface.replace(self._whole)
+            self._section_surface.hide()
+            return
+        self._skin_surface.replace(cut.behind(self._whole, plane))
+        every = self._colours(slice(None))
+        self._section_surface.replace(cut.section(self._points, self._mesh.hexes, keep, plane, every))
+
+    def _face_colours(self) -> np.ndarray:
+        return self._colours(self._faces.hexes)
+
+    def _colours(self, hexes: np.ndarray | slice) -> np.ndarray:
+        look, figures = self._look, self._figures
+        values = METRICS[look.metric].of(figures)[hexes]
+        return colours(values, figures.inverted[hexes], look.colour_range, look.colour_map)
+
+    def _add_outline(self) -> None:
+        """The box of the whole, which keeps it in mind when a part is hidden."""
+        box = pv.Box(self.bounds).outline()
+        self._outline = self._plotter.add_mesh(
+            box,
+            name="outline",
+            color=_OUTLINE,
+            line_width=1,
+            lighting=False,
+            reset_camera=False,
+            pickable=False,
+            render=False,
+        )
+        self._outline.SetVisibility(False)
+
+    # Camera and frames
+
+    def reset_camera(self) -> None:
+        """Show the whole mesh, from where the camera looks."""
+        if self._mesh is not None:
+            self._plotter.renderer.ResetCamera(self.bounds)
+            camera = self._plotter.camera
+            camera.SetParallelScale(camera.GetParallelScale() / _CLOSER)
+            camera.Dolly(_CLOSER)
+            self._plotter.renderer.ResetCameraClippingRange(self.bounds)
+
+    def view(self, direction: str | tuple[float, float, float]) -> None:
+        """Look at the whole mesh from a direction: a name of `VIEWS`, or a vector with z up."""
+        place, up = VIEWS[direction] if isinstance(direction, str) else (direction, (0.0, 0.0, 1.0))
+        camera = self._plotter.camera
+        camera.SetFocalPoint(0, 0, 0)
+        camera.SetPosition(place)
+        camera.SetViewUp(up)
+        self.reset_camera()
+
+    def set_parallel(self, on: bool) -> None:
+        """Parallel projection, or perspective."""
+        self._plotter.camera.SetParallelProjection(on)
+
+    def moving(self) -> None:
+        """Prepare for fast frames."""
+        self._plotter.render_window.SetMultiSamples(0)
+
+    def still(self) -> None:
+        """Prepare for a fine frame: smooth edges."""
+        self._plotter.render_window.SetMultiSamples(8)
+
+    @property
+    def look(self) -> Look:
+        """How the mesh is drawn."""
+        return self._look
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh with its nodes where they are drawn."""
+        return self._mesh.with_points(self._points)
+
+    @property
+    def figures(self) -> ElementQuality:
+        """The figures that are drawn."""
+        return self._figures
+
+    @property
+    def camera(self) -> pv.Camera:
+        """The plotter's camera."""
+        return self._plotter.camera

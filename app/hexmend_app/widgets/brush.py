@@ -1,0 +1,89 @@
+"""A plot's view in which a range of x is brushed with the mouse."""
+
+from __future__ import annotations
+
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QGraphicsSceneHoverEvent
+
+#: Pixels around an edge of the range in which a drag moves that edge.
+_REACH = 6
+
+
+class BrushView(pg.ViewBox):
+    """Drags select a range in [0, 1]: on open ground a new one, on an edge that edge, inside the range all of it.
+
+    Ends are rounded to hundredths, so that the range is what the texts about it say. The view is told which range is
+    shown; it never sets it.
+
+    Signals
+    -------
+    brushed((low, high))
+        While the mouse is dragged.
+    cleared
+        Double click.
+    """
+
+    brushed = Signal(object)
+    cleared = Signal()
+
+    def __init__(self):
+        super().__init__(enableMenu=False, defaultPadding=0)
+        self.range: tuple[float, float] | None = None
+        self._mode = ""
+        self._grabbed = (0.0, 0.0)
+        self.setAcceptHoverEvents(True)
+
+    def _mode_at(self, x: float) -> str:
+        """What a drag from x would do: "low", "high", "move" or "new"."""
+        if self.range is None:
+            return "new"
+        low, high = self.range
+        reach = _REACH * self.viewPixelSize()[0]
+        if min(abs(x - low), abs(x - high)) <= reach:
+            return "low" if abs(x - low) < abs(x - high) else "high"
+        return "move" if low < x < high else "new"
+
+    def mouseDragEvent(self, ev, axis=None) -> None:
+        """Brush."""
+        if ev.button() != Qt.MouseButton.LeftButton:
+            ev.ignore()
+            return
+        ev.accept()
+        began = self.mapToView(ev.buttonDownPos()).x()
+        x = self.mapToView(ev.pos()).x()
+        if ev.isStart():
+            self._mode = self._mode_at(began)
+            self._grabbed = self.range or (began, began)
+        low, high = self._grabbed
+        if self._mode == "move":
+            shift = min(max(x - began, -low), 1 - high)
+            ends = (low + shift, high + shift)
+        else:
+            fixed = {"low": high, "high": low, "new": began}[self._mode]
+            ends = (min(fixed, x), max(fixed, x))
+        low, high = (round(min(max(end, 0.0), 1.0), 2) for end in ends)
+        if high - low < 0.01:
+            # At least one hundredth wide, and inside [0, 1].
+            low = min(low, 0.99)
+            high = round(low + 0.01, 2)
+        self.brushed.emit((low, high))
+
+    def mouseClickEvent(self, ev) -> None:
+        """Clear on a double click."""
+        if ev.button() == Qt.MouseButton.LeftButton and ev.double():
+            ev.accept()
+            self.cleared.emit()
+
+    def wheelEvent(self, ev, axis=None) -> None:
+        """Leave the wheel to the panel, which scrolls."""
+        ev.ignore()
+
+    def hoverMoveEvent(self, event: QGraphicsSceneHoverEvent) -> None:
+        """Show by the pointer's shape what a drag would do."""
+        mode = self._mode_at(self.mapToView(event.pos()).x())
+        self.setCursor(
+            {"new": Qt.CursorShape.CrossCursor, "move": Qt.CursorShape.SizeAllCursor}.get(
+                mode, Qt.CursorShape.SplitHCursor
+            )
+        )

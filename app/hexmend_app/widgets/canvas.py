@@ -1,0 +1,131 @@
+"""The 3D view as a widget: the scene in a Qt interactor, the plane that is dragged in it, the colour bar below."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+from pyvistaqt import QtInteractor
+
+from hexmend.io.atomic import replacing
+from hexmend.mesh import Mesh
+from hexmend.quality import ElementQuality
+from hexmend_app.scene.colours import INVERTED, table
+from hexmend_app.scene.plane_widget import PlaneWidget
+from hexmend_app.scene.viewport import Viewport
+from hexmend_app.state.look import ClipPlane, Look
+from hexmend_app.widgets.colour_bar import ColourBar
+
+#: Milliseconds of rest after which the fine still frame is drawn.
+_REST = 300
+
+
+class Canvas(QWidget):
+    """Draws one mesh.
+
+    Signals
+    -------
+    clip_dragged(ClipPlane)
+        The user moved or turned the plane in the view.
+    """
+
+    clip_dragged = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.interactor = QtInteractor(self, auto_update=False)
+        self.viewport = Viewport(self.interactor)
+        self.plane = PlaneWidget(self.interactor, self._on_dragged)
+        self.colour_bar = ColourBar()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.interactor, 1)
+        layout.addWidget(self.colour_bar)
+        self._look = Look()
+        self._frame = QTimer(self)  # several changes in one turn of the event loop are one frame
+        self._frame.setSingleShot(True)
+        self._frame.timeout.connect(self._draw)
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.setInterval(_REST)
+        self._rest.timeout.connect(self._draw_still)
+        self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._moving())
+        self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
+
+    def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
+        """Draw another mesh."""
+        self.viewport.set_mesh(mesh, figures.q, figures.inverted)
+        self.plane.set_bounds(self.viewport.bounds)
+        self._show_inverted(figures)
+        self._changed()
+
+    def set_points(self, points: np.ndarray, figures: ElementQuality) -> None:
+        """Draw the same mesh with its nodes elsewhere."""
+        self.viewport.set_points(points, figures.q, figures.inverted)
+        self._show_inverted(figures)
+        self._changed()
+
+    def set_look(self, look: Look, plane_shown: bool) -> None:
+        """Draw it differently."""
+        self._look = look
+        self.viewport.set_look(look)
+        self.plane.set(look.clip, plane_shown)
+        self.colour_bar.set_table(table(look.colour_map))
+        self.colour_bar.set_range(*look.colour_range)
+        self._changed()
+
+    def fit(self) -> None:
+        """Show the whole mesh."""
+        self.viewport.reset_camera()
+        self._changed()
+
+    def look_along(self, direction: str) -> None:
+        """Look along an axis: +x, -x, ..., iso."""
+        self.viewport.view(direction)
+        self._changed()
+
+    def set_parallel(self, on: bool) -> None:
+        """Parallel projection or perspective."""
+        self.viewport.set_parallel(on)
+        self._changed()
+
+    def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
+        """Write the view as PNG, beside the target first."""
+        with self.plane.hidden(), replacing(path) as temporary:
+            self.viewport.screenshot(temporary, size, transparent=transparent)
+        self._changed()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Let go of the graphics while the window still exists."""
+        self._frame.stop()
+        self._rest.stop()
+        self.interactor.close()
+        super().closeEvent(event)
+
+    def _show_inverted(self, figures: ElementQuality) -> None:
+        self.colour_bar.set_inverted(figures.n_inverted, INVERTED)
+
+    def _on_dragged(self, origin: tuple, normal: tuple) -> None:
+        crinkle = self._look.clip.crinkle if self._look.clip else True
+        self.clip_dragged.emit(ClipPlane(normal, origin, crinkle))
+
+    def _changed(self) -> None:
+        self._moving()
+        self._rest.start()
+        if not self._frame.isActive():
+            self._frame.start(0)
+
+    def _moving(self) -> None:
+        self._rest.stop()
+        self.viewport.moving()
+
+    def _draw(self) -> None:
+        self.interactor.render()
+
+    def _draw_still(self) -> None:
+        self.viewport.still()
+        self.interactor.render()

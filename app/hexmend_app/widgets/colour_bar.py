@@ -1,0 +1,184 @@
+"""The colour bar, painted by Qt so that it stays sharp at every scale."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from hexmend_app.widgets.style import INVERTED, LINE, MUTED, TEXT, explain, smaller, tabular
+
+_THICKNESS = 14.0
+_SWATCH = 32.0
+_GAP = 12.0
+_TICK = 4.0
+_MOST_TICKS = 11
+
+
+def nice_ticks(low: float, high: float, most: int) -> list[float]:
+    """At most `most` multiples of 1, 2, 2.5 or 5 times a power of ten in [low, high].
+
+    >>> nice_ticks(0, 1, 6)
+    [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
+    >>> nice_ticks(0.31, 0.44, 4)
+    [0.35, 0.4]
+    """
+    if not high > low or most < 1:
+        return []
+    power = math.floor(math.log10((high - low) / most))
+    for step in (round(m * 10.0**e, 12 - e) for e in (power, power + 1, power + 2) for m in (1, 2, 2.5, 5)):
+        first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+        if last - first + 1 <= most:
+            return [round(k * step, 10) for k in range(first, last + 1)]
+    return []
+
+
+class ColourBar(QWidget):
+    """What the colours mean: a gradient with ticks, and a swatch of its own for inverted elements.
+
+    Parameters
+    ----------
+    orientation : Qt.Orientation
+        Which way the gradient runs.
+    label : str
+        The quantity.
+    """
+
+    def __init__(
+        self,
+        orientation: Qt.Orientation = Qt.Orientation.Horizontal,
+        label: str = "q(H)",
+        parent: QWidget | None = None,
+    ):
+        super().__init__(parent)
+        self._across = orientation == Qt.Orientation.Horizontal
+        self._label = label
+        self._table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
+        self._low, self._high = 0.0, 1.0
+        self._inverted = 0
+        self._colour = QColor(INVERTED)
+        self.setFont(tabular(smaller(self.font())))
+        self.setContentsMargins(9, 3, 9, 3)
+        fixed, grows = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding
+        self.setSizePolicy(*((grows, fixed) if self._across else (fixed, grows)))
+        self._describe()
+
+    def set_table(self, table: np.ndarray) -> None:
+        """Take the colour map, (256, 3) uint8, lowest value first."""
+        table = np.ascontiguousarray(table, dtype=np.uint8)
+        if table.ndim != 2 or table.shape[1] != 3:
+            raise ValueError(f"the colour table has shape {table.shape}: expected (n, 3)")
+        self._table = table
+        self.update()
+
+    def set_range(self, low: float, high: float) -> None:
+        """Take the values at the ends of the gradient."""
+        self._low, self._high = float(low), float(high)
+        self._describe()
+        self.update()
+
+    def set_inverted(self, count: int, colour: object = INVERTED) -> None:
+        """Take the number of inverted elements and the colour they are drawn in: a name or (red, green, blue) bytes."""
+        self._inverted = int(count)
+        self._colour = QColor(colour) if isinstance(colour, str | QColor) else QColor(*(int(c) for c in colour))
+        self._describe()
+        self.updateGeometry()
+        self.update()
+
+    def _describe(self) -> None:
+        explain(
+            self,
+            "Colour bar",
+            f"Colours stand for {self._label} from {self._low:g} to {self._high:g}, 1 for a cube and 0 for a flat "
+            "element; values beyond an end have the end's colour. Inverted elements, which are turned inside out at a "
+            "corner (a determinant σ ≤ 0), have a colour of their own.",
+        )
+        self.setAccessibleDescription(f"{self._swatch_text()}; {self._label} from {self._low:g} to {self._high:g}")
+
+    def _swatch_text(self) -> str:
+        return f"inverted ({self._inverted:,})" if self._inverted else "inverted"
+
+    def sizeHint(self) -> QSize:
+        """As much as the labels need."""
+        metrics, margins = QFontMetricsF(self.font()), self.contentsMargins()
+        if self._across:
+            size = QSize(300, math.ceil(_THICKNESS + _TICK + metrics.height() + 3))
+        else:
+            width = max(_THICKNESS + _TICK + 3 + metrics.horizontalAdvance("0.000"), self._swatch_room(metrics))
+            size = QSize(math.ceil(width), 200)
+        return size.grownBy(margins)
+
+    minimumSizeHint = sizeHint
+
+    def _swatch_room(self, metrics: QFontMetricsF) -> float:
+        """Width of the swatch's text, with room for a large count so that the gradient holds still during a run."""
+        wide = "inverted (00,000)" if 0 < self._inverted < 100_000 else self._swatch_text()
+        return metrics.horizontalAdvance(wide)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint swatch, gradient, ticks and labels."""
+        painter = QPainter(self)
+        painter.setFont(self.font())
+        metrics = QFontMetricsF(self.font())
+        swatch, bar = self._boxes(metrics)
+        painter.fillRect(swatch, self._colour)
+        # One row of 256 pixels, stretched by the painter at the screen's own resolution.
+        table = self._table if self._across else np.ascontiguousarray(self._table[::-1])
+        n = len(table)
+        width, height = (n, 1) if self._across else (1, n)
+        image = QImage(table.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888)
+        painter.drawImage(bar, image)
+        painter.setPen(QPen(QColor(LINE), 0))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawRect(swatch)
+        painter.drawRect(bar)
+        self._paint_labels(painter, metrics, swatch, bar)
+
+    def _boxes(self, metrics: QFontMetricsF) -> tuple[QRectF, QRectF]:
+        """Swatch and gradient."""
+        inside = QRectF(self.contentsRect())
+        if self._across:
+            left = inside.left() + self._swatch_room(metrics) + _GAP
+            right = inside.right() - metrics.horizontalAdvance(self._label) - 8
+            return (
+                QRectF(inside.left(), inside.top(), _SWATCH, _THICKNESS),
+                QRectF(left, inside.top(), max(right - left, 1), _THICKNESS),
+            )
+        top = inside.top() + metrics.height() + 4
+        under = inside.bottom() - metrics.height() - _TICK - _THICKNESS
+        return (
+            QRectF(inside.left(), under, _THICKNESS, _THICKNESS),
+            QRectF(inside.left(), top, _THICKNESS, max(under - _GAP - top, 1)),
+        )
+
+    def _paint_labels(self, painter: QPainter, metrics: QFontMetricsF, swatch: QRectF, bar: QRectF) -> None:
+        line, ascent = metrics.height(), metrics.ascent()
+        painter.setPen(QColor(TEXT))
+        if self._across:
+            painter.drawText(QPointF(bar.right() + 8, bar.center().y() + ascent / 2 - 1), self._label)
+        else:
+            painter.drawText(QPointF(bar.left(), bar.top() - 4 - metrics.descent()), self._label)
+        painter.setPen(QColor(TEXT if self._inverted else MUTED))
+        painter.drawText(QPointF(swatch.left(), swatch.bottom() + _TICK + 2 + ascent), self._swatch_text())
+
+        length = bar.width() if self._across else bar.height()
+        need = metrics.horizontalAdvance("0.00") * 1.7 if self._across else 2.2 * line
+        for value in nice_ticks(self._low, self._high, min(max(2, int(length / need) + 1), _MOST_TICKS)):
+            share = (value - self._low) / (self._high - self._low)
+            text = f"{value:g}"
+            painter.setPen(QPen(QColor(MUTED), 1))
+            if self._across:
+                x = round(bar.left() + share * length) + 0.5 * (share < 0.5) - 0.5 * (share >= 0.5)
+                painter.drawLine(QPointF(x, bar.bottom() + 1), QPointF(x, bar.bottom() + _TICK))
+                wide = metrics.horizontalAdvance(text)
+                painter.setPen(QColor(TEXT))
+                # "q(H)" stands higher, so the last number may reach under it.
+                painter.drawText(QPointF(x - wide / 2, bar.bottom() + _TICK + 2 + ascent), text)
+            else:
+                y = round(bar.bottom() - share * length)
+                painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + _TICK, y))
+                painter.setPen(QColor(TEXT))
+                painter.drawText(QPointF(bar.right() + _TICK + 3, y + ascent / 2 - 1), text)

@@ -1,0 +1,177 @@
+"""A bar in the window for what went wrong, what to look out for, and what has been done."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySequence, QShortcut
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
+
+from hexmend_app.widgets.style import AMBER, BLUE, WORSE, explain, icon
+
+_MAX_SHOWN = 700
+_MAX_KEPT = 100
+
+
+@dataclass
+class _Message:
+    """A message and how often it came."""
+
+    kind: str
+    title: str
+    text: str
+    timeout_ms: int = 0
+    times: int = 1
+
+
+# Icon, colour of the icon and the left edge, background.
+_KINDS = {
+    "error": ("alert-circle", WORSE, "#fdeee5"),
+    "warning": ("alert", AMBER, "#fff6dc"),
+    "info": ("information", BLUE, "#e8f2f9"),
+}
+
+
+class MessageBar(QFrame):
+    """Shows one message at a time and keeps the others until they have been seen; hidden while there is none.
+
+    Esc dismisses the message shown. A message that repeats the last one is counted, not queued.
+
+    Signals
+    -------
+    emptied
+        The last message has gone.
+    """
+
+    emptied = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._messages: list[_Message] = []
+        self._at = 0
+        self.setObjectName("message_bar")
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+        self._icon = QLabel()
+        self._title, self._text = QLabel(), QLabel()
+        for label in (self._title, self._text):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setTextInteractionFlags(
+                Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
+            )
+            label.setMinimumWidth(80)
+        font = self._title.font()
+        font.setBold(True)
+        self._title.setFont(font)
+        self._next = QToolButton()
+        self._next.setAutoRaise(True)
+        self._next.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        explain(self._next, "Next message", "Show the next of the messages that are waiting.")
+        self._next.clicked.connect(self._show_next)
+        self._copy, self._dismiss = QToolButton(), QToolButton()
+        for button, picture, slot in (
+            (self._copy, "content-copy", self._copy_message),
+            (self._dismiss, "close", self.dismiss),
+        ):
+            button.setIcon(icon(picture))
+            button.setAutoRaise(True)
+            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+            button.clicked.connect(slot)
+        explain(self._copy, "Copy message", "Copy the whole message to the clipboard.")
+        explain(self._dismiss, "Dismiss message", "Dismiss this message (Esc).")
+        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.dismiss)
+        self._escape.setEnabled(False)
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self.dismiss)
+
+        buttons = QHBoxLayout()
+        buttons.setSpacing(4)
+        for button in (self._next, self._copy, self._dismiss):
+            buttons.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
+        layout = QGridLayout(self)
+        layout.setContentsMargins(10, 6, 6, 6)
+        layout.setHorizontalSpacing(8)
+        layout.setVerticalSpacing(2)
+        layout.setColumnStretch(1, 1)
+        layout.addWidget(self._icon, 0, 0, Qt.AlignmentFlag.AlignTop)
+        layout.addWidget(self._title, 0, 1)
+        layout.addLayout(buttons, 0, 2, Qt.AlignmentFlag.AlignTop)
+        layout.addWidget(self._text, 1, 1, 1, 2)
+        self.hide()
+
+    def show_error(self, title: str, text: str = "") -> None:
+        """Show what went wrong; it stays until dismissed."""
+        self._add(_Message("error", title, text))
+
+    def show_warning(self, title: str, text: str = "") -> None:
+        """Show what to look out for; it stays until dismissed."""
+        self._add(_Message("warning", title, text))
+
+    def show_info(self, text: str, timeout_ms: int = 6000) -> None:
+        """Show what has been done, for `timeout_ms` milliseconds (0: until dismissed)."""
+        self._add(_Message("info", text, "", timeout_ms))
+
+    def _add(self, message: _Message) -> None:
+        last = self._messages[-1] if self._messages else None
+        if last is not None and (last.kind, last.title, last.text) == (message.kind, message.title, message.text):
+            last.times += 1
+        else:
+            # News of what is done soon age: a newer one takes their place.
+            if last is not None and last.kind == message.kind == "info":
+                self._messages.pop()
+            self._messages.append(message)
+            del self._messages[1:-_MAX_KEPT]
+            if message.kind == "error" and self._messages[self._at % len(self._messages)].kind == "info":
+                self._at = len(self._messages) - 1
+        self._refresh()
+
+    def dismiss(self) -> None:
+        """Drop the message shown and show the next one, if there is one."""
+        if self._messages:
+            self._messages.pop(self._at)
+            self._refresh()
+            if not self._messages:
+                self.emptied.emit()
+
+    def clear(self) -> None:
+        """Drop all messages."""
+        while self._messages:
+            self.dismiss()
+
+    def messages(self) -> list[tuple[str, str, str]]:
+        """Kind, title and text of all messages that are kept, oldest first."""
+        return [(message.kind, message.title, message.text) for message in self._messages]
+
+    def _show_next(self) -> None:
+        self._at += 1
+        self._refresh()
+
+    def _copy_message(self) -> None:
+        message = self._messages[self._at]
+        QGuiApplication.clipboard().setText("\n".join(part for part in (message.title, message.text) if part))
+
+    def _refresh(self) -> None:
+        self._timer.stop()
+        self._escape.setEnabled(bool(self._messages))
+        self.setVisible(bool(self._messages))
+        if not self._messages:
+            self._at = 0
+            return
+        self._at %= len(self._messages)
+        message = self._messages[self._at]
+        icon_name, colour, background = _KINDS[message.kind]
+        self.setStyleSheet(f"#message_bar {{ background: {background}; border-left: 4px solid {colour}; }}")
+        self._icon.setPixmap(icon(icon_name, colour).pixmap(20, 20))
+        self._icon.setAccessibleName(message.kind)
+        self._title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))
+        long = len(message.text) > _MAX_SHOWN
+        self._text.setText(f"{message.text[:_MAX_SHOWN]}… (Copy takes all of it.)" if long else message.text)
+        self._text.setVisible(bool(message.text))
+        self._next.setVisible(len(self._messages) > 1)
+        self._next.setText(f"{self._at + 1} of {len(self._messages)}  ›")
+        if message.timeout_ms:
+            self._timer.start(message.timeout_ms)
+        self.setAccessibleName(f"{message.kind}: {message.title}")
+        QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))

@@ -1,0 +1,148 @@
+"""A spin box that takes any notation of a number and says what is wrong instead of changing it."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor, QPalette, QWheelEvent
+from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
+
+from hexmend.errors import ParameterError
+from hexmend.parameters import Parameter
+from hexmend_app.widgets.style import FIELD, MUTED, TEXT, WORSE, smaller, tabular
+from hexmend_app.widgets.wording import short_number
+
+
+class NumberBox(QAbstractSpinBox):
+    """Editor of a declared number, whole or not.
+
+    What is typed is read at each key. A text that is no admitted value stays as typed, is coloured, and `problem` says
+    what was expected; `value` is then the one from before the typing began.
+
+    Parameters
+    ----------
+    declaration : Parameter
+        Of type int or float; its unit is shown behind the number.
+
+    Signals
+    -------
+    changed
+        The user changed the value, or its text became wrong or right.
+    """
+
+    changed = Signal()
+
+    def __init__(self, declaration: Parameter, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._declaration = declaration
+        self._value = self._settled = declaration.default
+        self.problem = ""
+        # Values change while the user types on, so Qt must neither hold keys back nor correct the text.
+        self.setKeyboardTracking(True)
+        self.setFont(tabular(self.font()))
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        line = self.lineEdit()
+        line.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        line.textEdited.connect(self._read)
+        line.editingFinished.connect(self._settle)
+        self._show_unit(declaration.unit)
+        self.set_value(declaration.default)
+
+    def _show_unit(self, unit: str) -> None:
+        line = self.lineEdit()
+        suffix = QLabel(unit, line)
+        suffix.setFont(smaller(suffix.font()))
+        suffix.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        palette = suffix.palette()
+        palette.setColor(QPalette.ColorRole.WindowText, QColor(MUTED))
+        suffix.setPalette(palette)
+        layout = QHBoxLayout(line)
+        layout.setContentsMargins(0, 0, 4, 0)
+        layout.addStretch()
+        layout.addWidget(suffix)
+        width = suffix.sizeHint().width() + 6 if unit else 2
+        line.setTextMargins(0, 0, width, 0)
+        self.setMinimumWidth(width + self.fontMetrics().horizontalAdvance("0.00000") + 34)
+
+    def value(self) -> float | int:
+        """The last admitted value."""
+        return self._value
+
+    def set_value(self, value: float | int) -> None:
+        """Show a value, without a signal.
+
+        Raises
+        ------
+        ParameterError
+            Where the declaration does not admit it.
+        """
+        self._value = self._settled = self._declaration.check(value)
+        self.lineEdit().setText(short_number(self._value))
+        self._mark("")
+
+    def _read(self, text: str) -> None:
+        try:
+            value = self._declaration.parse(text.strip())
+            if not math.isfinite(value):
+                raise ParameterError(f"{text} is not finite")
+        except ParameterError:
+            # Not the value of what was typed so far: on the way to 1e-3 that is 1.
+            self._value = self._settled
+            expected, kept = self._declaration.range, short_number(self._value)
+            self._mark(f"Expected {expected}. {kept} stays in use until this is corrected.")
+        else:
+            self._value = value
+            self._mark("")
+        self.changed.emit()
+
+    def _mark(self, problem: str) -> None:
+        self.problem = problem
+        palette = self.palette()
+        palette.setColor(QPalette.ColorRole.Text, QColor(WORSE if problem else TEXT))
+        palette.setColor(QPalette.ColorRole.Base, QColor("#fdf0e6" if problem else FIELD))
+        if palette != self.palette():
+            self.setPalette(palette)
+
+    def stepBy(self, steps: int) -> None:
+        """Step a whole number by one, any other by one in its leading digit; stop at the bounds."""
+        value = self._value
+        for _ in range(abs(steps)):
+            value = self._neighbour(value, 1 if steps > 0 else -1)
+        if value != self._value or self.problem:
+            self.set_value(value)
+            self.changed.emit()
+        self.lineEdit().selectAll()
+
+    def _neighbour(self, value: float, sign: int) -> float:
+        low = -math.inf if self._declaration.low is None else self._declaration.low
+        high = math.inf if self._declaration.high is None else self._declaration.high
+        if self._declaration.type is int:
+            return int(min(max(value + sign, low), high))
+        magnitude = abs(value) or abs(self._declaration.default) or 0.1
+        exponent = math.floor(math.log10(magnitude) + 1e-9)
+        if value * sign < 0 and math.isclose(abs(value), 10.0**exponent):
+            exponent -= 1  # below 1 comes 0.9, not 0
+        moved = round(value + sign * 10.0**exponent, 12 - exponent)
+        return min(max(moved, low), high)
+
+    def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:
+        """Which arrows lead anywhere."""
+        flags = QAbstractSpinBox.StepEnabledFlag.StepNone
+        if self._declaration.high is None or self._value < self._declaration.high:
+            flags |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
+        if self._declaration.low is None or self._value > self._declaration.low:
+            flags |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
+        return flags
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Turn only while focused: scrolling the panel must not change what lies under the pointer."""
+        if self.hasFocus():
+            super().wheelEvent(event)
+        else:
+            event.ignore()
+
+    def _settle(self) -> None:
+        # An admitted value is written in its shortest form once the user is done with it.
+        if not self.problem:
+            self.set_value(self._value)

@@ -1,0 +1,45 @@
+"""Plots that look like the rest of the panel rather than like a plotting program."""
+
+from __future__ import annotations
+
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QPainter
+from PySide6.QtWidgets import QFrame
+
+from hexmend_app.widgets.style import LINE, MUTED, smaller, tabular
+
+
+class CalmAxis(pg.AxisItem):
+    """An axis with thin lines and tabular figures; tick texts named in `colours` are drawn in that colour."""
+
+    def __init__(self, orientation: str):
+        super().__init__(orientation, pen=pg.mkPen(LINE), textPen=pg.mkPen(MUTED), tickPen=pg.mkPen(LINE))
+        self.colours: dict[str, str] = {}
+        self.enableAutoSIPrefix(False)
+        self.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False)
+
+    def drawPicture(self, p: QPainter, axisSpec: tuple, tickSpecs: list, textSpecs: list) -> None:
+        """Draw as usual, and what has a colour of its own after that."""
+        own = [spec for spec in textSpecs if spec[2] in self.colours]
+        super().drawPicture(p, axisSpec, tickSpecs, [spec for spec in textSpecs if spec[2] not in self.colours])
+        for rect, flags, text in own:
+            p.setPen(pg.mkPen(self.colours[text]))
+            p.drawText(rect, int(flags), text)
+
+
+def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
+    """A plot without buttons, menus, zooming or frame, transparent to the panel behind it."""
+    axes = {"left": CalmAxis("left"), "bottom": CalmAxis("bottom")}
+    plot = pg.PlotWidget(
+        background=None, viewBox=view or pg.ViewBox(enableMenu=False), axisItems=axes, enableMenu=False
+    )
+    plot.setFrameShape(QFrame.Shape.NoFrame)
+    plot.hideButtons()
+    plot.setMenuEnabled(False)
+    plot.getViewBox().setMouseEnabled(x=False, y=False)
+    plot.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    font = tabular(smaller(plot.font()))
+    for axis in axes.values():
+        axis.setTickFont(font)
+    return plot

@@ -1,0 +1,111 @@
+"""The buttons that run, pause, step, stop and reset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QGridLayout, QPushButton, QWidget
+
+from hexmend_app.widgets.style import BLUE, FAINT, FIELD, LINE, TEXT, explain, icon
+
+
+@dataclass(frozen=True)
+class RunState:
+    """What is offered in a state: the main button's text, icon and help, and whether each button and editing are on."""
+
+    text: str
+    icon: str
+    help: str
+    run: bool
+    step: bool
+    stop: bool
+    reset: bool
+    edit: bool
+
+
+_RUN = "Smooth the mesh with this method until a stop condition holds."
+STATES = {
+    "idle": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=False, edit=True),
+    "preparing": RunState(
+        "Preparing", "timer-sand", "The method gets ready.", run=False, step=False, stop=True, reset=False, edit=False
+    ),
+    "running": RunState(
+        "Pause", "pause", "Hold after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
+    ),
+    "paused": RunState("Resume", "play", "Go on with the run.", run=True, step=True, stop=True, reset=True, edit=False),
+    "finished": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=True, edit=True),
+}
+# The one button that this panel is for.
+_MAIN_BUTTON = f"""
+QPushButton {{ background: {BLUE}; color: {FIELD}; border: 1px solid {BLUE}; border-radius: 3px; padding: 4px 6px; }}
+QPushButton:hover {{ background: #0a84c9; }}
+QPushButton:pressed {{ background: #005a8e; }}
+QPushButton:focus {{ border: 2px solid {TEXT}; padding: 3px 5px; outline: none; }}
+QPushButton:disabled {{ background: #e6e9ee; color: {FAINT}; border-color: {LINE}; }}
+"""
+_HELP = {
+    "step": "Make one iteration, and hold.",
+    "stop": "End the run after this iteration and keep what has been reached.",
+    "reset": "Put all nodes back to where they were when the mesh was opened.",
+}
+
+
+class RunButtons(QWidget):
+    """A row of buttons of one width, of which the first runs, pauses or resumes as the state has it.
+
+    Signals
+    -------
+    pressed(name)
+        "run", "step", "stop" or "reset".
+    """
+
+    pressed = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._state = "idle"
+        self._shortcuts: dict[str, str] = {}
+        self._buttons = {
+            "run": QPushButton(),
+            "step": QPushButton(icon("skip-next"), "Step"),
+            "stop": QPushButton(icon("stop"), "Stop"),
+            "reset": QPushButton(icon("restore"), "Reset"),
+        }
+        self._buttons["run"].setStyleSheet(_MAIN_BUTTON)
+        row = QGridLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(6)
+        for column, (name, button) in enumerate(self._buttons.items()):
+            # Equal widths, so that nothing moves under the pointer as Run becomes Pause.
+            row.setColumnStretch(column, 1)
+            button.setMinimumWidth(0)
+            button.clicked.connect(lambda _=False, name=name: self.pressed.emit(name))
+            row.addWidget(button, 0, column)
+        self.set_state("idle", True)
+
+    def set_state(self, state: str, available: bool) -> None:
+        """Enable what a state of `STATES` offers, or nothing where there is nothing to run."""
+        self._state = state
+        offer = STATES[state]
+        self._buttons["run"].setText(offer.text)
+        self._buttons["run"].setIcon(icon(offer.icon, FIELD))
+        for name, button in self._buttons.items():
+            button.setEnabled(available and getattr(offer, name))
+        self._explain()
+
+    def set_shortcuts(self, shortcuts: Mapping[str, str]) -> None:
+        """Name keys in the tooltips, by button."""
+        self._shortcuts = dict(shortcuts)
+        self._explain()
+
+    def button(self, name: str) -> QPushButton:
+        """A button by the name that `pressed` gives."""
+        return self._buttons[name]
+
+    def _explain(self) -> None:
+        for name, button in self._buttons.items():
+            help = STATES[self._state].help if name == "run" else _HELP[name]
+            keys = f" ({self._shortcuts[name]})" if name in self._shortcuts else ""
+            explain(button, button.text(), f"{help}{keys}")

@@ -1,0 +1,204 @@
+"""The panel from which smoothing is started and held: method, parameters, stop conditions, buttons, status."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from html import escape
+from typing import Any
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFormLayout,
+    QLabel,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from hexmend.parameters import Parameter
+from hexmend_app.widgets.parameter_form import ParameterForm
+from hexmend_app.widgets.run_buttons import STATES, RunButtons
+from hexmend_app.widgets.section import Section
+from hexmend_app.widgets.style import MUTED, WORSE, explain, note, tabular, tint
+from hexmend_app.widgets.wording import counted
+
+
+class SmoothingPanel(QWidget):
+    """Chooses a method and its values, and asks for it to be run.
+
+    Signals
+    -------
+    run_requested(name, values, stop_values), step_requested(name, values, stop_values)
+        str, dict, dict; not sent while a value is wrong.
+    pause_requested, resume_requested, stop_requested, reset_requested
+    method_changed(name)
+        The user chose another method.
+    """
+
+    run_requested = Signal(str, dict, dict)
+    step_requested = Signal(str, dict, dict)
+    pause_requested = Signal()
+    resume_requested = Signal()
+    stop_requested = Signal()
+    reset_requested = Signal()
+    method_changed = Signal(str)
+
+    def __init__(self, stop_conditions: Iterable[Parameter] = (), parent: QWidget | None = None):
+        super().__init__(parent)
+        self._methods: dict[str, tuple] = {}
+        self._edited: dict[str, dict[str, Any]] = {}  # what was set for each method, to find it again on return
+        self._name = ""
+        self._state = "idle"
+        self._placed = False
+
+        self._method = QComboBox()
+        self._method.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self._method.setMinimumContentsLength(14)
+        self._method.activated.connect(self._on_method)
+        explain(self._method, "Method", "How nodes are moved; the line below says what the chosen method does.")
+        choice = QFormLayout()
+        choice.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        choice.addRow("Method", self._method)
+        self._help = note()
+
+        self.form = ParameterForm()
+        self.stop_form = ParameterForm(stop_conditions)
+        self._sections = (
+            Section("Parameters", self.form, "How the method goes about it; the defaults suit most meshes."),
+            Section("Stop when", self.stop_form, "When a run ends by itself."),
+        )
+        self.buttons = RunButtons()
+        self.buttons.pressed.connect(self._on_button)
+
+        self._progress = QLabel()
+        self._progress.setFont(tabular(self._progress.font()))
+        self._progress.setAccessibleName("Progress")
+        self._sentence = note()
+        self._sentence.setAccessibleName("Outcome")
+
+        layout = QVBoxLayout(self)
+        layout.addLayout(choice)
+        layout.addWidget(self._help)
+        layout.addWidget(self.buttons)
+        layout.addWidget(self._progress)
+        layout.addWidget(self._sentence)
+        for section in self._sections:
+            layout.addWidget(section)
+        layout.addStretch()
+        self.set_state("idle")
+        self.set_status()
+
+    def set_methods(self, methods: Iterable[tuple[str, str, str, str, Iterable[Parameter]]]) -> None:
+        """Offer methods, each (name, title, help, source, declared parameters), and choose the first."""
+        self._methods = {method[0]: method for method in methods}
+        self._method.clear()
+        for at, (name, title, help, source, _) in enumerate(self._methods.values()):
+            self._method.addItem(title, name)
+            tip = f"<qt><b>{escape(title)}</b> ({escape(name)})<br>{escape(help)}<br><i>{escape(source)}</i></qt>"
+            self._method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
+        self._edited.clear()
+        self._name = ""
+        if self._methods:
+            self.set_method(next(iter(self._methods)))
+        self.set_state(self._state)
+
+    def set_method(self, name: str, values: Mapping[str, Any] | None = None) -> None:
+        """Show a method, with what was last set for it or with `values`; without a signal.
+
+        Raises
+        ------
+        KeyError
+            Where the method is not offered.
+        """
+        _, _, help, source, declarations = self._methods[name]
+        if self._name:
+            self._edited[self._name] = self.form.values()
+        self._name = name
+        self._method.setCurrentIndex(self._method.findData(name))
+        self._help.setText(f"{help}\nSource: {source}" if source else help)
+        self.form.set_declarations(declarations)
+        self.form.set_values(self._edited.get(name, {}) | dict(values or {}))
+
+    def method(self) -> str:
+        """Name of the method shown, "" where none is."""
+        return self._name
+
+    def set_state(self, state: str) -> None:
+        """Enable what makes sense in a state: "idle", "preparing", "running", "paused" or "finished"."""
+        self._state = state
+        some = bool(self._methods)
+        self.buttons.set_state(state, some)
+        for part in (self._method, self.form, self.stop_form):
+            part.setEnabled(some and STATES[state].edit)
+
+    def set_shortcuts(self, shortcuts: Mapping[str, str]) -> None:
+        """Name the keys of "run", "step", "stop" and "reset" in the tooltips; whoever owns the actions binds them."""
+        self.buttons.set_shortcuts(shortcuts)
+
+    def set_status(self, iteration: int | None = None, seconds: float | None = None, sentence: str = "") -> None:
+        """Show how far a run is (seconds in the method) and, at its end, the outcome."""
+        parts = [] if iteration is None else [counted(iteration, "iteration")]
+        if seconds is not None:
+            parts.append(f"{seconds:.2f} s")
+        self._progress.setText("  ·  ".join(parts) or "Not run yet")
+        tint(self._sentence, MUTED)
+        self._sentence.setText(sentence)
+        self._sentence.setVisible(bool(sentence))
+
+    def run_or_pause(self) -> None:
+        """What the main button does: run, pause or resume, as the state has it."""
+        if self._state == "running":
+            self.pause_requested.emit()
+        elif self._state == "paused":
+            self.resume_requested.emit()
+        elif self._state != "preparing":
+            self._request(self.run_requested)
+
+    def step(self) -> None:
+        """Ask for one iteration, where the state allows it."""
+        if STATES[self._state].step:
+            self._request(self.step_requested)
+
+    def _on_button(self, name: str) -> None:
+        {
+            "run": self.run_or_pause,
+            "step": self.step,
+            "stop": self.stop_requested.emit,
+            "reset": self.reset_requested.emit,
+        }[name]()
+
+    def _request(self, signal: Any) -> None:
+        if not self._methods:
+            return
+        for form, section in zip((self.form, self.stop_form), self._sections, strict=True):
+            if form.problems():
+                section.expand()
+                form.show_problem()
+                tint(self._sentence, WORSE)
+                self._sentence.setText("Not started: correct the marked value first.")
+                self._sentence.setVisible(True)
+                return
+        signal.emit(self._name, self.form.values(), self.stop_form.values())
+
+    def _on_method(self) -> None:
+        name = self._method.currentData()
+        if name != self._name:
+            self.set_method(name)
+            self.method_changed.emit(name)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Unfold the parameters at first sight where there is room for them."""
+        super().showEvent(event)
+        if self._placed:
+            return
+        self._placed = True
+        around = self.parentWidget()
+        while around is not None and not isinstance(around, QScrollArea):
+            around = around.parentWidget()
+        room = around.viewport().height() if around is not None else self.height()
+        for section, form in zip(self._sections, (self.form, self.stop_form), strict=True):
+            room_left = room - self.sizeHint().height()
+            if form.sizeHint().height() + 12 <= room_left:
+                section.expand()

@@ -1,0 +1,222 @@
+"""The table of a mesh's figures, at the start and now."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from PySide6.QtCore import QPoint, QSize, Qt
+from PySide6.QtGui import QAction, QBrush, QColor, QGuiApplication, QKeySequence, QPalette
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHeaderView,
+    QMenu,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, icon, tabular
+from hexmend_app.widgets.wording import figure
+
+
+@dataclass(frozen=True)
+class Row:
+    """A figure: attribute of the summary, title, what it means, and which way is better (+1 up, -1 down, 0 neither)."""
+
+    key: str
+    title: str
+    help: str
+    better: int = 0
+
+
+ROWS = (
+    Row("hexes", "Hexes", "Number of hexahedral elements."),
+    Row("nodes", "Nodes", "Number of nodes that an element uses."),
+    Row(
+        "free_nodes",
+        "Free nodes",
+        "Nodes that smoothing may move; the others, such as those of the surface, are fixed.",
+    ),
+    Row(
+        "inverted",
+        "Inverted",
+        "Elements turned inside out at a corner: one of their eight corner tetrahedra has a determinant σ ≤ 0 (2.8). "
+        "A solver cannot use them.",
+        -1,
+    ),
+    Row(
+        "locked_inverted",
+        "– of these locked",
+        "Inverted elements with a corner tetrahedron of σ ≤ 0 whose four nodes are all fixed. No method that keeps "
+        "those nodes can mend them.",
+        -1,
+    ),
+    Row(
+        "q_min",
+        "q min",
+        "Quality of the worst element. q(H) is the mean over the eight corner tetrahedra of 3 σ^⅔ / |S|², and 0 for "
+        "those with σ ≤ 0 (2.9, 2.10): 1 for a cube, 0 for a flat element.",
+        1,
+    ),
+    Row("q_mean", "q mean", "Mean quality over all elements (2.11).", 1),
+    Row(
+        "q_norm",
+        "q norm",
+        "1 / √(mean of 1/q²) (2.12): a mean in which bad elements count most; 0 as soon as one q is 0.",
+        1,
+    ),
+    Row("q_std", "q std", "Standard deviation of the elements' quality: how widely it spreads."),
+    Row(
+        "scaled_jacobian_min",
+        "Scaled Jacobian min",
+        "The least σ / (|e₁| |e₂| |e₃|) over all corners: 1 for right angles, 0 for a flat corner, negative for an "
+        "inverted one. Other programs print it.",
+        1,
+    ),
+    Row(
+        "objective",
+        "Objective",
+        "Sum of η(H)² over all elements, what smoothing minimises (3.3): 0 for cubes, infinite, shown as –, while any "
+        "element is inverted.",
+        -1,
+    ),
+)
+_COLUMNS = ("", "start", "now", "change")
+_START, _NOW, _CHANGE = 1, 2, 3
+
+
+def change(row: Row, start: float | None, now: float | None) -> tuple[str, int]:
+    """Text of a change and whether it is for the better (1), for the worse (-1) or neither (0).
+
+    >>> change(ROWS[3], 36, 0)
+    ('▼ 36', 1)
+    """
+    if start is None or now is None:
+        if start is now:
+            return "", 0
+        return ("now finite", 1) if start is None else ("now infinite", -1)
+    moved = now - start
+    if moved == 0 or not math.isfinite(moved):
+        return "=", 0
+    size = figure(abs(moved))
+    if isinstance(moved, float) and float(size.replace(",", "")) == 0:
+        size = "<0.0001"
+    return f"{'▲' if moved > 0 else '▼'} {size}", row.better * (1 if moved > 0 else -1)
+
+
+class StatisticsTable(QWidget):
+    """Figures at the start and now, and how they changed; Ctrl+C copies them for a spreadsheet."""
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._summaries: tuple[Any, Any] = (None, None)
+        self._table = table = QTableWidget(len(ROWS), len(_COLUMNS))
+        table.setHorizontalHeaderLabels(_COLUMNS)
+        table.setAccessibleName("Statistics of the mesh")
+        table.setFont(tabular(table.font()))
+        table.setShowGrid(False)
+        table.setFrameShape(QTableWidget.Shape.NoFrame)
+        palette = table.palette()
+        palette.setColor(QPalette.ColorRole.Base, palette.color(QPalette.ColorRole.Window))
+        table.setPalette(palette)
+        table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        table.setTabKeyNavigation(False)  # Tab leaves the table; arrow keys walk in it
+        table.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        table.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        table.customContextMenuRequested.connect(self._open_menu)
+        table.verticalHeader().hide()
+        table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
+        self._fill()
+        self._shape_columns()
+        self._copy = QAction(icon("content-copy"), "Copy table", self)
+        self._copy.setShortcut(QKeySequence.StandardKey.Copy)
+        self._copy.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+        self._copy.triggered.connect(self.copy)
+        self.addAction(self._copy)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.addWidget(table)
+        height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
+        table.setFixedHeight(height)
+
+    def _fill(self) -> None:
+        right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        for at, row in enumerate(ROWS):
+            for column in range(len(_COLUMNS)):
+                item = QTableWidgetItem(row.title if column == 0 else "")
+                item.setToolTip(f"<qt><b>{row.title.removeprefix('– ')}</b><br>{row.help}</qt>")
+                if column:
+                    item.setTextAlignment(right)
+                self._table.setItem(at, column, item)
+        for column in range(len(_COLUMNS)):
+            head = self._table.horizontalHeaderItem(column)
+            head.setTextAlignment(right if column else Qt.AlignmentFlag.AlignLeft)
+            head.setForeground(QBrush(QColor(MUTED)))
+
+    def _shape_columns(self) -> None:
+        header = self._table.horizontalHeader()
+        header.setHighlightSections(False)
+        header.setSectionsClickable(False)
+        header.setMinimumSectionSize(20)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        header.setStyleSheet(
+            f"QHeaderView::section {{ background: {PANEL}; padding: 2px 4px;"
+            f" border: none; border-bottom: 1px solid {LINE}; }}"
+        )
+        # Widths that hold still while figures change.
+        for column in (_START, _NOW, _CHANGE):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
+            widest = "now infinite" if column == _CHANGE else "0,000,000"
+            header.resizeSection(column, self._table.fontMetrics().horizontalAdvance(widest) + 7)
+
+    def set_summaries(self, start: Any, now: Any) -> None:
+        """Take two summaries, as `hexmend.quality.summarise` gives them; None for both clears the table."""
+        self._summaries = (start, now)
+        for at, row in enumerate(ROWS):
+            was, is_ = (None if summary is None else getattr(summary, row.key) for summary in (start, now))
+            shown = start is not None and now is not None
+            text, sense = change(row, was, is_) if shown else ("", 0)
+            self._table.item(at, _START).setText(figure(was) if start is not None else "")
+            self._table.item(at, _NOW).setText(figure(is_) if now is not None else "")
+            item = self._table.item(at, _CHANGE)
+            item.setText(text)
+            item.setForeground(QBrush(QColor({1: BETTER, -1: WORSE, 0: MUTED}[sense])))
+            word = {1: "better", -1: "worse", 0: ""}[sense]
+            item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{text} {word}".strip())
+        self._mark_inverted(now)
+
+    def _mark_inverted(self, now: Any) -> None:
+        item = self._table.item([row.key for row in ROWS].index("inverted"), _NOW)
+        font = item.font()
+        font.setBold(now is not None and now.inverted > 0)
+        item.setFont(font)
+        item.setForeground(QBrush(QColor(WORSE if now is not None and now.inverted > 0 else TEXT)))
+
+    def text(self) -> str:
+        """The table as tab-separated text with full precision and a line of titles; an infinite figure is empty."""
+        lines = ["figure\tstart\tnow"]
+        for row in ROWS:
+            cells = (None if summary is None else getattr(summary, row.key) for summary in self._summaries)
+            lines.append("\t".join([row.title.removeprefix("– "), *("" if c is None else str(c) for c in cells)]))
+        return "\n".join(lines) + "\n"
+
+    def copy(self) -> None:
+        """Copy the table to the clipboard."""
+        QGuiApplication.clipboard().setText(self.text())
+
+    def _open_menu(self, at: QPoint) -> None:
+        menu = QMenu(self)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu.addAction(self._copy)
+        menu.popup(self._table.viewport().mapToGlobal(at))
+
+    def sizeHint(self) -> QSize:
+        """All rows and the longest title, without scrolling."""
+        margins = self.layout().contentsMargins()
+        title = max(self._table.fontMetrics().horizontalAdvance(row.title) for row in ROWS) + 9
+        figures = sum(self._table.columnWidth(column) for column in (_START, _NOW, _CHANGE))
+        return QSize(title + figures, self._table.height()).grownBy(margins)

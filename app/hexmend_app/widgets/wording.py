@@ -1,0 +1,63 @@
+"""Numbers and names as the widgets write them."""
+
+from __future__ import annotations
+
+import math
+import re
+
+_GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
+_SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def name_in_words(name: str) -> str:
+    """A declared name as a label.
+
+    >>> name_in_words("first_step"), name_in_words("c1"), name_in_words("delta"), name_in_words("p")
+    ('First step', 'c₁', 'Delta (δ)', 'p')
+    """
+    if re.fullmatch(r"[a-z]\d*", name):
+        return name.translate(_SUBSCRIPT)
+    words = name.replace("_", " ").replace("-", " ").strip()
+    words = words[:1].upper() + words[1:]
+    return f"{words} ({_GREEK[name]})" if name in _GREEK else words
+
+
+def short_number(value: float) -> str:
+    """The shortest text that reads back as `value`.
+
+    >>> short_number(1e-4), short_number(2.0), short_number(1e-07), short_number(300)
+    ('0.0001', '2', '1e-7', '300')
+    """
+    text = repr(value)
+    if text.endswith(".0"):
+        text = text[:-2]
+    mantissa, mark, exponent = text.partition("e")
+    return f"{mantissa.removesuffix('.0')}e{int(exponent)}" if mark else text
+
+
+def figure(value: float | None, decimals: int = 4) -> str:
+    """A figure for the eye: counts with separators, fractions with fixed decimals, large values with six digits.
+
+    >>> figure(32735), figure(0.5), figure(1325.2907), figure(None), figure(3.2e11)
+    ('32,735', '0.5000', '1,325.29', '–', '3.2e+11')
+    """
+    if value is None or not math.isfinite(value):
+        return "–"
+    if isinstance(value, int):
+        text = f"{value:,}"
+    elif abs(value) >= 1e8:
+        text = f"{value:.4g}"
+    elif abs(value) >= 10:
+        text = f"{value:,.{max(0, 5 - math.floor(math.log10(abs(value))))}f}"
+    else:
+        text = f"{value:.{decimals}f}"
+    return text.replace("-", "−")
+
+
+def counted(number: int, noun: str, plural: str = "") -> str:
+    """A number with its noun.
+
+    >>> counted(1, "element"), counted(1234, "element")
+    ('1 element', '1,234 elements')
+    """
+    return f"{number:,} {noun if number == 1 else plural or noun + 's'}"

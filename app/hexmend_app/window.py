@@ -1,0 +1,478 @@
+"""The window: state below, widgets around, and the lines between them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSettings, Qt, QTimer
+from PySide6.QtGui import QAction, QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
+from PySide6.QtWidgets import (
+    QDockWidget,
+    QFileDialog,
+    QLabel,
+    QMainWindow,
+    QMessageBox,
+    QProgressBar,
+    QScrollArea,
+    QToolBar,
+    QVBoxLayout,
+    QWidget,
+)
+
+from hexmend.errors import FileError, HexmendError
+from hexmend.io import readable_suffixes, writable_suffixes
+from hexmend.parameters import declared
+from hexmend.run import Stop
+from hexmend.smoothers import DEFAULT_METHOD
+from hexmend_app.actions import ACTIONS, ActionSpec
+from hexmend_app.commands import Commands, methods_offered
+from hexmend_app.resources import demo_mesh
+from hexmend_app.state.document import Document
+from hexmend_app.state.opener import Opener
+from hexmend_app.state.run import Frame, Phase, Smoothing
+from hexmend_app.state.view import View
+from hexmend_app.widgets.clip_panel import ClipPanel
+from hexmend_app.widgets.histogram import QualityHistogram
+from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.picture_dialog import PictureDialog
+from hexmend_app.widgets.section import Section
+from hexmend_app.widgets.smoothing_panel import SmoothingPanel
+from hexmend_app.widgets.statistics import StatisticsTable
+from hexmend_app.widgets.style import icon
+from hexmend_app.widgets.welcome import Welcome
+
+if TYPE_CHECKING:
+    from hexmend.optimise import Result
+    from hexmend_app.widgets.canvas import Canvas
+
+_COLUMN = 372
+
+
+class Window(QMainWindow):
+    """Hexmend's one window.
+
+    It is shown before what is slow to load: `build_canvas` adds the 3D view afterwards.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setWindowTitle("Hexmend")
+        self.setAcceptDrops(True)
+        self.document = Document(self)
+        self.view = View(self)
+        self.smoothing = Smoothing(self.document, self)
+        self.opener = Opener(self.document, self)
+        self.commands = Commands(self.document, self.view, self.smoothing, self.opener)
+        self.canvas: Canvas | None = None
+
+        self.messages = MessageBar()
+        self.welcome = Welcome()
+        self.histogram = QualityHistogram()
+        self.statistics = StatisticsTable()
+        self.smoothing_panel = SmoothingPanel(declared(Stop))
+        self.smoothing_panel.set_methods(methods_offered())
+        self.smoothing_panel.set_method(DEFAULT_METHOD)
+        self.clip_panel = ClipPanel()
+        self.progress = QProgressBar()
+        self.progress.setRange(0, 0)
+        self.progress.setFixedWidth(140)
+        self.progress.setTextVisible(False)
+        self.counts = QLabel()
+
+        self.actions_by_id: dict[str, QAction] = {}
+        self._lay_out()
+        self._make_actions()
+        self._connect()
+        self._restore()
+        self._enable()
+
+    # Layout
+
+    def _lay_out(self) -> None:
+        self._centre = QVBoxLayout()
+        self._centre.setContentsMargins(0, 0, 0, 0)
+        self._centre.setSpacing(0)
+        self._centre.addWidget(self.messages)
+        self._centre.addWidget(self.welcome, 1)
+        centre = QWidget()
+        centre.setLayout(self._centre)
+        self.setCentralWidget(centre)
+        self.setDockNestingEnabled(True)
+        self.setCorner(Qt.Corner.BottomRightCorner, Qt.DockWidgetArea.RightDockWidgetArea)
+
+        tools = QWidget()
+        column = QVBoxLayout(tools)
+        column.setContentsMargins(8, 6, 8, 6)
+        column.setSpacing(8)
+        statistics = Section("Quality", self.statistics, "Figures of the mesh at the start and now.")
+        statistics.expand()
+        for part in (self.smoothing_panel, self.clip_panel, statistics):
+            column.addWidget(part)
+        column.addStretch()
+        scroll = QScrollArea()
+        scroll.setWidget(tools)
+        scroll.setWidgetResizable(True)
+        scroll.setFrameShape(QScrollArea.Shape.NoFrame)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setMinimumWidth(_COLUMN)
+        self._dock("tools", "Smooth and inspect", scroll, Qt.DockWidgetArea.RightDockWidgetArea)
+        self._dock("histogram", "Distribution of quality", self.histogram, Qt.DockWidgetArea.BottomDockWidgetArea)
+        self.resizeDocks([self.findChild(QDockWidget, "histogram")], [260], Qt.Orientation.Vertical)
+        self.resizeDocks([self.findChild(QDockWidget, "tools")], [_COLUMN], Qt.Orientation.Horizontal)
+
+        self.statusBar().addWidget(self.counts, 1)
+        self.statusBar().addPermanentWidget(self.progress)
+        self.progress.hide()
+
+    def _dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> None:
+        dock = QDockWidget(title)
+        dock.setObjectName(name)
+        dock.setWidget(widget)
+        dock.setFeatures(
+            QDockWidget.DockWidgetFeature.DockWidgetMovable | QDockWidget.DockWidgetFeature.DockWidgetFloatable
+        )
+        self.addDockWidget(area, dock)
+
+    def _make_actions(self) -> None:
+        bar = QToolBar("Tools")
+        bar.setObjectName("toolbar")
+        bar.setMovable(False)
+        bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.addToolBar(bar)
+        menus = {}
+        for spec in ACTIONS:
+            if spec.menu not in menus:
+                menus[spec.menu] = self.menuBar().addMenu(spec.menu)
+                if bar.actions() and not bar.actions()[-1].isSeparator():
+                    bar.addSeparator()
+            action = self._make_action(spec)
+            if spec.separated:
+                menus[spec.menu].addSeparator()
+            menus[spec.menu].addAction(action)
+            if spec.tool:
+                bar.addAction(action)
+        self.actions_by_id["edges"].setChecked(self.view.look.edges)
+        named = {"run": "run", "step": "step", "stop": "stop", "reset": "reset"}
+        self.smoothing_panel.set_shortcuts(
+            {part: self.actions_by_id[id].shortcut().toString() for part, id in named.items()}
+        )
+
+    def _make_action(self, spec: ActionSpec) -> QAction:
+        action = QAction(spec.text, self)
+        if spec.icon:
+            action.setIcon(icon(spec.icon))
+        if spec.tool:
+            action.setIconText(spec.tool)
+        keys = f" ({spec.shortcut})" if spec.shortcut else ""
+        action.setShortcut(QKeySequence(spec.shortcut))
+        action.setToolTip(f"<qt>{spec.help}{keys}</qt>")
+        action.setStatusTip(spec.help)
+        action.setCheckable(spec.checkable)
+        handler = getattr(self, f"_on_{spec.id}")
+        (action.toggled if spec.checkable else action.triggered).connect(handler)
+        self.actions_by_id[spec.id] = action
+        return action
+
+    def build_canvas(self) -> None:
+        """Load what draws in 3D and put it where the welcome is; slow the first time."""
+        from hexmend_app.widgets.canvas import Canvas
+
+        self.canvas = Canvas()
+        self._centre.addWidget(self.canvas, 1)
+        self.canvas.clip_dragged.connect(self.view.set_clip)
+        self.canvas.setVisible(self.document.is_open)
+        self.canvas.set_look(self.view.look, self.view.plane_shown)
+        if self.document.is_open:
+            self._on_mesh_replaced()
+
+    # Connections
+
+    def _connect(self) -> None:
+        self.document.mesh_replaced.connect(self._on_mesh_replaced)
+        self.document.points_moved.connect(self._on_points_moved)
+        self.document.changes_changed.connect(self._enable)
+        self.view.look_changed.connect(self._on_look_changed)
+        self.opener.began.connect(self._on_opening)
+        self.opener.ended.connect(self._on_opened)
+        self.opener.failed.connect(self._on_open_failed)
+        self.smoothing.phase_changed.connect(self._on_phase)
+        self.smoothing.iterated.connect(self._on_iterated)
+        self.smoothing.ended.connect(self._on_ended)
+        self.smoothing.failed.connect(self._on_failed)
+        self.histogram.range_changed.connect(lambda chosen: self.view.change(quality_range=chosen))
+        self.clip_panel.clip_changed.connect(self.view.set_clip)
+        self.clip_panel.plane_shown_changed.connect(self.view.set_plane_shown)
+        self.smoothing_panel.run_requested.connect(self.commands.run)
+        self.smoothing_panel.step_requested.connect(self.commands.step)
+        self.smoothing_panel.pause_requested.connect(self.smoothing.pause)
+        self.smoothing_panel.resume_requested.connect(self.smoothing.resume)
+        self.smoothing_panel.stop_requested.connect(self.smoothing.stop)
+        self.smoothing_panel.reset_requested.connect(self.commands.reset)
+        self.welcome.open_requested.connect(self._on_open)
+        self.welcome.demo_requested.connect(self._on_open_demo)
+
+    # What the state tells
+
+    def _on_mesh_replaced(self) -> None:
+        start, now = self.document.start, self.document.now
+        self.welcome.setVisible(self.canvas is None)
+        self.view.change(clip=None, quality_range=None)
+        low, high = now.mesh.points.min(axis=0), now.mesh.points.max(axis=0)
+        self.clip_panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
+        self.histogram.set_initial(start.figures.q, start.figures.inverted)
+        self.smoothing_panel.set_state("idle")
+        self.smoothing_panel.set_status()
+        if self.canvas is not None:
+            self.canvas.show()
+            self.canvas.set_mesh(now.mesh, now.figures)
+        self._show_figures()
+
+    def _on_points_moved(self) -> None:
+        if self.canvas is not None:
+            self.canvas.set_points(self.document.now.mesh.points, self.document.now.figures)
+        self._show_figures()
+
+    def _show_figures(self) -> None:
+        start, now = self.document.start, self.document.now
+        self.histogram.set_current(now.figures.q, now.figures.inverted)
+        self.statistics.set_summaries(start.summary, now.summary)
+        inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
+        self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
+
+    def _on_look_changed(self) -> None:
+        look = self.view.look
+        self.clip_panel.set_clip(look.clip)
+        self.clip_panel.set_plane_shown(self.view.plane_shown)
+        self.histogram.set_range(look.quality_range)
+        for id, on in (("edges", look.edges), ("clip", look.clip is not None)):
+            self.actions_by_id[id].setChecked(on)
+        if self.canvas is not None:
+            self.canvas.set_look(look, self.view.plane_shown)
+
+    def _on_opening(self, path: Path) -> None:
+        self.progress.show()
+        self.statusBar().showMessage(f"Reading {path.name}…")
+
+    def _on_opened(self, path: Path) -> None:
+        self.progress.hide()
+        self.statusBar().clearMessage()
+        self.messages.clear()
+        if path != demo_mesh():
+            QSettings().setValue("folder", str(path.resolve().parent))
+
+    def _on_open_failed(self, path: Path, error: Exception) -> None:
+        self.progress.hide()
+        self.statusBar().clearMessage()
+        detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
+        stays = f" {self.document.name} stays open." if self.document.is_open else ""
+        self.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{stays}")
+
+    def _on_phase(self) -> None:
+        phase = self.smoothing.phase
+        self.smoothing_panel.set_state(phase.value)
+        self.progress.setVisible(phase in (Phase.PREPARING, Phase.RUNNING))
+        if phase is Phase.PREPARING:
+            self.smoothing_panel.set_status(
+                sentence="Preparing the method. Its kernels are compiled the first time, which takes a few seconds."
+            )
+        self._enable()
+
+    def _on_iterated(self, frame: Frame) -> None:
+        self.smoothing_panel.set_status(frame.iteration.number, frame.iteration.seconds)
+
+    def _on_ended(self, result: Result) -> None:
+        self.smoothing_panel.set_status(result.iterations, result.seconds, result.message)
+
+    def _on_failed(self, error: Exception) -> None:
+        self.smoothing_panel.set_status()
+        self.messages.show_error("The method failed", f"{error}. The mesh is as it was before the run.")
+
+    def _enable(self) -> None:
+        busy, phase = self.smoothing.busy, self.smoothing.phase
+        for spec in ACTIONS:
+            self.actions_by_id[spec.id].setEnabled(self.document.is_open or not spec.needs_mesh)
+        undo, redo = (self.document.undo_title, self.document.redo_title) if self.document.is_open else (None, None)
+        for id, title, word in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
+            self.actions_by_id[id].setEnabled(title is not None and not busy)
+            self.actions_by_id[id].setText(f"{word} {title}" if title else word)
+            self.actions_by_id[id].setIconText(word.replace("&", ""))
+        self.actions_by_id["stop"].setEnabled(busy)
+        self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
+        self.smoothing_panel.setEnabled(self.document.is_open)
+        self.clip_panel.setEnabled(self.document.is_open)
+        self.histogram.setEnabled(self.document.is_open)
+        self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
+        self.setWindowModified(self.document.modified)
+
+    # What the user asks for
+
+    def open(self, path: str | Path) -> None:
+        """Open a mesh, after what is unsaved was kept or given up."""
+        if self._may_leave():
+            self.smoothing.end_now()
+            self.commands.open(path)
+
+    def _on_open(self) -> None:
+        kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
+        folder = str(QSettings().value("folder", ""))
+        path, _ = QFileDialog.getOpenFileName(
+            self, "Open a mesh", folder, f"Hexahedral meshes ({kinds});;All files (*)"
+        )
+        if path:
+            self.open(path)
+
+    def _on_open_demo(self) -> None:
+        self.open(demo_mesh())
+
+    def _on_save(self) -> bool:
+        kinds = ";;".join(f"{suffix[1:].upper()} mesh (*{suffix})" for suffix in writable_suffixes())
+        stem = self.document.path.stem if self.document.path else "mesh"
+        folder = Path(str(QSettings().value("folder", "")))
+        proposal = str(folder / f"{stem}-smoothed.vtu")
+        path, _ = QFileDialog.getSaveFileName(self, "Save the mesh as", proposal, kinds, "VTU mesh (*.vtu)")
+        return bool(path) and self.save(path)
+
+    def save(self, path: str | Path) -> bool:
+        """Write the mesh; say so, or say why not."""
+        try:
+            self.commands.save(path)
+        except HexmendError as error:
+            self.messages.show_error("The mesh was not saved", str(error))
+            return False
+        self.messages.show_info(f"Saved to {path}")
+        return True
+
+    def _on_screenshot(self) -> None:
+        dialog = PictureDialog(self.canvas.size() * self.devicePixelRatioF(), f"{self.document.path.stem}.png", self)
+        if dialog.exec():
+            self.save_picture(dialog.path(), dialog.picture_size(), dialog.transparent())
+
+    def save_picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
+        """Write the view as PNG of `size` pixels; say so, or say why not."""
+        try:
+            self.canvas.save_picture(Path(path), size, transparent)
+        except HexmendError as error:
+            self.messages.show_error("The picture was not saved", str(error))
+            return False
+        self.messages.show_info(f"Picture of {size[0]} × {size[1]} pixels saved to {path}")
+        return True
+
+    def _on_quit(self) -> None:
+        self.close()
+
+    def _on_undo(self) -> None:
+        self.commands.undo()
+
+    def _on_redo(self) -> None:
+        self.commands.redo()
+
+    def _on_run(self) -> None:
+        self.smoothing_panel.run_or_pause()
+
+    def _on_step(self) -> None:
+        self.smoothing_panel.step()
+
+    def _on_stop(self) -> None:
+        self.smoothing.stop()
+
+    def _on_reset(self) -> None:
+        self.commands.reset()
+
+    def _on_fit(self) -> None:
+        self.canvas.fit()
+
+    def _look_along(self, direction: str) -> None:
+        self.canvas.look_along(direction)
+
+    def _on_view_iso(self) -> None:
+        self._look_along("iso")
+
+    def _on_view_x(self) -> None:
+        self._look_along("+x")
+
+    def _on_view_y(self) -> None:
+        self._look_along("+y")
+
+    def _on_view_z(self) -> None:
+        self._look_along("+z")
+
+    def _on_parallel(self, on: bool) -> None:
+        self.canvas.set_parallel(on)
+
+    def _on_edges(self, on: bool) -> None:
+        self.view.change(edges=on)
+
+    def _on_clip(self, on: bool) -> None:
+        if on != (self.view.look.clip is not None):
+            self.view.set_clip(self.clip_panel.plane() if on else None)
+
+    def _on_about(self) -> None:
+        from hexmend import __version__
+
+        QMessageBox.about(
+            self,
+            "About Hexmend",
+            f"<b>Hexmend {__version__}</b><p>See a hexahedral mesh, and mend it while you watch.</p>"
+            "<p>Its mathematics is T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
+            "Meshes</i>. BSD 3-clause licence.</p>",
+        )
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take one file that is dragged in."""
+        if _dropped(event):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open the file that is dropped."""
+        path = _dropped(event)
+        if path:
+            event.acceptProposedAction()
+            QTimer.singleShot(0, lambda: self.open(path))
+
+    # Coming and going
+
+    def _may_leave(self) -> bool:
+        """Whether what is unsaved was saved or may be lost."""
+        if not self.document.modified and not self.smoothing.busy:
+            return True
+        buttons = QMessageBox.StandardButton
+        box = QMessageBox(self)
+        box.setIcon(QMessageBox.Icon.Question)
+        box.setText(f"{self.document.name} has been smoothed and not saved.")
+        box.setInformativeText("Save the smoothed mesh before it is closed?")
+        box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
+        box.setDefaultButton(buttons.Save)
+        answer = box.exec()
+        if answer == buttons.Save:
+            self.smoothing.end_now()
+            return self._on_save()
+        return answer == buttons.Discard
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """End the threads and the 3D view before the window goes."""
+        if not self._may_leave():
+            event.ignore()
+            return
+        self.smoothing.shut_down()
+        self.opener.shut_down()
+        settings = QSettings()
+        settings.setValue("geometry", self.saveGeometry())
+        settings.setValue("layout", self.saveState())
+        if self.canvas is not None:
+            self.canvas.close()
+        event.accept()
+
+    def _restore(self) -> None:
+        settings = QSettings()
+        self.resize(1440, 900)
+        if settings.contains("geometry"):
+            self.restoreGeometry(settings.value("geometry"))
+        if settings.contains("layout"):
+            self.restoreState(settings.value("layout"))
+
+
+def _dropped(event: QDropEvent) -> str:
+    """The one local file of a drag, or ""."""
+    urls = event.mimeData().urls()
+    return urls[0].toLocalFile() if len(urls) == 1 else ""

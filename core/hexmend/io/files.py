@@ -1,0 +1,139 @@
+"""Reading and writing by suffix: the one door through which every format is used."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from hexmend.errors import FileError, MeshError
+from hexmend.io.atomic import replacing
+from hexmend.io.format import FORMATS, Format
+from hexmend.mesh import Mesh
+
+
+def read(path: str | os.PathLike[str]) -> Mesh:
+    """Read a hexahedral mesh.
+
+    Parameters
+    ----------
+    path : path-like
+        A file with one of `readable_suffixes()`.
+
+    Returns
+    -------
+    Mesh
+        Named after the file's stem. Node and hex order, data, sets, pins and cells of lower dimension are kept.
+
+    Raises
+    ------
+    FileError
+        For every reason why the file gives no mesh: it names the place in the file and what to do.
+    """
+    path = Path(path)
+    _check_readable(path)
+    format = _by_suffix(path, "read")
+    try:
+        return format.read(path).replace(name=path.stem)
+    except MeshError as error:
+        raise FileError(
+            path, str(error), "Correct the file, or write it again with the program that made it."
+        ) from None
+    except MemoryError:
+        raise FileError(
+            path, "needs more memory than there is", "Close other programs or use a larger machine."
+        ) from None
+    except OSError as error:
+        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
+
+
+def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = None) -> None:
+    """Write a mesh as a whole or, where that fails, leave what was there.
+
+    Parameters
+    ----------
+    path : path-like
+        Its suffix chooses the format: one of `writable_suffixes()`.
+    mesh : Mesh
+    encoding : str, optional
+        One of the format's `encodings`; the first of them if None.
+
+    Raises
+    ------
+    FileError
+        Where the place cannot be written to, or the format cannot hold the mesh.
+    """
+    path = Path(path)
+    format = _by_suffix(path, "write")
+    encoding = format.encodings[0] if encoding is None else encoding
+    if encoding not in format.encodings:
+        raise FileError(
+            path, f"{format.title} has no encoding {encoding!r}", f"Use one of {', '.join(format.encodings)}."
+        )
+    with replacing(path) as temporary:
+        try:
+            format.write(temporary, mesh, encoding)
+        except FileError as error:  # which names the temporary file
+            raise FileError(path, error.problem, error.remedy) from None
+
+
+def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str], Mesh], None]:
+    """`write`, once it is known that the path's suffix can be written; so that a long run does not end in an error.
+
+    Raises
+    ------
+    FileError
+        For an unknown suffix, or a folder that does not exist.
+    """
+    path = Path(path)
+    _by_suffix(path, "write")
+    if not path.absolute().parent.is_dir():
+        raise FileError(
+            path, f"cannot be written: there is no folder {path.parent}", "Make the folder or choose another."
+        )
+    return write
+
+
+def readable_suffixes() -> tuple[str, ...]:
+    """Suffixes of the files that `read` understands, with the dot."""
+    return tuple(suffix for format in FORMATS.values() for suffix in format.suffixes)
+
+
+def writable_suffixes() -> tuple[str, ...]:
+    """Suffixes of the files that `write` makes, with the dot."""
+    return readable_suffixes()
+
+
+def _by_suffix(path: Path, verb: str) -> Format:
+    for format in FORMATS.values():
+        if path.suffix.lower() in format.suffixes:
+            return format
+    known = ", ".join(f"{suffix} ({format.title})" for format in FORMATS.values() for suffix in format.suffixes)
+    problem = f"the suffix {path.suffix!r} is unknown" if path.suffix else "the name has no suffix"
+    raise FileError(path, problem, f"Hexmend can {verb} {known}.")
+
+
+def _check_readable(path: Path) -> None:
+    try:
+        if path.is_dir():
+            raise FileError(path, "is a folder: expected a mesh file", "Name a file in it.")
+        if not path.exists():
+            raise FileError(path, f"there is no such file in {path.absolute().parent}", _nearest(path))
+        if not path.is_file():
+            raise FileError(path, "is no regular file", "Save it to a file first.")
+        if path.stat().st_size == 0:
+            raise FileError(path, "is empty", "Write it again with the program that made it.")
+    except (OSError, ValueError) as error:  # a folder that may not be entered, a name that no file can have
+        raise FileError(path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    if not os.access(path, os.R_OK):
+        raise FileError(path, "cannot be read: permission denied", "Ask for permission to read it, or copy it.")
+
+
+def _nearest(path: Path) -> str:
+    """A hint at a file of a similar name, as a sentence."""
+    try:
+        near = difflib.get_close_matches(path.name, (one.name for one in path.absolute().parent.iterdir()), n=1)
+    except OSError:
+        near = []
+    return f"Did you mean {near[0]}?" if near else "Check the spelling."

@@ -1,0 +1,201 @@
+"""A file's content with a place in it: takes words, lines and numbers off its front and knows where it stands."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+
+_NUMERIC = re.compile(rb"[\s0-9.eE+\-]*")
+_NOT_FINITE = re.compile(rb"(?:nan|inf(?:inity)?)(?=\s|$)", re.IGNORECASE)
+_WORD = re.compile(rb"\S+")
+_SPACE = re.compile(rb"\s*")
+_KEYWORD = re.compile(rb"[A-Za-z_]{2,}\Z")
+
+_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
+
+
+class Source:
+    """The bytes of a file and the place that was reached.
+
+    Parameters
+    ----------
+    path : Path
+        The file; errors name it.
+    data : bytes
+        Its content.
+    text : bool
+        Whether the numbers are written in decimals, so that errors name lines; else they name bytes.
+    """
+
+    def __init__(self, path: Path, data: bytes, text: bool = True):
+        self.path = path
+        self.data = data
+        self.text = text
+        self.pos = 0
+
+    def error(self, problem: str, remedy: str = _DAMAGED) -> FileError:
+        """The error to raise."""
+        return FileError(self.path, problem, remedy)
+
+    def place(self, pos: int) -> str:
+        """A byte's place in words."""
+        return f"line {self.data.count(b'\n', 0, pos) + 1}" if self.text else f"byte {pos}"
+
+    @property
+    def here(self) -> str:
+        """The place that was reached, in words."""
+        return self.place(self.pos)
+
+    @property
+    def ended(self) -> bool:
+        """Whether nothing but white space is left."""
+        return _SPACE.match(self.data, self.pos).end() == len(self.data)
+
+    def raw_line(self) -> str:
+        """The rest of the line, without white space at its ends; empty for a blank one."""
+        end = self.data.find(b"\n", self.pos)
+        end = len(self.data) if end < 0 else end
+        line, self.pos = self.data[self.pos : end], min(end + 1, len(self.data))
+        return line.decode("utf-8", errors="replace").strip()
+
+    def line(self) -> str:
+        """The next line that is not blank; empty at the end."""
+        self.pos = _SPACE.match(self.data, self.pos).end()
+        return self.raw_line()
+
+    def word(self) -> str:
+        """The next word; empty at the end."""
+        found = _WORD.search(self.data, self.pos)
+        self.pos = found.end() if found else len(self.data)
+        return found.group().decode("utf-8", errors="replace") if found else ""
+
+    def whole(self, word: str, what: str) -> int:
+        """The natural number that a word of a heading stands for."""
+        if not (word.isascii() and word.isdigit() and len(word) < 19):
+            raise self.error(f"{what} is {shown(word)} before {self.here}: expected a natural number")
+        return int(word)
+
+    def decimals(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> np.ndarray:
+        """Take rows * width numbers written in decimals.
+
+        Parameters
+        ----------
+        section : str
+            What the numbers are, for errors.
+        rows, width : int
+        dtype : float64, int64 or uint64
+
+        Returns
+        -------
+        (rows, width) array
+        """
+        count = rows * width
+        if count == 0:
+            return np.empty((rows, width), dtype)
+        start, end = self.pos, self._numeric_end()
+        text = self.data[start:end]
+        values, found = _parsed(text, dtype), _count_words(text)
+        if values is None or values.size != found or found < count:
+            end = self._checked_end(section, rows, width, dtype)
+            values = _parsed(self.data[start:end], dtype)
+        elif found > count:  # the name of the next array begins with digits
+            end = start + len(text.rsplit(None, found - count)[0])
+        self.pos = end
+        return values[:count].reshape(rows, width)
+
+    def binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
+        """Take rows * width numbers as they lie in the file: a (rows, width) view of the file's byte order."""
+        dtype = np.dtype(dtype)
+        size = rows * width * dtype.itemsize
+        left = len(self.data) - self.pos
+        if size > left:
+            have = left // max(1, width * dtype.itemsize)
+            raise self.error(f"{section} ends after {have} of {rows} rows: the file ends at byte {len(self.data)}")
+        values = np.frombuffer(self.data, dtype, rows * width, self.pos)
+        self.pos += size
+        return values.reshape(rows, width)
+
+    def take(self, size: int, what: str) -> bytes:
+        """Take bytes as they are."""
+        if size > len(self.data) - self.pos:
+            raise self.error(f"{what} needs {size} bytes at byte {self.pos}: the file ends at byte {len(self.data)}")
+        self.pos += size
+        return self.data[self.pos - size : self.pos]
+
+    def place_of_number(self, start: int, index: int) -> str:
+        """The place of the number `index` (from 0) after the byte `start`."""
+        for k, word in enumerate(_WORD.finditer(self.data, start)):
+            if k == index:
+                return self.place(word.start())
+        return self.place(len(self.data))
+
+    def _numeric_end(self) -> int:
+        """Where the numbers from here on end: before the next word that holds a letter."""
+        end = self.pos
+        while True:
+            end = _NUMERIC.match(self.data, end).end()
+            special = _NOT_FINITE.match(self.data, end)
+            if special is None:
+                break
+            end = special.end()
+        if end < len(self.data):
+            while end > self.pos and not self.data[end - 1 : end].isspace():
+                end -= 1  # a word such as 2nd has begun as a number
+        return end
+
+    def _checked_end(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> int:
+        """Walk number by number: the end of the last one, or an error that names the first that is none."""
+        kind = float if np.dtype(dtype).kind == "f" else int
+        k, end = 0, self.pos
+        for found in _WORD.finditer(self.data, self.pos):
+            if k == rows * width:
+                return end
+            word = found.group()
+            try:
+                if b"_" in word:  # which Python admits
+                    raise ValueError
+                kind(word)
+            except ValueError:
+                where, what = self.place(found.start()), shown(word.decode("utf-8", errors="replace"))
+                if _KEYWORD.match(word):
+                    raise self.error(
+                        f"{section} ends after {k // width} of {rows} rows: {where} goes on with {what}"
+                    ) from None
+                number = "a number" if kind is float else "a whole number"
+                raise self.error(
+                    f"{section} holds {what} in row {k // width + 1} of {rows} ({where}): expected {number}"
+                ) from None
+            k, end = k + 1, found.end()
+        if k == rows * width:
+            return end
+        raise self.error(
+            f"{section} ends after {k // width} of {rows} rows: the file ends at {self.place(len(self.data))}"
+        )
+
+
+def shown(word: str) -> str:
+    """A word of the file for a message: quoted, printable and short."""
+    word = "".join(c if c.isprintable() else "?" for c in word[:25])
+    return repr(word[:20] + "..." if len(word) > 20 else word) if word else "missing"
+
+
+def _parsed(text: bytes, dtype: np.dtype | type) -> np.ndarray | None:
+    """The numbers of a text, or None where it holds something else."""
+    try:
+        return np.fromstring(text, dtype=dtype, sep=" ")
+    except (ValueError, DeprecationWarning):  # NumPy before 2.3 only warns and gives fewer numbers than words
+        return None
+
+
+def _count_words(text: bytes) -> int:
+    """Number of words; a loop over 16 MB at a time keeps the memory small."""
+    total, before = 0, True
+    for start in range(0, len(text), 1 << 24):
+        space = np.frombuffer(text, np.uint8, min(1 << 24, len(text) - start), start) <= 32
+        total += int(before and not space[0]) + int(np.count_nonzero(space[:-1] & ~space[1:]))
+        before = bool(space[-1])
+    return total

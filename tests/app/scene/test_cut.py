@@ -1,0 +1,50 @@
+"""The smooth cut against areas known by formula."""
+
+import numpy as np
+import pytest
+
+from hexmend_app.scene import cut
+from hexmend_app.scene.skin import Skin
+from hexmend_app.scene.surface import quads
+from hexmend_app.state.look import ClipPlane
+from tests.core.grids import grid
+
+MESH = grid(4, 3, 2)
+COLOURS = np.arange(24 * 3, dtype=np.uint8).reshape(24, 3)
+
+
+@pytest.mark.parametrize(
+    ("normal", "origin", "area", "cells"),
+    [((1, 0, 0), (1.5, 0, 0), 6, 6), ((0, 1, 0), (0, 0.25, 0), 8, 8), ((0, 0, -1), (0, 0, 1.5), 12, 12), ((1, 1, 0), (1, 0.5, 0), 3 * 2**0.5, None)],
+)  # fmt: skip
+def test_the_section_has_the_area_of_the_cut(normal, origin, area, cells):
+    got = cut.section(MESH.points, MESH.hexes, None, ClipPlane(normal, origin, False), COLOURS)
+    assert got.area == pytest.approx(area, rel=1e-6)
+    assert cells is None or got.n_cells == cells
+
+
+def test_each_polygon_has_the_colour_of_its_hex():
+    got = cut.section(MESH.points, MESH.hexes, None, ClipPlane((1, 0, 0), (1.5, 0, 0), False), COLOURS)
+    centres = got.cell_centers().points
+    for centre, colour in zip(centres, got.cell_data["colours"], strict=True):
+        h = int(centre[0]) + 4 * int(centre[1]) + 12 * int(centre[2])
+        assert colour.tolist() == COLOURS[h].tolist()
+
+
+def test_hidden_elements_are_not_cut():
+    keep = np.zeros(24, dtype=bool)
+    keep[1] = True
+    got = cut.section(MESH.points, MESH.hexes, keep, ClipPlane((1, 0, 0), (1.5, 0, 0), False), COLOURS)
+    assert got.area == pytest.approx(1)
+
+
+def test_a_plane_beside_the_mesh_cuts_nothing():
+    assert cut.section(MESH.points, MESH.hexes, None, ClipPlane((1, 0, 0), (9, 0, 0), False), COLOURS).n_cells == 0
+
+
+def test_behind_the_plane_is_the_rest_of_the_skin():
+    faces = Skin(MESH).visible()
+    skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes])
+    rest = cut.behind(skin, ClipPlane((1, 0, 0), (1.5, 0, 0), False))
+    assert rest.area == pytest.approx(6 + 2 * 1.5 * 3 + 2 * 1.5 * 2)
+    assert rest.bounds[1] == pytest.approx(1.5)

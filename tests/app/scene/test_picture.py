@@ -1,0 +1,101 @@
+"""Pictures without a window: what is shown, hidden and coloured, seen in the pixels."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from hexmend.io import write
+from hexmend.quality import measure
+from hexmend_app.scene.colours import INVERTED
+from hexmend_app.state.look import ClipPlane, Look
+from tests.core.grids import grid, scrambled
+
+
+@pytest.fixture(scope="module")
+def pictures(tmp_path_factory):
+    """Pictures of one mesh under several looks, drawn in a process that has no display."""
+    folder = tmp_path_factory.mktemp("pictures")
+    mesh = scrambled(grid(5), 0.7)
+    write(folder / "mesh.vtu", mesh)
+    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+
+    def draw(*words):
+        path = folder / ("-".join(word.strip("-") or "none" for word in words).replace(":", "_") + ".png")
+        done = subprocess.run(
+            [sys.executable, "-m", "hexmend", "render", folder / "mesh.vtu", "-o", path, "--size", "320x240", *words],
+            env=environment, capture_output=True, text=True,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        assert done.stderr == ""
+        return np.asarray(Image.open(path).convert("RGB")).astype(int)
+
+    return draw
+
+
+def ink(image):
+    """Share of the view, colour bar left out, that is not background."""
+    view = image[: int(image.shape[0] * 0.85), 60:]
+    return np.mean(view.max(axis=2) - view.min(axis=2) > 40)
+
+
+def test_the_command_draws_at_the_size_asked_for(pictures):
+    whole = pictures("--view", "iso")
+    assert whole.shape == (240, 320, 3)
+    assert ink(whole) > 0.15
+
+
+def test_a_plane_hides_half(pictures):
+    whole = ink(pictures("--view", "+z"))
+    for cut in ("--crinkle", "--smooth"):
+        half = ink(pictures("--view", "+z", "--clip", "x:0.4", cut))
+        assert 0.25 * whole < half < 0.65 * whole
+
+
+def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
+    inside = pictures("--view", "+z", "--clip", "z:0.5", "--smooth")[:200]
+    assert (np.abs(inside - INVERTED).sum(axis=2) < 90).sum() > 50
+
+
+def test_a_quality_range_hides_the_others(pictures):
+    assert ink(pictures("--quality-range", "0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--clip", "w"], "--clip 'w' cannot be used"),
+        (["--clip", "0,0,0"], "a normal that is not zero"),
+        (["--size", "big"], "as in 1600x1000"),
+        (["--metric", "beauty"], "there is no metric 'beauty'"),
+        (["--colour-map", "jet"], "one of viridis"),
+        (["--view", "up"], "3 numbers separated by commas"),
+    ],
+)
+def test_wrong_words_are_said(words, message, tmp_path, capsys):
+    from hexmend.cli.main import main
+
+    write(tmp_path / "mesh.vtu", grid(2))
+    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "out.png"), *words]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_planes_are_named_by_axis_or_normal_and_position():
+    from hexmend_app.cli.render import plane
+
+    mesh = grid(4)
+    assert plane("x:0.25", mesh, crinkle=True, flip=False) == ClipPlane((1, 0, 0), (1, 0, 0))
+    assert plane("z", mesh, crinkle=False, flip=True) == ClipPlane((0, 0, -1), (0, 0, 2), False)
+    slanted = plane("1,1,0:0.5", mesh, crinkle=True, flip=False)
+    assert slanted.signed_distance(np.array([[2.0, 2.0, 0.0]]))[0] == pytest.approx(0)
+
+
+def test_looks_are_values():
+    figures = measure(grid(2).points, grid(2).hexes)
+    assert figures.n_inverted == 0
+    assert Look() == Look()
+    with pytest.raises(ValueError, match="expected a direction"):
+        ClipPlane((0, 0, 0))

@@ -1,0 +1,52 @@
+"""The skin against brute force, and as a closed surface that faces outwards."""
+
+from collections import Counter
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.hexahedron import FACES
+from hexmend_app.scene.skin import Skin
+from tests.core.grids import grid
+
+SIZES = st.tuples(*[st.integers(1, 4)] * 3)
+
+
+def visible_faces(mesh, keep):
+    faces = Skin(mesh).visible(keep)
+    return faces, faces.nodes[faces.quads]
+
+
+@given(SIZES)
+def test_all_kept_is_the_boundary(size):
+    mesh = grid(*size)
+    _, quads = visible_faces(mesh, None)
+    boundary = {frozenset(face) for face in mesh.topology.boundary_faces.tolist()}
+    assert {frozenset(quad) for quad in quads.tolist()} == boundary
+    assert len(quads) == len(boundary)
+
+
+@given(SIZES, st.integers(0, 2**32 - 1))
+def test_any_mask_leaves_a_closed_surface_that_faces_outwards(size, seed):
+    mesh = grid(*size)
+    keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.5
+    faces, quads = visible_faces(mesh, keep)
+    expected = Counter()
+    for h in np.flatnonzero(keep):
+        expected.update(frozenset(face) for face in mesh.hexes[h][FACES].tolist())
+    assert {frozenset(quad) for quad in quads.tolist()} == {face for face, times in expected.items() if times == 1}
+    edges = Counter(frozenset((quad[k], quad[k - 1])) for quad in quads.tolist() for k in range(4))
+    assert all(times % 2 == 0 for times in edges.values())
+    x = mesh.points[quads]
+    normals = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    outwards = x.mean(axis=1) - mesh.points[mesh.hexes[faces.hexes]].mean(axis=1)
+    assert (np.einsum("ij,ij->i", normals, outwards) > 0).all()
+    assert keep[faces.hexes].all()
+    assert sorted(faces.nodes.tolist()) == sorted(set(quads.ravel().tolist()))
+
+
+def test_nothing_kept_is_nothing_seen():
+    mesh = grid(2)
+    faces, _ = visible_faces(mesh, np.zeros(8, dtype=bool))
+    assert len(faces.quads) == len(faces.nodes) == 0

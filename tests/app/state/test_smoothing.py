@@ -1,0 +1,134 @@
+"""Runs in the worker thread, without a window."""
+
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend.optimise import Step
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import Smoother
+from hexmend.smoothers.local_sd import LocalSteepestDescent
+from hexmend_app.state.document import Document, State
+from hexmend_app.state.run import Phase, Smoothing
+from hexmend_app.state.worker import Mailbox
+from tests.core.grids import grid, scrambled
+
+SLOW = Stop(tolerance=0, max_iterations=100_000)
+
+
+class Failing(Smoother):
+    """Raises in its second step."""
+
+    name, title, help, source = "failing", "Failing", "Fails.", "test"
+
+    def steps(self, mesh):
+        yield Step(mesh.points)
+        yield Step(mesh.points + 0.01 * mesh.free[:, None])
+        raise ZeroDivisionError("one over nothing")
+
+
+@pytest.fixture
+def document(qtbot):
+    document = Document()
+    document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
+    return document
+
+
+@pytest.fixture
+def smoothing(document):
+    smoothing = Smoothing(document)
+    yield smoothing
+    smoothing.shut_down()
+
+
+def threads():
+    return [thread for thread in threading.enumerate() if thread.name.startswith("smoother")]
+
+
+def phase_is(smoothing, phase):
+    return lambda: smoothing.phase is phase
+
+
+def test_a_run_ends_where_the_command_line_ends(document, smoothing, qtbot):
+    expected = smooth(document.now.mesh, LocalSteepestDescent())
+    with qtbot.waitSignal(smoothing.ended, timeout=30000) as ended:
+        smoothing.start(LocalSteepestDescent(), Stop())
+    (result,) = ended.args
+    assert result.outcome is expected.outcome
+    assert result.iterations == expected.iterations
+    np.testing.assert_array_equal(document.now.mesh.points, expected.mesh.points)
+    assert document.undo_title == "Local steepest descent"
+    assert smoothing.phase is Phase.FINISHED
+    document.undo()
+    assert document.now is document.start
+
+
+def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtbot):
+    seen = []
+    smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
+    smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=30000)
+    for count in (2, 3):
+        smoothing.step()
+        qtbot.waitUntil(lambda count=count: seen[-1:] == [count], timeout=5000)
+    qtbot.wait(120)
+    assert seen == [1, 2, 3]
+    smoothing.resume()
+    qtbot.waitUntil(lambda: seen[-1] > 6, timeout=5000)
+    smoothing.pause()
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=5000)
+    qtbot.wait(80)
+    held = seen[-1]
+    qtbot.wait(150)
+    assert seen[-1] == held
+    assert seen == sorted(set(seen))
+
+
+def test_stop_keeps_what_was_reached(document, smoothing, qtbot):
+    smoothing.start(LocalSteepestDescent(), SLOW)
+    qtbot.waitUntil(phase_is(smoothing, Phase.RUNNING), timeout=30000)
+    with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
+        smoothing.stop()
+    (result,) = ended.args
+    assert result.outcome.name == "STOPPED"
+    np.testing.assert_array_equal(document.now.mesh.points, result.mesh.points)
+
+
+def test_stop_ends_a_paused_run(document, smoothing, qtbot):
+    smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=30000)
+    with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
+        smoothing.stop()
+    assert ended.args[0].iterations == 1
+
+
+@pytest.mark.parametrize("iterations", [1, float("inf")])
+def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
+    smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
+    qtbot.wait(50)
+    worker = smoothing._worker
+    smoothing.shut_down()
+    assert worker.isFinished()
+    assert not smoothing.busy
+    assert threads() == []
+
+
+def test_a_method_that_raises_leaves_the_document_as_it_was(document, smoothing, qtbot):
+    before = document.now
+    with qtbot.waitSignal(smoothing.failed, timeout=30000) as failed:
+        smoothing.start(Failing(), SLOW)
+    assert isinstance(failed.args[0], ZeroDivisionError)
+    assert document.now is before
+    assert document.undo_title is None
+    assert smoothing.phase is Phase.IDLE
+
+
+def test_a_mailbox_holds_the_newest_only():
+    box = Mailbox()
+    assert box.take() is None
+    box.put("one")
+    box.put("two")
+    assert box.take() == "two"
+    assert box.take() is None

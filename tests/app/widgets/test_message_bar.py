@@ -1,0 +1,112 @@
+"""Messages queue up, are counted, copied and dismissed."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLineEdit, QVBoxLayout, QWidget
+
+from hexmend_app.widgets.message_bar import MessageBar
+
+_LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def window(shown):
+    widget = QWidget()
+    layout = QVBoxLayout(widget)
+    widget.bar, widget.field = MessageBar(), QLineEdit()
+    layout.addWidget(widget.bar)
+    layout.addWidget(widget.field)
+    layout.addStretch()
+    return shown(widget, 420, 300)
+
+
+@pytest.fixture
+def bar(window):
+    return window.bar
+
+
+def test_it_is_hidden_until_there_is_something_to_say(bar):
+    assert not bar.isVisible()
+    bar.show_error("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
+    assert bar.isVisible()
+    assert (bar._title.text(), bar._text.text()) == ("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
+
+
+def test_a_second_error_waits_behind_the_first(bar):
+    bar.show_error("first")
+    bar.show_error("second")
+    assert bar._title.text() == "first"
+    assert bar._next.text().startswith("1 of 2")
+    QTest.mouseClick(bar._next, _LEFT)
+    assert bar._title.text() == "second"
+    QTest.mouseClick(bar._dismiss, _LEFT)
+    assert bar._title.text() == "first"
+    assert not bar._next.isVisible()
+    QTest.mouseClick(bar._dismiss, _LEFT)
+    assert not bar.isVisible()
+
+
+def test_escape_dismisses_wherever_the_focus_is_and_only_while_there_is_a_message(window, bar):
+    bar.show_warning("careful")
+    window.field.setFocus()
+    QTest.keyClick(window.field, Qt.Key.Key_Escape)
+    assert not bar.isVisible()
+    assert not bar._escape.isEnabled()
+
+
+def test_a_repeated_message_is_counted(bar):
+    for _ in range(1000):
+        bar.show_error("The view cannot be drawn", "Traceback")
+    assert len(bar.messages()) == 1
+    assert "1000" in bar._title.text()
+
+
+def test_many_messages_keep_the_first_and_the_newest(bar):
+    for k in range(500):
+        bar.show_error(f"error {k}")
+    titles = [title for _, title, _ in bar.messages()]
+    assert titles[0] == bar._title.text() == "error 0"
+    assert titles[-1] == "error 499"
+    assert len(titles) < 200
+
+
+def test_information_goes_by_itself_and_errors_stay(bar, qtbot):
+    bar.show_info("Saved.", timeout_ms=30)
+    qtbot.waitUntil(lambda: not bar.isVisible())
+    bar.show_error("stays")
+    QTest.qWait(60)
+    assert bar.isVisible()
+
+
+def test_an_error_comes_before_information(bar):
+    bar.show_info("Saved.", timeout_ms=0)
+    bar.show_error("broken")
+    assert bar._title.text() == "broken"
+    bar.show_info("Saved again.")
+    assert bar._title.text() == "broken"
+    assert ("info", "Saved.", "") in bar.messages()
+
+
+def test_copy_takes_all_of_a_long_message(bar):
+    text = "line\n" * 400
+    bar.show_error("long", text)
+    assert len(bar._text.text()) < len(text)
+    QTest.mouseClick(bar._copy, _LEFT)
+    assert QGuiApplication.clipboard().text() == f"long\n{text}"
+
+
+def test_markup_in_a_message_is_shown_as_it_is(bar):
+    bar.show_error("<b>a</b>", "vector<int>")
+    assert bar._title.textFormat() == bar._text.textFormat() == Qt.TextFormat.PlainText
+
+
+def test_the_end_of_all_messages_is_announced_once(bar, qtbot):
+    ends = []
+    bar.emptied.connect(lambda: ends.append(1))
+    bar.show_error("a")
+    bar.show_error("b")
+    bar.clear()
+    bar.dismiss()
+    assert ends == [1]

@@ -1,0 +1,30 @@
+"""Texts of numbers and names."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend_app.widgets.wording import figure, name_in_words, short_number
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_a_short_number_reads_back_as_the_same_value(value):
+    assert float(short_number(value)) == value
+
+
+@given(st.floats(min_value=-1e15, max_value=1e15))
+def test_a_figure_is_close_to_its_value_and_fits_its_column(value):
+    text = figure(value)
+    assert float(text.replace(",", "").replace("−", "-")) == pytest.approx(value, rel=1e-3, abs=5.1e-5)
+    assert len(text) <= 14
+
+
+@given(st.from_regex(r"[a-z]+(_[a-z]+)*", fullmatch=True))
+def test_a_name_in_words_has_no_underscores_and_keeps_its_letters(name):
+    words = name_in_words(name)
+    assert "_" not in words
+    assert words.lower().startswith(name.replace("_", " "))
+
+
+def test_what_is_not_finite_is_a_dash():
+    assert figure(None) == figure(float("inf")) == figure(float("nan")) == "–"

@@ -1,0 +1,136 @@
+"""The command line: contracts, exit statuses, one clear line for what is wrong."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from hexmend import gallery, io
+from hexmend.cli.main import commands, main
+from hexmend.quality import summarise
+
+SUMMARY = [
+    "hexes", "nodes", "free_nodes", "inverted", "locked_inverted", "q_min", "q_mean", "q_max", "q_std", "q_norm",
+    "scaled_jacobian_min", "objective",
+]  # fmt: skip
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    path = tmp_path / "mesh.vtu"
+    io.write(path, gallery.make("cube", size=125, scramble=0.3))
+    return path
+
+
+def said(capsys):
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1
+    return lines[0]
+
+
+def test_info_prints_json_with_the_agreed_keys(mesh, capsys):
+    assert main(["info", str(mesh), "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    assert list(figures) == SUMMARY
+    assert figures == summarise(io.read(mesh)).to_dict()
+
+
+def test_info_prints_a_table(mesh, capsys):
+    assert main(["info", str(mesh)]) == 0
+    assert "Scaled Jacobian min" in capsys.readouterr().out
+
+
+def test_smooth_writes_mesh_report_and_history(mesh, tmp_path, capsys):
+    out, report, history = tmp_path / "out.vtu", tmp_path / "report.json", tmp_path / "history.csv"
+    words = ["smooth", mesh, "-o", out, "--method", "local-sd", "--set", "p=3", "--json", report, "--history", history]
+    assert main([str(word) for word in words]) == 0
+    answer = json.loads(report.read_text())
+    assert list(answer["before"]) == SUMMARY
+    assert answer["parameters"]["p"] == 3
+    assert answer["after"] == summarise(io.read(out)).to_dict()
+    assert len(history.read_text().splitlines()) == 2 + answer["iterations"]
+    assert answer["message"] in capsys.readouterr().out
+
+
+def test_smooth_says_by_status_4_that_hexes_are_still_inverted(tmp_path):
+    tangled, out = tmp_path / "tangled.vtu", tmp_path / "out.vtu"
+    io.write(tangled, gallery.make("cube", size=125, scramble=2.0))
+    assert main(["smooth", str(tangled), "-o", str(out), "--method", "laplacian", "--max-iterations", "0"]) == 4
+    assert out.exists()
+
+
+def test_methods_as_json_follow_the_declarations(capsys):
+    assert main(["methods", "--json"]) == 0
+    methods = json.loads(capsys.readouterr().out)
+    assert {"laplacian", "smart-laplacian", "local-sd"} <= {one["name"] for one in methods}
+    for one in methods:
+        assert set(one) == {"name", "title", "help", "source", "parameters"}
+        for parameter in one["parameters"]:
+            assert set(parameter) == {"name", "default", "low", "high", "choices", "unit", "help"}
+
+
+def test_methods_and_gallery_list_for_people(capsys):
+    assert main(["methods"]) == 0
+    assert "local-sd: Local steepest descent" in capsys.readouterr().out
+    assert main(["gallery"]) == 0
+    assert "five-side" in capsys.readouterr().out
+
+
+def test_gallery_makes_a_mesh(tmp_path, capsys):
+    out = tmp_path / "five.mesh"
+    assert main(["gallery", "five-side", "--size", "7350", "-o", str(out)]) == 0
+    assert io.read(out).n_hexes == 7350
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            ["smooth", "{mesh}", "-o", "{out}", "--method", "lokal-sd"],
+            "there is no method 'lokal-sd': did you mean local-sd?",
+        ),
+        (["smooth", "{mesh}", "-o", "{out}", "--method", "local-sd", "--set", "q=1"], "local-sd has no parameter 'q'"),
+        (["smooth", "{mesh}", "-o", "{out}", "--set", "p"], "expected key=value"),
+        (["smooth", "{mesh}", "-o", "{out}", "--max-iterations", "-3"], "max_iterations = -3 is out of range"),
+        (["gallery", "five-sides", "-o", "{out}"], "did you mean five-side?"),
+        (["gallery", "five-side"], "expected -o MESH"),
+        (["smoothe"], "'smoothe' is neither a command nor a file"),
+    ],
+)
+def test_wrong_usage_is_status_2_and_one_line(words, message, mesh, tmp_path, capsys):
+    words = [word.format(mesh=mesh, out=tmp_path / "out.vtu") for word in words]
+    assert main(words) == 2
+    assert message in said(capsys)
+    assert not (tmp_path / "out.vtu").exists()
+
+
+def test_missing_arguments_are_status_2(capsys):
+    assert main(["info"]) == 2
+    assert main(["smooth", "x.vtu"]) == 2
+    assert "usage" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", [["info"], ["smooth", "-o", "out.vtu"]])
+def test_what_cannot_be_read_is_status_3_and_one_line(command, tmp_path, capsys):
+    assert main([command[0], str(tmp_path / "missing.vtk"), *command[1:]]) == 3
+    assert "missing.vtk" in said(capsys)
+
+
+def test_an_unwritable_target_is_said_before_the_work(mesh, tmp_path, capsys):
+    assert main(["smooth", str(mesh), "-o", str(tmp_path / "out.xyz")]) == 3
+    assert "out.xyz" in said(capsys)
+
+
+def test_help_lists_every_command(capsys):
+    assert main(["--help"]) == 0
+    text = capsys.readouterr().out
+    for name in commands():
+        assert name in text
+    assert main(["--version"]) == 0
+
+
+def test_the_program_runs_as_a_module(mesh):
+    done = subprocess.run([sys.executable, "-m", "hexmend", "info", mesh, "--json"], capture_output=True, text=True)
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["hexes"] == 125

@@ -1,0 +1,78 @@
+"""Declared parameters and registries."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from hexmend.errors import ParameterError
+from hexmend.parameters import Parametrised, declared, from_strings, parameter
+from hexmend.registry import Registry
+
+
+@dataclass(frozen=True)
+class Sample(Parametrised):
+    rho: float = parameter(0.5, low=0, high=1, unit="m", help="A share.")
+    count: int = parameter(3, low=1, help="A number.")
+    kind: str = parameter("a", choices=("a", "b"), help="A choice.")
+    strict: bool = parameter(False, help="A switch.")
+
+
+def test_declarations_are_read_off_the_class():
+    rho, count, kind, strict = declared(Sample)
+    assert (rho.name, rho.type, rho.default, rho.low, rho.high, rho.unit, rho.help) == (
+        "rho",
+        float,
+        0.5,
+        0,
+        1,
+        "m",
+        "A share.",
+    )
+    assert (count.type, kind.choices, strict.type) == (int, ("a", "b"), bool)
+    assert rho.to_json()["choices"] is None
+    assert kind.to_json()["choices"] == ["a", "b"]
+
+
+def test_values_come_from_words():
+    sample = from_strings(Sample, {"rho": "1e-1", "count": "4", "kind": "b", "strict": "yes"})
+    assert sample == Sample(rho=0.1, count=4, kind="b", strict=True)
+    assert sample.values() == {"rho": 0.1, "count": 4, "kind": "b", "strict": True}
+
+
+def test_numbers_take_their_declared_type():
+    assert isinstance(Sample(rho=1).rho, float)
+    assert Sample(count=4.0).count == 4
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ({"rho": "2"}, "rho = 2 is out of range: expected a number from 0 to 1"),
+        ({"rho": "nan"}, "rho = 'nan' is not a number"),
+        ({"rho": "much"}, "rho = 'much' is not a number: expected a number from 0 to 1"),
+        ({"count": "2.5"}, "count = '2.5' is not a whole number: expected a whole number of at least 1"),
+        ({"count": "0"}, "count = 0 is out of range"),
+        ({"kind": "c"}, "kind = 'c' is unknown: expected one of a, b"),
+        ({"strict": "maybe"}, "strict = 'maybe' is not a switch: expected true or false"),
+        ({"rh": "1"}, "sample has no parameter 'rh': did you mean rho?"),
+        ({"zzz": "1"}, "known: rho, count, kind, strict"),
+    ],
+)
+def test_what_is_not_admitted_is_said(words, message):
+    with pytest.raises(ParameterError) as error:
+        from_strings(Sample, words, owner="sample")
+    assert message in str(error.value)
+
+
+def test_a_registry_knows_its_entries_in_order():
+    registry = Registry("shape")
+    registry.add("b", 2)
+    registry.add("a", 1)
+    assert list(registry) == ["b", "a"]
+    assert len(registry) == 2
+    assert "a" in registry
+    assert "c" not in registry
+    with pytest.raises(ValueError, match="registered twice"):
+        registry.add("a", 3)
+    with pytest.raises(ParameterError, match="there is no shape 'c'"):
+        registry["c"]

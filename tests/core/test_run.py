@@ -1,0 +1,114 @@
+"""The loop: records, stop conditions, outcomes."""
+
+import math
+
+import numpy as np
+import pytest
+
+from hexmend.errors import ParameterError
+from hexmend.gallery import make
+from hexmend.optimise import Outcome
+from hexmend.report import HISTORY, record, to_json, write_history, write_json
+from hexmend.run import Stop, iterate, smooth
+from tests.core.grids import grid, scrambled
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return make("cube", size=125, scramble=0.5)
+
+
+def test_history_has_a_row_an_iteration_and_one_before(mesh):
+    result = smooth(mesh, "local-sd")
+    assert result.outcome is Outcome.CONVERGED
+    assert [row["iteration"] for row in result.history] == list(range(result.iterations + 1))
+    assert set(result.history[0]) == set(HISTORY)
+    assert result.history[0]["inverted"] == result.before.inverted > 0
+    assert result.history[0]["objective"] is None
+    assert result.history[-1]["objective"] == result.after.objective
+    assert result.history[-1]["largest_move"] < 1e-4 <= result.history[-2]["largest_move"]
+    seconds = [row["seconds"] for row in result.history]
+    assert seconds == sorted(seconds)
+    assert result.seconds == seconds[-1]
+    assert "Converged" in result.message
+    assert "no hex is inverted" in result.message
+
+
+@pytest.mark.parametrize("most", [0, 1, 4])
+def test_the_iteration_limit_is_kept(mesh, most):
+    result = smooth(mesh, "local-sd", Stop(max_iterations=most, tolerance=0))
+    assert result.iterations == most
+    assert result.outcome is Outcome.MAX_ITERATIONS
+
+
+def test_the_time_limit_ends_after_the_iteration_at_hand(mesh):
+    result = smooth(mesh, "laplacian", Stop(max_seconds=1e-9, tolerance=0))
+    assert result.iterations == 1
+    assert result.outcome is Outcome.MAX_SECONDS
+
+
+def test_a_mesh_with_nothing_free_is_said():
+    result = smooth(grid(1), "laplacian")
+    assert result.outcome is Outcome.NOTHING_FREE
+    assert result.iterations == 0
+
+
+def test_closing_early_keeps_what_was_reached(mesh):
+    run = iterate(mesh, "local-sd")
+    first = next(run)
+    run.close()
+    assert list(run) == []
+    result = run.result()
+    assert result.outcome is Outcome.STOPPED
+    assert result.iterations == 1
+    np.testing.assert_array_equal(result.mesh.points, first.points)
+
+
+def test_watching_can_end_the_run(mesh):
+    assert smooth(mesh, "local-sd", watch=lambda it: it.number < 3).iterations == 3
+
+
+def test_iterations_are_read_only_and_carry_their_figures(mesh):
+    for it in iterate(mesh, "laplacian", Stop(max_iterations=2)):
+        with pytest.raises(ValueError, match="read-only"):
+            it.points[0] = 0
+        assert it.figures.q.shape == (mesh.n_hexes,)
+        assert it.row()["q_min"] == it.figures.q.min()
+
+
+def test_largest_move_is_in_mean_edge_lengths():
+    small, large = scrambled(grid(3), 0.2), scrambled(grid(3), 0.2)
+    large = large.with_points(large.points * 1000)
+    moves = [next(iterate(m, "laplacian")).largest_move for m in (small, large)]
+    assert moves[0] == pytest.approx(moves[1])
+
+
+def test_the_result_carries_what_the_mesh_carried(mesh):
+    named = mesh.replace(name="mine", node_data={"id": np.arange(mesh.n_nodes)})
+    result = smooth(named, "laplacian", Stop(max_iterations=1))
+    assert result.mesh.name == "mine"
+    assert result.mesh.node_data is named.node_data
+
+
+def test_unknown_methods_and_wrong_limits_are_said(mesh):
+    with pytest.raises(ParameterError, match="did you mean laplacian"):
+        iterate(mesh, "laplacain")
+    with pytest.raises(ParameterError, match="tolerance = -1 is out of range"):
+        Stop(tolerance=-1)
+
+
+def test_reports_are_complete_and_strict(mesh, tmp_path):
+    result = smooth(mesh, "local-sd", Stop(max_iterations=3))
+    report = record(result)
+    assert set(report) == {
+        "method", "parameters", "outcome", "message", "iterations", "seconds", "setup_seconds", "before", "after", "history",
+    }  # fmt: skip
+    assert report["outcome"] == "max-iterations"
+    assert "NaN" not in to_json(report)
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        to_json({"q": math.inf})
+    write_json(tmp_path / "report.json", report)
+    write_history(tmp_path / "history.csv", result)
+    rows = (tmp_path / "history.csv").read_text().splitlines()
+    assert rows[0] == ",".join(HISTORY)
+    assert len(rows) == 1 + 4
