@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
     QMessageBox,
     QProgressBar,
     QScrollArea,
+    QStyle,
     QToolBar,
     QVBoxLayout,
     QWidget,
@@ -36,7 +37,6 @@ from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
-from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
 from hexmend_app.widgets.style import icon
@@ -45,8 +45,6 @@ from hexmend_app.widgets.welcome import Welcome
 if TYPE_CHECKING:
     from hexmend.optimise import Result
     from hexmend_app.widgets.canvas import Canvas
-
-_COLUMN = 372
 
 
 class Window(QMainWindow):
@@ -105,9 +103,7 @@ class Window(QMainWindow):
         column = QVBoxLayout(tools)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(8)
-        statistics = Section("Quality", self.statistics, "Figures of the mesh at the start and now.")
-        statistics.expand()
-        for part in (self.smoothing_panel, self.clip_panel, statistics):
+        for part in (self.smoothing_panel, self.clip_panel):
             column.addWidget(part)
         column.addStretch()
         scroll = QScrollArea()
@@ -115,17 +111,21 @@ class Window(QMainWindow):
         scroll.setWidgetResizable(True)
         scroll.setFrameShape(QScrollArea.Shape.NoFrame)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setMinimumWidth(_COLUMN)
-        self._dock("tools", "Smooth and inspect", scroll, Qt.DockWidgetArea.RightDockWidgetArea)
-        self._dock("histogram", "Distribution of quality", self.histogram, Qt.DockWidgetArea.BottomDockWidgetArea)
-        self.resizeDocks([self.findChild(QDockWidget, "histogram")], [260], Qt.Orientation.Vertical)
-        self.resizeDocks([self.findChild(QDockWidget, "tools")], [_COLUMN], Qt.Orientation.Horizontal)
+        bar = self.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
+        scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar)
+        areas = Qt.DockWidgetArea
+        self._dock("tools", "Smooth and cut", scroll, areas.RightDockWidgetArea)
+        histogram = self._dock("histogram", "Distribution of quality", self.histogram, areas.BottomDockWidgetArea)
+        quality = self._dock("quality", "Quality", self.statistics, areas.BottomDockWidgetArea)
+        self.splitDockWidget(histogram, quality, Qt.Orientation.Horizontal)
+        self.resizeDocks([histogram, quality], [620, 360], Qt.Orientation.Horizontal)
+        self.resizeDocks([histogram], [270], Qt.Orientation.Vertical)
 
         self.statusBar().addWidget(self.counts, 1)
         self.statusBar().addPermanentWidget(self.progress)
         self.progress.hide()
 
-    def _dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> None:
+    def _dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(title)
         dock.setObjectName(name)
         dock.setWidget(widget)
@@ -133,6 +133,7 @@ class Window(QMainWindow):
             QDockWidget.DockWidgetFeature.DockWidgetMovable | QDockWidget.DockWidgetFeature.DockWidgetFloatable
         )
         self.addDockWidget(area, dock)
+        return dock
 
     def _make_actions(self) -> None:
         bar = QToolBar("Tools")
@@ -258,7 +259,7 @@ class Window(QMainWindow):
         self.progress.hide()
         self.statusBar().clearMessage()
         self.messages.clear()
-        if path != demo_mesh():
+        if path.resolve() != demo_mesh().resolve():
             QSettings().setValue("folder", str(path.resolve().parent))
 
     def _on_open_failed(self, path: Path, error: Exception) -> None:

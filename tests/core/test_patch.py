@@ -37,7 +37,7 @@ def test_value_is_the_energy_of_the_attached_hexes(case):
     points[node] += y / scale
     attached = mesh.hexes[mesh.topology.node_corners[node] // 8]
     expected = (energies(points * scale, attached, delta) ** p).sum() ** (1 / p)
-    got = patch.value(table, rest, size, *y, delta, p, np.empty(4 * size))
+    got = patch.value(table, rest, size, *y, delta, p, np.empty((3, 4 * size)))
     assert got == pytest.approx(expected, rel=1e-9)
 
 
@@ -48,7 +48,7 @@ def test_gradient_is_that_of_central_differences(case):
     delta = 0.05 if soft else 0.0
     node = int(np.flatnonzero(mesh.free)[seed % 8])
     table, rest, size, _ = patch_of(mesh, node, delta)
-    eta = np.empty(4 * size)
+    eta = np.empty((3, 4 * size))
     f, *gradient = patch.value_and_gradient(table, rest, size, delta, p, eta)
     assert f == pytest.approx(patch.value(table, rest, size, 0.0, 0.0, 0.0, delta, p, eta))
     step = 1e-6
@@ -62,7 +62,7 @@ def test_gradient_is_that_of_central_differences(case):
 def test_a_perfect_patch_has_no_gradient():
     mesh = grid(2)
     table, rest, size, _ = patch_of(mesh, 13, 0.0)
-    f, *gradient = patch.value_and_gradient(table, rest, size, 0.0, 2.0, np.empty(4 * size))
+    f, *gradient = patch.value_and_gradient(table, rest, size, 0.0, 2.0, np.empty((3, 4 * size)))
     assert f == pytest.approx(0, abs=1e-12)
     assert gradient == pytest.approx([0, 0, 0], abs=1e-12)
 

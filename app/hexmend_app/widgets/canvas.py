@@ -58,14 +58,14 @@ class Canvas(QWidget):
 
     def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
         """Draw another mesh."""
-        self.viewport.set_mesh(mesh, figures.q, figures.inverted)
+        self.viewport.set_mesh(mesh, figures)
         self.plane.set_bounds(self.viewport.bounds)
         self._show_inverted(figures)
         self._changed()
 
     def set_points(self, points: np.ndarray, figures: ElementQuality) -> None:
         """Draw the same mesh with its nodes elsewhere."""
-        self.viewport.set_points(points, figures.q, figures.inverted)
+        self.viewport.set_points(points, figures)
         self._show_inverted(figures)
         self._changed()
 

@@ -116,6 +116,10 @@ class ClipPanel(QWidget):
         """The plane shown, or None while it is off."""
         return self._plane if self._on.isChecked() and self._bounds is not None else None
 
+    def plane(self) -> ClipPlane:
+        """The plane as it stands, or as it would be switched on."""
+        return self._plane
+
     def _direction(self) -> np.ndarray:
         """(3,) unit normal in the sense in which its largest component is positive: the slider's axis."""
         normal = np.array(self._plane.normal)

@@ -12,7 +12,7 @@ _CHUNK = 64
 
 
 @serial
-def back_line_search(table, rest, size, delta, p, eta, f, gx, gy, gz, first, shrink, c1, cuts):
+def back_line_search(table, rest, size, delta, p, lane, f, gx, gy, gz, first, shrink, c1, cuts):
     """Algorithm A.5 along p_k = -gradient.
 
     Returns
@@ -23,7 +23,7 @@ def back_line_search(table, rest, size, delta, p, eta, f, gx, gy, gz, first, shr
     slope = -(gx * gx + gy * gy + gz * gz)
     alpha = first
     for _ in range(cuts + 1):
-        trial = patch.value(table, rest, size, -alpha * gx, -alpha * gy, -alpha * gz, delta, p, eta)
+        trial = patch.value(table, rest, size, -alpha * gx, -alpha * gy, -alpha * gz, delta, p, lane)
         if trial < f + c1 * alpha * slope:
             return alpha
         alpha *= shrink
@@ -60,7 +60,7 @@ def steepest_descent_sweep(points, hexes, start, corners, groups, nodes, delta, 
         for chunk in numba.prange((count + _CHUNK - 1) // _CHUNK):
             x = np.empty((8, 3))
             table = np.empty((9, 4 * widest))
-            eta = np.empty(4 * widest)
+            lane = np.empty((3, 4 * widest))
             rest = np.empty(widest)
             for k in range(groups[g] + chunk * _CHUNK, min(groups[g + 1], groups[g] + (chunk + 1) * _CHUNK)):
                 i = nodes[k]
@@ -70,11 +70,11 @@ def steepest_descent_sweep(points, hexes, start, corners, groups, nodes, delta, 
                 if scale == 0:
                     continue
                 patch.tabulate(points, hexes, corners, begin, end, scale, delta, x, table, rest)
-                f, gx, gy, gz = patch.value_and_gradient(table, rest, size, delta, p, eta)
+                f, gx, gy, gz = patch.value_and_gradient(table, rest, size, delta, p, lane)
                 if gx == 0 and gy == 0 and gz == 0:
                     continue
                 alpha = back_line_search(
-                    table, rest, size, delta, p, eta, f, gx, gy, gz, first, shrink, c1, cuts
+                    table, rest, size, delta, p, lane, f, gx, gy, gz, first, shrink, c1, cuts
                 )  # fmt: skip
                 points[i, 0] -= alpha * gx / scale
                 points[i, 1] -= alpha * gy / scale

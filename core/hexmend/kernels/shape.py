@@ -7,10 +7,10 @@ import numpy as np
 from hexmend.kernels import serial
 
 #: 2^52 (1023 + 1023 * 2/3 - 0.0446): makes the bits of h^(-2/3), read as a float, right to 4 %.
-_MAGIC = 7678276173719137280
+MAGIC = 7678276173719137280
 
 #: Between these bounds h^2 q^3 neither overflows nor loses digits to underflow.
-_TINY, _HUGE = 1e-140, 1e140
+TINY, HUGE = 1e-140, 1e140
 
 
 @serial
@@ -35,10 +35,10 @@ def power_minus_two_thirds(h):
     """
     if not h > 0:
         return np.inf
-    if h < _TINY or h > _HUGE:
+    if h < TINY or h > HUGE:
         return h ** (-2.0 / 3.0)
     bits = np.float64(h).view(np.int64)
-    q = np.int64(_MAGIC - np.int64(bits * (2.0 / 3.0))).view(np.float64)
+    q = np.int64(MAGIC - np.int64(bits * (2.0 / 3.0))).view(np.float64)
     square = h * h
     for _ in range(4):
         q *= (4.0 - square * q * q * q) * (1.0 / 3.0)

@@ -1,0 +1,134 @@
+"""The viewer's part of the benchmark: milliseconds a frame, and how late the event loop is beside a running smoother."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from statistics import median
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from hexmend.errors import HexmendError
+from hexmend.gallery import make
+from hexmend.study.bench import Section
+
+if TYPE_CHECKING:
+    from hexmend.mesh import Mesh
+
+    from hexmend_app.window import Window
+
+_FRAMES = 40
+_SECONDS = 6.0
+_BEAT = 5  # milliseconds between two beats of the event loop
+
+
+def _measure() -> dict[str, Any]:
+    from hexmend_app.display import DisplayError, check_display
+
+    try:
+        check_display()
+    except DisplayError as error:
+        return {"skipped": str(error)}
+    from hexmend_app.program import application
+    from hexmend_app.window import Window
+
+    app = application()
+    rows = []
+    for mesh in (make("bridge-sharp"), make("five-side", size=110450)):
+        window = Window()
+        window.resize(1440, 900)
+        window.show()
+        window.build_canvas()
+        row = {"mesh": mesh.name, "hexes": mesh.n_hexes, "view": [window.canvas.width(), window.canvas.height()]}
+        _open(window, mesh)
+        row["frame_ms"] = {name: _frame(window, name) for name in ("whole", "crinkle", "smooth")}
+        row |= _while_running(window, app.processEvents)
+        window.document.saved(window.document.path)
+        window.close()
+        app.processEvents()
+        rows.append(row)
+    return {"meshes": rows}
+
+
+def _open(window: Window, mesh: Mesh) -> None:
+    from pathlib import Path
+
+    from hexmend_app.state.document import State
+
+    window.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
+
+
+def _frame(window: Window, cut: str) -> float:
+    """Median milliseconds from new points and qualities to the finished picture."""
+    from hexmend_app.state.document import State
+    from hexmend_app.state.look import ClipPlane
+
+    start = window.document.start
+    middle = tuple(start.mesh.points.mean(axis=0))
+    window.view.set_plane_shown(False)
+    window.view.set_clip(None if cut == "whole" else ClipPlane((1, 0, 0), middle, cut == "crinkle"))
+    shift = start.mesh.mean_edge_length * 0.05 * np.random.default_rng(0).normal(size=start.mesh.points.shape)
+    shift *= start.mesh.free[:, None]
+    states = [State.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]
+    canvas = window.canvas
+    canvas.interactor.render()
+    times = []
+    for k in range(_FRAMES):
+        state = states[k % 3]
+        began = perf_counter()
+        canvas.set_points(state.mesh.points, state.figures)
+        canvas.interactor.render()
+        times.append(perf_counter() - began)
+    return 1e3 * median(times)
+
+
+def _while_running(window: Window, process: Callable[[], None]) -> dict[str, Any]:
+    """Run local-sd in the window with a crinkle cut: frames a second, and how late timers fire."""
+    from hexmend.run import Stop
+    from hexmend.smoothers.local_sd import LocalSteepestDescent
+    from PySide6.QtCore import QTimer
+
+    window.document.preview(window.document.start)
+    window.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
+    while not window.smoothing.phase.value == "running":
+        process()
+    beats: list[float] = []
+    timer = QTimer()
+    timer.setInterval(_BEAT)
+    timer.timeout.connect(lambda: beats.append(perf_counter()))
+    frames: list[int] = []
+    window.smoothing.iterated.connect(lambda frame: frames.append(frame.iteration.number))
+    timer.start()
+    began = perf_counter()
+    while perf_counter() - began < _SECONDS:
+        process()
+    timer.stop()
+    window.smoothing.end_now()
+    late = np.maximum(np.diff(beats) * 1e3 - _BEAT, 0)
+    if not len(late):
+        raise HexmendError("the event loop did not turn while the smoother ran")
+    return {
+        "lateness_median_ms": float(np.median(late)),
+        "lateness_95_ms": float(np.percentile(late, 95)),
+        "iterations_shown_per_second": len(frames) / _SECONDS,
+        "iterations_per_second": (frames[-1] - frames[0]) / _SECONDS if frames else 0.0,
+    }
+
+
+def _lines(figures: dict[str, Any]) -> list[str]:
+    if "skipped" in figures:
+        return [f"left out: {figures['skipped']}"]
+    rows = []
+    for row in figures["meshes"]:
+        rows.append(f"{row['mesh']}, {row['hexes']:,} hexes, view of {row['view'][0]} × {row['view'][1]} pixels")
+        for name, ms in row["frame_ms"].items():
+            rows.append(f"  frame, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} a second)")
+        rows.append(
+            f"  beside local-sd: event loop late by {row['lateness_median_ms']:.1f} ms (median), "
+            f"{row['lateness_95_ms']:.1f} ms (95th percentile); {row['iterations_shown_per_second']:.1f} of "
+            f"{row['iterations_per_second']:.1f} iterations a second shown"
+        )
+    return rows
+
+
+section = Section("viewer", f"The viewer: frames with points and colours changing (median of {_FRAMES})", _measure, _lines)

@@ -1,0 +1,143 @@
+"""Measuring: sections that announce themselves, each a function from nothing to figures and lines to print."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.metadata import entry_points
+from statistics import median
+from typing import Any
+
+import numba
+
+from hexmend.gallery import make
+from hexmend.run import Stop, iterate
+from hexmend.smoothers import METHODS
+
+#: Seconds per iteration and node in the thesis's tables for BridgeSharp: 4.1 for local-sd; 4.3's heading for Laplacian.
+THESIS_SECONDS_PER_NODE = {"laplacian": 2.495e-06, "local-sd": 6.755e-04}
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the benchmark.
+
+    Parameters
+    ----------
+    name, title : str
+    measure : callable
+        Returns figures that JSON can hold.
+    lines : callable
+        The figures as lines to read.
+    """
+
+    name: str
+    title: str
+    measure: Callable[[], dict[str, Any]]
+    lines: Callable[[dict[str, Any]], list[str]]
+
+
+def sections() -> dict[str, Section]:
+    """Every section by name; the viewer's joins through the entry-point group `hexmend.benchmarks`."""
+    found = {section.name: section for section in (ITERATIONS, SCALING)}
+    for entry in entry_points(group="hexmend.benchmarks"):
+        try:
+            found[entry.name] = entry.load()
+        except ImportError:  # the viewer's libraries are not installed
+            continue
+    return found
+
+
+def machine() -> dict[str, Any]:
+    """What was measured on."""
+    return {
+        "processor": _processor(),
+        "cores": os.cpu_count(),
+        "threads": numba.get_num_threads(),
+        "system": platform.platform(),
+        "python": platform.python_version(),
+        "numba": numba.__version__,
+    }
+
+
+def _processor() -> str:
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            return next(line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or "unknown"
+
+
+def _iterations() -> dict[str, Any]:
+    mesh = make("bridge-sharp")
+    nodes = int(mesh.free.sum())
+    figures = {}
+    for name in METHODS:
+        run = iterate(mesh, name, Stop(max_iterations=9, tolerance=0))
+        at = [0.0, *(it.seconds for it in run)]
+        seconds = median(b - a for a, b in zip(at, at[1:], strict=False))
+        thesis = THESIS_SECONDS_PER_NODE.get(name)
+        figures[name] = {
+            "seconds": seconds,
+            "seconds_per_node": seconds / nodes,
+            "thesis_seconds_per_node": thesis,
+            "ratio": thesis / (seconds / nodes) if thesis else None,
+        }
+    return figures
+
+
+def _iteration_lines(figures: dict[str, Any]) -> list[str]:
+    rows = []
+    for name, row in figures.items():
+        against = f"   {row['ratio']:,.0f} x faster than the thesis's program" if row["ratio"] else ""
+        rows.append(f"{name:<18} {row['seconds'] * 1e3:8.1f} ms   {row['seconds_per_node'] * 1e9:8.0f} ns a node{against}")
+    return rows
+
+
+#: Each size is measured in a process of its own, so that its peak of memory is its own.
+_PROBE = """
+import json, resource, sys
+from time import perf_counter
+from hexmend.gallery import make
+from hexmend.quality import measure
+from hexmend.mesh import Mesh
+mesh = make("cube", size=27)
+mesh.topology.face_neighbours, mesh.topology.edges, mesh.topology.colouring(mesh.free)
+measure(mesh.points, mesh.hexes)
+mesh = make("cube", size=int(sys.argv[1]))
+mesh = Mesh(mesh.points, mesh.hexes)
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+began = perf_counter()
+mesh.topology.face_neighbours, mesh.topology.boundary, mesh.topology.edges, mesh.topology.colouring(mesh.free)
+topology = perf_counter() - began
+began = perf_counter()
+measure(mesh.points, mesh.hexes)
+quality = perf_counter() - began
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+print(json.dumps({"hexes": mesh.n_hexes, "topology_seconds": topology, "quality_seconds": quality, "peak_mb": peak / 1024}))
+"""
+
+
+def _scaling() -> dict[str, Any]:
+    rows = []
+    for size in (10_000, 100_000, 1_000_000):
+        done = subprocess.run([sys.executable, "-c", _PROBE, str(size)], capture_output=True, text=True, check=True)
+        rows.append(json.loads(done.stdout))
+    return {"sizes": rows}
+
+
+def _scaling_lines(figures: dict[str, Any]) -> list[str]:
+    return [
+        f"{row['hexes']:>9,} hexes   topology {row['topology_seconds']:6.2f} s   quality {row['quality_seconds'] * 1e3:7.1f} ms"
+        f"   peak {row['peak_mb']:6.0f} MB"
+        for row in figures["sizes"]
+    ]
+
+
+ITERATIONS = Section("iterations", "One iteration on bridge-sharp, 32,000 hexes (median of 9)", _iterations, _iteration_lines)
+SCALING = Section("scaling", "Topology and quality against size (whole process)", _scaling, _scaling_lines)
