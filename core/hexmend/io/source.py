@@ -15,6 +15,8 @@ _WORD = re.compile(rb"\S+")
 _SPACE = re.compile(rb"\s*")
 _KEYWORD = re.compile(rb"[A-Za-z_]{2,}\Z")
 
+_NEWLINE = b"\n"
+
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
@@ -43,7 +45,9 @@ class Source:
 
     def place(self, pos: int) -> str:
         """A byte's place in words."""
-        return f"line {self.data.count(b'\n', 0, pos) + 1}" if self.text else f"byte {pos}"
+        if not self.text:
+            return f"byte {pos}"
+        return f"line {self.data.count(_NEWLINE, 0, pos) + 1}"
 
     @property
     def here(self) -> str:

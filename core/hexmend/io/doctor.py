@@ -1,0 +1,94 @@
+"""Trouble in a mesh that can be read all the same."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from hexmend.mesh import Mesh
+from hexmend.quality import measure
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something to know of a mesh: its kind, how many, a sentence, and what to do."""
+
+    kind: str
+    count: int
+    message: str
+    remedy: str = ""
+
+
+def examine(mesh: Mesh) -> tuple[Finding, ...]:
+    """Look for trouble: time linear in the size of the mesh, but for two sorts."""
+    found = []
+
+    def add(kind: str, count: int, message: str, remedy: str = "") -> None:
+        if count:
+            found.append(Finding(kind, count, message.format(count=f"{count:,}"), remedy))
+
+    unused = int(np.count_nonzero(~mesh.topology.used))
+    add("unused-nodes", unused, "{count} nodes belong to no hex; they are kept and never moved.")
+    places = mesh.points[mesh.topology.used]
+    add(
+        "coincident-nodes",
+        len(places) - len(np.unique(places, axis=0)),
+        "{count} nodes lie on others; hexes that should be joined may be apart there.",
+        "Merge coincident nodes in the program that made the mesh if that is not meant.",
+    )
+    rows = np.sort(mesh.hexes, axis=1)
+    degenerate = int(np.count_nonzero((rows[:, 1:] == rows[:, :-1]).any(axis=1)))
+    add("degenerate-hexes", degenerate, "{count} hexes use a node twice: they can never be good.", "Mesh them anew.")
+    add(
+        "duplicate-hexes",
+        mesh.n_hexes - len(np.unique(rows, axis=0)),
+        "{count} hexes stand on the nodes of others.",
+        "Remove the duplicates.",
+    )
+    add(
+        "crowded-faces",
+        mesh.topology.crowded_faces,
+        "{count} faces (counted once a hex) belong to more than two hexes; they are treated as boundary.",
+        "Look for overlapping hexes.",
+    )
+    add("parts", _parts(mesh) - 1, "the mesh has {count} parts besides the first that hang together with no other.")
+    if (measure(mesh.points, mesh.hexes).scaled_jacobian <= 0).all() and _all_mirrored(mesh):
+        add(
+            "mirrored",
+            mesh.n_hexes,
+            "all {count} hexes are inside out: their corners are numbered left-handed.",
+            "Swap the lower and the upper face of every hex (hexmend.io.doctor.mirrored does).",
+        )
+    return tuple(found)
+
+
+def mirrored(mesh: Mesh) -> Mesh:
+    """The mesh with the lower and the upper face of every hex swapped, which turns each inside out."""
+    return Mesh(
+        mesh.points,
+        mesh.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]],
+        pinned=mesh.pinned,
+        node_data=mesh.node_data,
+        hex_data=mesh.hex_data,
+        node_sets=mesh.node_sets,
+        hex_sets=mesh.hex_sets,
+        cells=mesh.cells,
+        name=mesh.name,
+    )
+
+
+def _all_mirrored(mesh: Mesh) -> bool:
+    turned = mirrored(mesh)
+    return bool(np.median(measure(turned.points, turned.hexes).sigma) > 0)
+
+
+def _parts(mesh: Mesh) -> int:
+    """Number of parts that hang together by nodes."""
+    m = mesh.n_hexes
+    first, others = np.repeat(mesh.hexes[:, 0], 7), mesh.hexes[:, 1:].ravel()
+    graph = coo_matrix((np.ones(7 * m, np.int8), (first, others)), shape=(mesh.n_nodes, mesh.n_nodes))
+    _, label = connected_components(graph, directed=False)
+    return len(np.unique(label[mesh.topology.used]))

@@ -1,0 +1,84 @@
+"""Medit's format in decimals (.mesh), as libMeshb describes it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.io.format import FORMATS, Format
+from hexmend.io.medit_content import SECTIONS, from_mesh, to_mesh
+from hexmend.io.source import Source, shown
+from hexmend.mesh import Mesh
+
+_KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexaedra": SECTIONS["Hexahedra"]}
+
+
+def read(path: Path) -> Mesh:
+    """Read a Medit file; coordinates are taken in double precision whatever its version says."""
+    source = Source(path, _without_comments(path.read_bytes()))
+    if source.word() != "MeshVersionFormatted":
+        raise source.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
+    source.whole(source.word(), "the version")
+    points = refs = None
+    sections: dict[str, np.ndarray] = {}
+    dimension = 0
+    while not source.ended:
+        line, key = source.here, source.word()
+        if key == "End":
+            break
+        if key == "Dimension":
+            dimension = source.whole(source.word(), "Dimension")
+            if dimension != 3:
+                raise source.error(f"its Dimension is {dimension}: expected 3", "Hexmend works in space.")
+        elif key == "Vertices":
+            rows = source.decimals("Vertices", source.whole(source.word(), "the number of Vertices"), 4, np.float64)
+            points, refs = np.ascontiguousarray(rows[:, :3]), rows[:, 3].astype(np.int64)
+        elif key.lower() in _KNOWN:
+            section = _KNOWN[key.lower()]
+            count = source.whole(source.word(), f"the number of {section.name}")
+            sections[section.name] = source.decimals(section.name, count, section.width, np.int64)
+        elif key[:1].isalpha():
+            _skip(source)  # a section that says nothing about hexes
+        else:
+            raise source.error(f"{shown(key)} stands where a section should begin ({line})")
+    if points is None:
+        raise source.error("has no section Vertices")
+    if "Hexahedra" not in sections and not source.data.rstrip().endswith(b"End"):
+        raise source.error(f"ends at {source.here} without Hexahedra")
+    return to_mesh(path, points, refs, sections)
+
+
+def _skip(source: Source) -> None:
+    """Go to the next word that begins with a letter."""
+    while not source.ended:
+        mark = source.pos
+        if source.word()[:1].isalpha():
+            source.pos = mark
+            return
+
+
+def _without_comments(data: bytes) -> bytes:
+    """The content with comments blanked out; lines keep their numbers."""
+    if b"#" not in data:
+        return data
+    return b"\n".join(line.split(b"#", 1)[0] for line in data.split(b"\n"))
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write version 2; decimals are the shortest that give the same number back."""
+    refs, sections = from_mesh(mesh)
+    with open(path, "w", encoding="ascii", newline="\n") as file:
+        file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{mesh.n_nodes}\n")
+        for begin in range(0, mesh.n_nodes, 65536):
+            part = slice(begin, begin + 65536)
+            rows = zip(mesh.points[part].tolist(), refs[part].tolist(), strict=True)
+            file.writelines(f"{x!r} {y!r} {z!r} {ref}\n" for (x, y, z), ref in rows)
+        for name, rows in sections.items():
+            file.write(f"{name}\n{len(rows)}\n")
+            for begin in range(0, len(rows), 65536):
+                file.writelines(" ".join(map(str, row)) + "\n" for row in rows[begin : begin + 65536].tolist())
+        file.write("End\n")
+
+
+FORMATS.add("medit", Format("medit", "Medit", (".mesh",), ("ascii",), read, write))

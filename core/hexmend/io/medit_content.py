@@ -1,0 +1,143 @@
+"""What a Medit file holds, whether in decimals or binary: its sections, and the mesh they make."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.mesh import Cells, Mesh, check_node_numbers
+
+
+@dataclass(frozen=True)
+class Section:
+    """A section of the format: its keyword, its number in binary files, whole numbers a row, and what they are.
+
+    `corners` is the number of nodes of a cell, followed by its reference; 0 for lists of numbers.
+    """
+
+    name: str
+    code: int
+    width: int
+    corners: int = 0
+
+
+#: Sections that are read and written, Vertices apart, in the order in which they are written.
+SECTIONS = {
+    section.name: section
+    for section in (
+        Section("Edges", 5, 3, 2),
+        Section("Triangles", 6, 4, 3),
+        Section("Quadrilaterals", 7, 5, 4),
+        Section("Tetrahedra", 8, 5, 4),
+        Section("Prisms", 9, 7, 6),
+        Section("Hexahedra", 10, 9, 8),
+        Section("Pyramids", 49, 6, 5),
+        Section("Corners", 13, 1),
+        Section("Ridges", 14, 1),
+        Section("RequiredVertices", 15, 1),
+        Section("RequiredEdges", 16, 1),
+        Section("RequiredTriangles", 17, 1),
+        Section("RequiredQuadrilaterals", 18, 1),
+    )
+}
+REF = "medit:ref"
+_LOWER = {"Edges": "line", "Triangles": "triangle", "Quadrilaterals": "quad"}
+_REFUSED = ("Tetrahedra", "Prisms", "Pyramids")
+#: Lists of cells, as flags on these cells: section, kind of cell, name of the flag.
+_FLAGS = (
+    ("Ridges", "line", "medit:ridge"),
+    ("RequiredEdges", "line", "medit:required"),
+    ("RequiredTriangles", "triangle", "medit:required"),
+    ("RequiredQuadrilaterals", "quad", "medit:required"),
+)
+_NODE_SETS = {"Corners": "corners", "RequiredVertices": "required"}
+
+
+def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str, np.ndarray]) -> Mesh:
+    """The mesh that a file's sections make.
+
+    Parameters
+    ----------
+    path : Path
+    points : (n, 3) float64
+    refs : (n,) int
+    sections : mapping of keyword to (rows, width) int array
+        Numbers from 1, as the format counts.
+    """
+    for name in _REFUSED:
+        if len(sections.get(name, ())):
+            rows = len(sections[name])
+            raise FileError(
+                path, f"holds {rows} {name}; Hexmend reads Hexahedra", f"Convert or remove the {rows} {name}."
+            )
+    if not len(sections.get("Hexahedra", ())):
+        raise FileError(path, "holds no Hexahedra", "Hexmend works on hexahedral meshes only.")
+    flags = {(kind, flag): sections[name][:, 0] - 1 for name, kind, flag in _FLAGS if name in sections}
+    cells = []
+    for name, kind in _LOWER.items():
+        if len(sections.get(name, ())):
+            rows = sections[name]
+            check_node_numbers(rows[:, :-1] - 1, len(points))
+            data = {REF: rows[:, -1].copy()}
+            for (of, flag), members in flags.items():
+                if of == kind:
+                    data[flag] = _mask(path, flag, members, len(rows))
+            cells.append(Cells(kind, (rows[:, :-1] - 1).astype(np.int32), data))
+    node_sets = {}
+    for name, title in _NODE_SETS.items():
+        if name in sections:
+            members = sections[name][:, 0] - 1
+            _mask(path, name, members, len(points))
+            node_sets[title] = members
+    pinned = None
+    if "required" in node_sets:
+        pinned = _mask(path, "RequiredVertices", node_sets["required"], len(points)).astype(bool)
+    hexes = sections["Hexahedra"]
+    return Mesh(
+        points,
+        hexes[:, :8] - 1,
+        pinned=pinned,
+        node_data={REF: refs},
+        hex_data={REF: hexes[:, 8].copy()},
+        node_sets=node_sets,
+        cells=tuple(cells),
+    )
+
+
+def from_mesh(mesh: Mesh) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """References of the nodes (n,), and the sections by keyword, numbers from 1."""
+    sections: dict[str, np.ndarray] = {}
+    for name, kind in _LOWER.items():
+        blocks = [cells for cells in mesh.cells if cells.kind == kind]
+        if blocks:
+            sections[name] = np.concatenate([_with_refs(cells.nodes, cells.data.get(REF)) for cells in blocks])
+    sections["Hexahedra"] = _with_refs(mesh.hexes, mesh.hex_data.get(REF))
+    for name, title in _NODE_SETS.items():
+        if title in mesh.node_sets:
+            sections[name] = np.asarray(mesh.node_sets[title]).reshape(-1, 1) + 1
+    if mesh.pinned is not None and "required" not in mesh.node_sets:
+        sections["RequiredVertices"] = np.flatnonzero(mesh.pinned).reshape(-1, 1) + 1
+    for name, kind, flag in _FLAGS:
+        blocks = [cells for cells in mesh.cells if cells.kind == kind]
+        marks = [np.asarray(cells.data.get(flag, np.zeros(len(cells.nodes)))) for cells in blocks]
+        if any(flag in cells.data for cells in blocks):
+            sections[name] = np.flatnonzero(np.concatenate(marks)).reshape(-1, 1) + 1
+    refs = np.asarray(mesh.node_data.get(REF, np.zeros(mesh.n_nodes)))
+    return refs.astype(np.int64), {name: rows for name, rows in sections.items() if len(rows) or name == "Hexahedra"}
+
+
+def _with_refs(nodes: np.ndarray, refs: np.ndarray | None) -> np.ndarray:
+    refs = np.zeros(len(nodes), np.int64) if refs is None else np.asarray(refs).astype(np.int64)
+    return np.column_stack([nodes.astype(np.int64) + 1, refs])
+
+
+def _mask(path: Path, name: str, members: np.ndarray, length: int) -> np.ndarray:
+    if len(members) and (members.min() < 0 or members.max() >= length):
+        wrong = int(members[(members < 0) | (members >= length)][0]) + 1
+        raise FileError(path, f"{name} names {wrong}: expected numbers from 1 to {length}", "Correct the file.")
+    mask = np.zeros(length, np.uint8)
+    mask[members] = 1
+    return mask

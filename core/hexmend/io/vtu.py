@@ -1,0 +1,114 @@
+"""VTK's XML format for unstructured grids (.vtu), parsed by meshlane."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import warnings
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.io.carry import LOWER, Grid, from_mesh, to_mesh
+from hexmend.io.format import FORMATS, Format
+from hexmend.mesh import Mesh
+
+_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
+#: meshlane's names of the cells that it tells us of, and VTK's numbers.
+_NUMBERS = {"hexahedron": 12, "voxel": 11, **{kind: number for number, (kind, _) in LOWER.items()}}
+
+
+def read(path: Path) -> Mesh:
+    """Read a VTU file."""
+    _check_head(path)
+    said = io.StringIO()
+    try:
+        # The parser prints and exits on what it cannot read, and each of its failures is another exception.
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            from meshlane import vtu
+
+            found = vtu.read(str(path))
+    except ElementTree.ParseError as error:
+        line, column = error.position
+        raise FileError(path, f"its XML is broken at line {line}, column {column}", _DAMAGED) from None
+    except (MemoryError, KeyboardInterrupt):
+        raise
+    except (Exception, SystemExit) as error:
+        detail = " ".join(str(error).split()) or " ".join(said.getvalue().split()) or type(error).__name__
+        raise FileError(path, f"its arrays cannot be decoded ({detail[:200]})", _DAMAGED) from None
+    return to_mesh(path, _grid(path, found))
+
+
+def _check_head(path: Path) -> None:
+    with open(path, "rb") as file:
+        head = file.read(4096)
+    if b"<VTKFile" not in head:
+        raise FileError(path, "does not begin with <VTKFile ...>", "Is it a VTU file? Check its suffix.")
+    if b'type="UnstructuredGrid"' not in head:
+        raise FileError(path, "is not of the type UnstructuredGrid", "Convert it to an unstructured grid of hexahedra.")
+
+
+def _grid(path: Path, found) -> Grid:
+    types, widths, nodes = [], [], []
+    for block in found.cells:
+        if block.type not in _NUMBERS:
+            first, others = sum(map(len, types)), len(block.data)
+            which = "the cell" if others == 1 else f"the {others} cells of that kind"
+            raise FileError(
+                path, f"cell {first} is a {block.type}; Hexmend reads hexahedra (types 11, 12)", f"Convert or remove {which}."
+            )
+        rows = np.asarray(block.data, dtype=np.int64)
+        types.append(np.full(len(rows), _NUMBERS[block.type], np.uint8))
+        widths.append(np.full(len(rows), rows.shape[1], np.int64))
+        nodes.append(rows.ravel())
+    if not types:
+        raise FileError(path, "holds no cells", "Hexmend works on hexahedral meshes only.")
+    points = np.asarray(found.points, dtype=np.float64)
+    data = {name: np.concatenate([np.asarray(part) for part in parts]) for name, parts in found.cell_data.items()}
+    return Grid(
+        points,
+        np.concatenate(types),
+        np.concatenate([[0], np.cumsum(np.concatenate(widths))]),
+        np.concatenate(nodes),
+        dict(found.point_data),
+        data,
+    )
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write VTU: compressed with zlib, or in decimals."""
+    import meshlane
+    from meshlane import vtu
+
+    grid = from_mesh(mesh)
+    kinds = {number: kind for kind, number in _NUMBERS.items()}
+    cells, parts = [], []
+    begin = 0
+    while begin < len(grid.types):  # cells of one type follow one another
+        end = begin + int(np.argmax(np.append(grid.types[begin:] != grid.types[begin], True)))
+        width = int(grid.start[begin + 1] - grid.start[begin])
+        cells.append((kinds[int(grid.types[begin])], grid.nodes[grid.start[begin] : grid.start[end]].reshape(-1, width)))
+        parts.append(slice(begin, end))
+        begin = end
+    native = {name: _native(values) for name, values in grid.cell_data.items()}
+    content = meshlane.Mesh(
+        grid.points,
+        cells,
+        point_data={name: _native(values) for name, values in grid.node_data.items()},
+        cell_data={name: [values[part] for part in parts] for name, values in native.items()},
+    )
+    vtu.write(str(path), content, binary=encoding == "binary", compression="zlib" if encoding == "binary" else None)
+
+
+def _native(values: np.ndarray) -> np.ndarray:
+    """Values of a type that VTK has, contiguous, in the machine's byte order."""
+    values = np.asarray(values)
+    if values.dtype.kind == "b":
+        values = values.astype(np.uint8)
+    return np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("="))
+
+
+FORMATS.add("vtu", Format("vtu", "VTU", (".vtu",), ("binary", "ascii"), read, write))
