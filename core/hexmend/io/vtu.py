@@ -31,12 +31,10 @@ def read(path: Path) -> Mesh:
             from meshlane import vtu
 
             found = vtu.read(str(path))
-    except ElementTree.ParseError as error:
-        line, column = error.position
-        raise FileError(path, f"its XML is broken at line {line}, column {column}", _DAMAGED) from None
     except (MemoryError, KeyboardInterrupt):
         raise
     except (Exception, SystemExit) as error:
+        _check_xml(path)
         detail = " ".join(str(error).split()) or " ".join(said.getvalue().split()) or type(error).__name__
         raise FileError(path, f"its arrays cannot be decoded ({detail[:200]})", _DAMAGED) from None
     return to_mesh(path, _grid(path, found))
@@ -49,6 +47,16 @@ def _check_head(path: Path) -> None:
         raise FileError(path, "does not begin with <VTKFile ...>", "Is it a VTU file? Check its suffix.")
     if b'type="UnstructuredGrid"' not in head:
         raise FileError(path, "is not of the type UnstructuredGrid", "Convert it to an unstructured grid of hexahedra.")
+
+
+def _check_xml(path: Path) -> None:
+    """Raise `FileError` where the file is no XML, naming the place; the parser does not."""
+    try:
+        for _ in ElementTree.iterparse(path):
+            pass
+    except ElementTree.ParseError as error:
+        line, column = error.position
+        raise FileError(path, f"its XML is broken at line {line}, column {column}", _DAMAGED) from None
 
 
 def _grid(path: Path, found) -> Grid:
@@ -79,7 +87,7 @@ def _grid(path: Path, found) -> Grid:
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write VTU: compressed with zlib, or in decimals."""
+    """Write VTU, compressed with zlib; in decimals meshlane would round to 12 digits."""
     import meshlane
     from meshlane import vtu
 
@@ -100,7 +108,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         point_data={name: _native(values) for name, values in grid.node_data.items()},
         cell_data={name: [values[part] for part in parts] for name, values in native.items()},
     )
-    vtu.write(str(path), content, binary=encoding == "binary", compression="zlib" if encoding == "binary" else None)
+    vtu.write(str(path), content, binary=True, compression="zlib")
 
 
 def _native(values: np.ndarray) -> np.ndarray:
@@ -111,4 +119,4 @@ def _native(values: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("="))
 
 
-FORMATS.add("vtu", Format("vtu", "VTU", (".vtu",), ("binary", "ascii"), read, write))
+FORMATS.add("vtu", Format("vtu", "VTU", (".vtu",), ("binary",), read, write))

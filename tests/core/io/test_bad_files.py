@@ -1,0 +1,112 @@
+"""Bad files: one clear error that names file, place and remedy; whatever is cut or flipped, never another failure."""
+
+import os
+
+import numpy as np
+import pytest
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.io import FORMATS
+from hexmend.io.atomic import replacing
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.core.grids import grid, scrambled
+
+WAYS = [(one.suffixes[0], encoding) for one in FORMATS.values() for encoding in one.encodings]
+HEAD = "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+CUBE = "POINTS 8 float\n0 0 0 1 0 0 1 1 0 0 1 0\n0 0 1 1 0 1 1 1 1 0 1 1\n"
+
+
+def bytes_of(suffix, encoding, folder):
+    path = folder / f"good{suffix}"
+    io.write(path, scrambled(grid(2), 0.2).replace(node_data={"id": np.arange(27)}), encoding=encoding)
+    return path.read_bytes()
+
+
+@pytest.mark.parametrize(("suffix", "encoding"), WAYS)
+@settings(max_examples=60)
+@given(data=st.data())
+def test_cut_or_flipped_files_give_a_mesh_or_a_clear_error(suffix, encoding, data, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bad")
+    content = bytearray(bytes_of(suffix, encoding, folder))
+    if data.draw(st.booleans(), label="cut"):
+        content = content[: data.draw(st.integers(0, len(content) - 1), label="length")]
+    else:
+        for _ in range(data.draw(st.integers(1, 4), label="flips")):
+            content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
+    path = folder / f"bad{suffix}"
+    path.write_bytes(content)
+    try:
+        mesh = io.read(path)
+    except FileError as error:
+        assert str(error).startswith(f"bad{suffix}: ")
+        assert "\n" not in str(error)
+    else:
+        assert mesh.n_hexes > 0
+        assert np.isfinite(mesh.points).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("a.vtk", "hello\n", "line 1 is 'hello': expected '# vtk DataFile"),
+        ("a.vtk", "# vtk DataFile Version 2.0\nt\nASCII\nDATASET POLYDATA\n", "its dataset is POLYDATA: expected UNSTRUCTURED_GRID"),
+        ("a.vtk", HEAD + "POINTS 8 float\n0 0 0 1 0 0\n", "POINTS ends after 2 of 8 rows"),
+        ("a.vtk", HEAD + "POINTS 2 float\n0 0 0 1 x 0\n", "POINTS holds 'x' in row 2 of 2 (line 6): expected a number"),
+        ("a.vtk", HEAD + CUBE, "has no section CELLS"),
+        ("a.vtk", HEAD + CUBE + "CELLS 1 9\n8 0 1 2 3 4 5 6 8\nCELL_TYPES 1\n12\n", "expected numbers from 0 to 7"),
+        ("a.vtk", HEAD + CUBE + "CELLS 2 14\n8 0 1 2 3 4 5 6 7\n4 0 1 2 3\nCELL_TYPES 2\n12 10\n", "cell 1 is a VTK_TETRA; Hexmend reads hexahedra (types 11, 12). Convert or remove the cell."),
+        ("a.vtk", HEAD + CUBE + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n", "holds no hexahedra"),
+        ("a.mesh", "MeshVersionFormatted 2\nDimension 2\n", "its Dimension is 2: expected 3"),
+        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\nTetrahedra\n1\n1 1 1 1 0\nEnd\n", "holds 1 Tetrahedra"),
+        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 0 0\nEnd\n", "holds no Hexahedra"),
+        ("a.meshb", "words", "does not begin with the number 1"),
+        ("a.vtu", "<html/>", "does not begin with <VTKFile"),
+        ("a.vtu", '<VTKFile type="UnstructuredGrid"><Unstr', "its XML is broken at line 1"),
+        ("a.xyz", "1 2 3", "the suffix '.xyz' is unknown. Hexmend can read"),
+        ("a.vtk", "", "is empty"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_named(name, text, words, tmp_path):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(FileError) as error:
+        io.read(tmp_path / name)
+    assert words in str(error.value)
+
+
+def test_a_missing_file_is_said_with_its_nearest(tmp_path):
+    io.write(tmp_path / "bridge.vtk", grid(1))
+    with pytest.raises(FileError, match="Did you mean bridge.vtk"):
+        io.read(tmp_path / "brigde.vtk")
+    with pytest.raises(FileError, match="is a folder"):
+        io.read(tmp_path)
+
+
+def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "old.vtk"
+    path.write_text("old")
+    with pytest.raises(ZeroDivisionError), replacing(path) as temporary:
+        temporary.write_text("half")
+        raise ZeroDivisionError
+    assert path.read_text() == "old"
+    assert os.listdir(tmp_path) == ["old.vtk"]
+
+
+def test_a_write_replaces_the_file_with_the_users_permissions(tmp_path):
+    path = tmp_path / "new.vtk"
+    with replacing(path) as temporary:
+        assert temporary.parent == tmp_path
+        assert temporary.suffix == ".vtk"
+        temporary.write_text("new")
+    assert path.read_text() == "new"
+    mask = os.umask(0)
+    os.umask(mask)
+    assert path.stat().st_mode & 0o777 == 0o666 & ~mask
+
+
+@pytest.mark.parametrize("name", ["no/such/folder/a.vtk", "a.xyz"])
+def test_targets_that_cannot_be_written_are_said(name, tmp_path):
+    with pytest.raises(FileError):
+        io.write(tmp_path / name, grid(1))
+    assert os.listdir(tmp_path) == []
