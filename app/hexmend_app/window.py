@@ -74,7 +74,7 @@ class Window(QMainWindow):
         self.clip_panel = ClipPanel()
         self.progress = QProgressBar()
         self.progress.setRange(0, 0)
-        self.progress.setFixedWidth(140)
+        self.progress.setFixedSize(140, 10)  # no higher than text, or the view jumps as it comes and goes
         self.progress.setTextVisible(False)
         self.counts = QLabel()
 

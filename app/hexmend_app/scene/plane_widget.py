@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 
 import pyvista as pv
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
@@ -59,16 +58,6 @@ class PlaneWidget:
             self._shape.SetOrigin(clip.origin)
         if bool(self._widget.GetEnabled()) != on:
             self._widget.SetEnabled(on)
-
-    @contextmanager
-    def hidden(self) -> Iterator[None]:
-        """Leave the plane out of what is drawn meanwhile."""
-        shown = self._shape.GetVisibility()
-        self._shape.SetVisibility(False)
-        try:
-            yield
-        finally:
-            self._shape.SetVisibility(shown)
 
     def close(self) -> None:
         """Let go of the interactor."""

@@ -15,7 +15,7 @@ from hexmend_app.state.look import Look
 
 _BACKGROUND = ("#f7f8fa", "#dfe4ec")  # below, above
 _OUTLINE = "#8a93a3"
-_CLOSER = 1.35  # VTK leaves room for the sphere around the box
+_CLOSER = 1.25  # VTK leaves room for the sphere around the box
 
 #: Directions to look from: the place of the camera, and what is up.
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {

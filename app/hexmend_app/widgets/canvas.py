@@ -14,6 +14,7 @@ from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.colours import INVERTED, table
+from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import ClipPlane, Look
@@ -94,15 +95,19 @@ class Canvas(QWidget):
         self._changed()
 
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
-        """Write the view as PNG, beside the target first."""
-        with self.plane.hidden(), replacing(path) as temporary:
-            self.viewport.screenshot(temporary, size, transparent=transparent)
-        self._changed()
+        """Write what is seen, without the plane, as PNG of any size."""
+        seen = self.viewport
+        image = picture(
+            seen.mesh, seen.figures, seen.look, size, camera=seen.camera, transparent=transparent
+        )  # fmt: skip
+        with replacing(path) as temporary:
+            image.save(temporary, format="PNG")
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""
         self._frame.stop()
         self._rest.stop()
+        self.plane.close()
         self.interactor.close()
         super().closeEvent(event)
 

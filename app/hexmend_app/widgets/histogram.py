@@ -56,6 +56,7 @@ class QualityHistogram(QWidget):
         layout.addLayout(self._make_ends())
         self._text = note()
         self._text.setFont(tabular(self._text.font()))
+        self._text.setWordWrap(False)  # a second line would push the view about while a range is brushed
         self._text.setAccessibleName("Elements shown")
         layout.addWidget(self._text)
         self._refresh()

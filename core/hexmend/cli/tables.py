@@ -40,10 +40,11 @@ def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summar
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, show_header=len(heads) > 1)
+    table = Table(box=box.SIMPLE_HEAD, show_header=len(heads) > 1)
     table.add_column("")
     for head in heads:
         table.add_column(head, justify="right")
     for field, label in ROWS:
         table.add_row(label, *(figure(getattr(summary, field)) for summary in summaries))
+    print(title)
     Console(highlight=False).print(table)

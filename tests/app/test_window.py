@@ -1,0 +1,311 @@
+"""The window, driven as a user drives it: mouse, keys, dropped files."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import pytest
+from hexmend import gallery, io
+from hexmend_app.program import application, report_unexpected_errors
+from hexmend_app.state.run import Phase
+from hexmend_app.window import Window
+from PIL import Image
+from PySide6.QtCore import QMimeData, QPoint, QPointF, QSettings, Qt, QThread, QUrl
+from PySide6.QtGui import QDropEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QMessageBox, QPushButton
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def mesh_file(tmp_path):
+    path = tmp_path / "bridge.vtu"
+    io.write(path, gallery.make("bridge-sharp", size=4000, scramble=0.4, seed=1))
+    return path
+
+
+@pytest.fixture
+def window(qtbot, tmp_path, mesh_file, monkeypatch):
+    """A window with a mesh open in it."""
+    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, str(tmp_path / "settings"))
+    QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, str(tmp_path / "settings"))
+    monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Discard)
+    application()
+    window = Window()
+    window.resize(1400, 900)
+    window.show()
+    qtbot.waitExposed(window)
+    window.build_canvas()
+    open_and_wait(qtbot, window, mesh_file)
+    window.windowHandle().requestActivate()
+    qtbot.waitUntil(window.isActiveWindow, timeout=5000)  # or shortcuts go nowhere
+    qtbot.wait(200)
+    yield window
+    window.close()
+    assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []
+
+
+def open_and_wait(qtbot, window, path):
+    with qtbot.waitSignals([window.opener.ended], timeout=20000):
+        window.open(path)
+
+
+def click(window, text):
+    button = next(b for b in window.smoothing_panel.findChildren(QPushButton) if b.text() == text and b.isVisible())
+    assert button.isEnabled()
+    QTest.mouseClick(button, LEFT)
+
+
+def phase(window, phase):
+    return lambda: window.smoothing.phase is phase
+
+
+def pixels(window):
+    """What the 3D view shows, (h, w, 3)."""
+    window.canvas.interactor.render()
+    return np.asarray(window.canvas.interactor.screenshot(return_img=True)).astype(int)
+
+
+def drag(widget, start, end, steps=12):
+    """Press, move and release the mouse as a hand does."""
+    QTest.mouseMove(widget, start)
+    QTest.qWait(30)
+    QTest.mousePress(widget, LEFT, pos=start)
+    for k in range(1, steps + 1):
+        QTest.mouseMove(widget, start + (end - start) * (k / steps))
+        QTest.qWait(10)
+    QTest.mouseRelease(widget, LEFT, pos=end)
+    QTest.qWait(50)
+
+
+def test_an_opened_mesh_is_shown_with_its_figures(window):
+    assert window.windowTitle().startswith("bridge.vtu")
+    assert "4,000 hexes" in window.counts.text()
+    summary = window.document.now.summary
+    assert f"{summary.inverted:,}" in window.statistics.text()
+    assert not window.welcome.isVisible()
+    image = pixels(window)
+    assert (image.max(axis=2) - image.min(axis=2) > 60).mean() > 0.05
+
+
+def test_run_pause_step_stop_reset_by_mouse(window, qtbot):
+    start = window.document.now
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=60000)
+    qtbot.waitUntil(lambda: window.document.now is not start, timeout=20000)
+    click(window, "Pause")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=20000)
+    qtbot.wait(100)
+    held = window.document.now
+    click(window, "Step")
+    qtbot.waitUntil(lambda: window.document.now is not held, timeout=20000)
+    assert window.document.now.summary.objective != held.summary.objective or held.summary.objective is None
+    click(window, "Stop")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=20000)
+    assert window.isWindowModified()
+    assert window.document.undo_title == "Local steepest descent"
+    click(window, "Reset")
+    assert window.document.now is start
+    assert window.document.undo_title == "reset"
+
+
+def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
+    window.smoothing_panel.stop_form.set_values({"tolerance": 1e-2})
+    with qtbot.waitSignal(window.smoothing.ended, timeout=30000):
+        QTest.keyClick(window.windowHandle(), Qt.Key.Key_F5)
+    assert window.document.start.summary.inverted > 0
+    assert window.document.now.summary.inverted == 0
+    assert "none inverted" in window.counts.text()
+
+
+def test_keys_step_undo_and_redo(window, qtbot):
+    start = window.document.now
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_F10)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=60000)
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_F5, Qt.KeyboardModifier.ShiftModifier)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=20000)
+    after = window.document.now
+    assert after is not start
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert window.document.now is start
+    QTest.keyClick(
+        window.windowHandle(), Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    )  # fmt: skip
+    assert window.document.now is after
+
+
+def test_the_picture_follows_the_iterations(window, qtbot):
+    before = pixels(window)
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=60000)
+    qtbot.wait(400)
+    assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002
+
+
+@pytest.mark.parametrize("cut", ["crinkle", "smooth"])
+def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
+    whole = pixels(window)
+    panel = window.clip_panel
+    box = next(b for b in panel.findChildren(QCheckBox) if b.text() == "Clipping plane")
+    QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
+    assert window.view.look.clip is not None
+    assert window.actions_by_id["clip"].isChecked()
+    for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole elements"):
+        QTest.mouseClick(next(b for b in panel.findChildren(QPushButton) if b.text() == text), LEFT)
+    clip = window.view.look.clip
+    assert np.abs(clip.normal).tolist() == [0, 1, 0]
+    assert clip.crinkle == (cut == "crinkle")
+    halved = pixels(window)
+    assert (np.abs(halved - whole).sum(axis=2) > 60).mean() > 0.02
+    panel._slider.setFocus()
+    for _ in range(3):
+        QTest.keyClick(panel._slider, Qt.Key.Key_PageDown)
+    assert window.view.look.clip.origin[1] != pytest.approx(clip.origin[1])
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
+    assert window.view.look.clip is None
+    qtbot.wait(50)
+    assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() < 0.02
+
+
+def test_the_plane_is_dragged_in_the_view(window, qtbot):
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_1)  # along X ...
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
+    QTest.mouseClick(next(b for b in window.clip_panel.findChildren(QPushButton) if b.text() == "Z"), LEFT)
+    qtbot.wait(200)
+    before = window.view.look.clip
+    interactor = window.canvas.interactor
+    renderer = interactor.renderer
+    # ... the plane across Z is seen from its side: its normal points up from the middle and can be pushed along.
+    renderer.SetWorldPoint(*before.origin, 1)
+    renderer.WorldToDisplay()
+    x, y, _ = renderer.GetDisplayPoint()
+    ratio = interactor.devicePixelRatioF()
+    middle = QPoint(round(x / ratio), round(interactor.height() - y / ratio))
+    drag(interactor, middle + QPoint(40, 0), middle + QPoint(40, -60))
+    after = window.view.look.clip
+    assert after != before
+    assert window.clip_panel.clip() == after
+
+
+def test_brushing_the_histogram_keeps_a_range_in_view(window, qtbot):
+    whole = pixels(window)
+    view = window.histogram._plot.view
+    plot = window.histogram._plot.plot
+
+    def at(q):
+        scene = view.mapViewToScene(QPointF(q, 10))
+        return plot.mapFromScene(scene)
+
+    drag(plot.viewport(), at(0.2), at(0.6))
+    qtbot.waitUntil(lambda: window.view.look.quality_range is not None, timeout=3000)
+    low, high = window.view.look.quality_range
+    assert low == pytest.approx(0.2, abs=0.03)
+    assert high == pytest.approx(0.6, abs=0.03)
+    assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() > 0.01
+    QTest.mouseClick(next(b for b in window.histogram.findChildren(QPushButton) if b.text() == "Show all"), LEFT)
+    qtbot.waitUntil(lambda: window.view.look.quality_range is None, timeout=3000)
+
+
+def test_a_bad_file_is_said_in_the_window_and_the_open_mesh_stays(window, qtbot, tmp_path):
+    bad = tmp_path / "cut.vtk"
+    bad.write_text("# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n0 0 0\n")
+    now = window.document.now
+    with qtbot.waitSignal(window.opener.failed, timeout=20000):
+        window.open(bad)
+    assert window.document.now is now
+    ((kind, title, text),) = window.messages.messages()
+    assert kind == "error"
+    assert "cut.vtk" in title
+    assert "POINTS ends after 1 of 8 rows" in text
+    assert "bridge.vtu stays open" in text
+    assert window.messages.isVisible()
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Escape)
+    assert not window.messages.isVisible()
+
+
+def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
+    io.write(tmp_path / "five.mesh", gallery.make("five-side", size=500))
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "five.mesh"))])
+    event = QDropEvent(
+        QPointF(50, 50), Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
+    )  # fmt: skip
+    with qtbot.waitSignal(window.opener.ended, timeout=20000):
+        window.dropEvent(event)
+    assert window.windowTitle().startswith("five.mesh")
+
+
+def test_saving_writes_the_mesh_as_it_is_now(window, qtbot, tmp_path):
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_F10)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=60000)
+    window._on_stop()
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=20000)
+    assert window.save(tmp_path / "out.vtk")
+    np.testing.assert_array_equal(io.read(tmp_path / "out.vtk").points, window.document.now.mesh.points)
+    assert not window.isWindowModified()
+    assert not window.save(tmp_path / "missing" / "out.vtk")
+    assert window.messages.messages()[-1][0] == "error"
+
+
+@pytest.mark.parametrize("size", [(640, 480), (1500, 500)])
+def test_a_picture_has_the_size_asked_for_whatever_the_window(window, tmp_path, size):
+    window.view.set_clip(window.clip_panel.plane())
+    assert window.save_picture(tmp_path / "view.png", size)
+    image = Image.open(tmp_path / "view.png")
+    assert image.size == size
+    colourful = np.ptp(np.asarray(image.convert("RGB")).astype(int), axis=2) > 60
+    assert colourful.mean() > 0.05
+
+
+def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=60000)
+    open_and_wait(qtbot, window, mesh_file)
+    assert not window.smoothing.busy
+    assert window.document.undo_title is None
+
+
+def test_closing_while_running_leaves_no_thread(window, qtbot):
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=60000)
+    worker = window.smoothing._worker
+    assert isinstance(worker, QThread)
+    window.close()
+    assert worker.isFinished()
+    assert not window.isVisible()
+
+
+def test_cancelling_keeps_the_window_and_its_run(window, qtbot, monkeypatch):
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=60000)
+    with monkeypatch.context() as patched:
+        patched.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Cancel)
+        window.close()
+        assert window.isVisible()
+        assert window.smoothing.phase is Phase.PAUSED
+
+
+def test_unexpected_errors_are_shown(window, monkeypatch):
+    import sys
+
+    monkeypatch.setattr(sys, "excepthook", sys.excepthook)
+    report_unexpected_errors(window)
+    try:
+        raise ZeroDivisionError("one over nothing")
+    except ZeroDivisionError as error:
+        sys.excepthook(type(error), error, error.__traceback__)
+    assert "ZeroDivisionError: one over nothing" in window.messages.messages()[-1][2]
+
+
+def test_a_method_with_a_wrong_value_is_not_started(window):
+    editor = window.smoothing_panel.form.editor("p")
+    window.smoothing_panel._sections[0].expand()
+    target = editor.widget if hasattr(editor, "widget") else editor
+    target.setFocus()
+    line = target.lineEdit() if hasattr(target, "lineEdit") else target
+    line.selectAll()
+    QTest.keyClicks(line, "0.1")
+    click(window, "Run")
+    assert not window.smoothing.busy
