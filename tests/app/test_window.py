@@ -170,20 +170,19 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
 
 
 def test_the_plane_is_dragged_in_the_view(window, qtbot):
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_1)  # along X ...
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     QTest.mouseClick(next(b for b in window.clip_panel.findChildren(QPushButton) if b.text() == "Z"), LEFT)
     qtbot.wait(200)
     before = window.view.look.clip
     interactor = window.canvas.interactor
     renderer = interactor.renderer
-    # ... the plane across Z is seen from its side: its normal points up from the middle and can be pushed along.
-    renderer.SetWorldPoint(*before.origin, 1)
+    x, y, z = before.origin
+    renderer.SetWorldPoint(x + 0.3, y - 0.3, z, 1)  # on the plane, beside its arrow
     renderer.WorldToDisplay()
-    x, y, _ = renderer.GetDisplayPoint()
+    right, up, _ = renderer.GetDisplayPoint()
     ratio = interactor.devicePixelRatioF()
-    middle = QPoint(round(x / ratio), round(interactor.height() - y / ratio))
-    drag(interactor, middle + QPoint(40, 0), middle + QPoint(40, -60))
+    place = QPoint(round(right / ratio), round(interactor.height() - up / ratio))
+    drag(interactor, place, place + QPoint(0, -60))
     after = window.view.look.clip
     assert after != before
     assert window.clip_panel.clip() == after
