@@ -231,7 +231,8 @@ class Window(QMainWindow):
 
     def _on_points_moved(self) -> None:
         if self.canvas is not None:
-            self.canvas.set_points(self.document.now.mesh.points, self.document.now.figures)
+            now, live = self.document.now, self.smoothing.phase is Phase.RUNNING
+            self.canvas.set_points(now.mesh.points, now.figures, live)
         self._show_figures()
 
     def _show_figures(self) -> None:
@@ -272,7 +273,9 @@ class Window(QMainWindow):
     def _on_phase(self) -> None:
         phase = self.smoothing.phase
         self.smoothing_panel.set_state(phase.value)
-        self.progress.setVisible(phase in (Phase.PREPARING, Phase.RUNNING))
+        self.progress.setVisible(phase is Phase.PREPARING)  # its animation would slow a run that shows itself anyway
+        if phase is Phase.PAUSED and self.canvas is not None:
+            self.canvas.rest()
         if phase is Phase.PREPARING:
             self.smoothing_panel.set_status(
                 sentence="Preparing the method. Its kernels are compiled the first time, which takes a few seconds."

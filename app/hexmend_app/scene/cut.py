@@ -7,6 +7,7 @@ import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkClipPolyData, vtkPlaneCutter
 
+from hexmend_app.scene import sides
 from hexmend_app.scene.surface import coloured
 from hexmend_app.state.look import ClipPlane
 
@@ -27,9 +28,7 @@ def section(
     plane : ClipPlane
     colours : (m, 3) uint8
     """
-    beyond = (plane.signed_distance(points) > 0)[hexes]
-    count = np.count_nonzero(beyond, axis=1)
-    crossed = (count > 0) & (count < 8)
+    crossed = sides.crossed(points, hexes, *plane.equation)
     if keep is not None:
         crossed &= keep
     chosen = np.flatnonzero(crossed)

@@ -29,8 +29,8 @@ class Surface:
             edge_opacity=0.5,
             line_width=1,
             lighting=True,
-            ambient=0.38,
-            diffuse=0.92,
+            ambient=0.42,
+            diffuse=0.75,
             specular=0,
             smooth_shading=False,
             reset_camera=False,
@@ -68,6 +68,10 @@ class Surface:
     def hide(self) -> None:
         """Draw nothing."""
         self.actor.SetVisibility(False)
+
+    def cull(self, on: bool) -> None:
+        """Leave out polygons that are seen from behind, or not."""
+        self.actor.GetProperty().SetBackfaceCulling(on)
 
     def show_edges(self, on: bool) -> None:
         """Draw the polygons' edges or not."""

@@ -7,13 +7,14 @@ import pyvista as pv
 
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
-from hexmend_app.scene import cut
+from hexmend_app.scene import cut, sides
 from hexmend_app.scene.colours import colours
-from hexmend_app.scene.skin import Faces, Skin
+from hexmend_app.scene.skin import Skin
 from hexmend_app.scene.surface import Surface, quads, set_colours, set_points
 from hexmend_app.state.look import Look
 
-_BACKGROUND = ("#f7f8fa", "#dfe4ec")  # below, above
+_BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
+_LIGHT = (-0.35, 0.45, 1.0)  # from over the viewer's left shoulder
 _OUTLINE = "#8a93a3"
 _CLOSER = 1.25  # VTK leaves room for the sphere around the box
 
@@ -43,7 +44,9 @@ class Viewport:
         self._plotter = plotter
         self._mesh: Mesh | None = None
         self._look = Look()
-        plotter.set_background(_BACKGROUND[0], top=_BACKGROUND[1])
+        plotter.set_background(_BACKGROUND)
+        plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
+        plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=0.85))
         plotter.render_window.SetMultiSamples(0)
         self._skin_surface = Surface(plotter, "skin")
         self._section_surface = Surface(plotter, "section")
@@ -56,8 +59,9 @@ class Viewport:
         """Draw another mesh, seen whole from a corner."""
         self._mesh, self._figures, self._points = mesh, figures, mesh.points
         self._skin = Skin(mesh)
-        self._faces: Faces | None = None
         self._add_outline()
+        self._cull()
+        self._choose_uncut()
         self._rebuild()
         self.view("iso")
 
@@ -71,8 +75,8 @@ class Viewport:
             Of the mesh at these points.
         """
         self._points, self._figures = points, figures
-        same_faces = self._look.quality_range is None and (self._look.clip is None or not self._look.clip.crinkle)
-        if same_faces and self._faces is not None:
+        self._cull()
+        if self._look.quality_range is None:
             self._move()
         else:
             self._rebuild()
@@ -83,6 +87,8 @@ class Viewport:
         for surface in (self._skin_surface, self._section_surface):
             surface.show_edges(look.edges)
         if self._mesh is not None and look != before:
+            if look.clip != before.clip:
+                self._choose_uncut()
             self._rebuild()
 
     @property
@@ -91,27 +97,27 @@ class Viewport:
         low, high = self._mesh.points.min(axis=0), self._mesh.points.max(axis=0)
         return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
 
-    def kept(self) -> np.ndarray | None:
+    def _kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
-        look, keep = self._look, None
-        if look.quality_range is not None:
-            low, high = look.quality_range
-            keep = (self._figures.q >= low) & (self._figures.q <= high)
-        if look.clip is not None and look.clip.crinkle:
-            inside = look.clip.signed_distance(self._centres()) <= 0
-            keep = inside if keep is None else keep & inside
-        return keep
+        look = self._look
+        if look.quality_range is None:
+            return self._uncut
+        low, high = look.quality_range
+        q = self._figures.q
+        # The best hex has q = 1 but for rounding.
+        chosen = (q >= low) & ((q <= high) | (high >= 1))
+        return chosen if self._uncut is None else chosen & self._uncut
 
-    def _centres(self) -> np.ndarray:
-        """Mean of each hex's corners, (m, 3)."""
-        centres = self._points[self._mesh.hexes[:, 0]]
-        for c in range(1, 8):
-            centres += self._points[self._mesh.hexes[:, c]]
-        return centres / 8
+    def _choose_uncut(self) -> None:
+        """The hexes that a cut by whole elements leaves: chosen as the cut is made, so that none flickers as nodes move."""
+        plane = self._look.clip
+        self._uncut = None
+        if plane is not None and plane.crinkle:
+            self._uncut = sides.centres_kept(self._points, self._mesh.hexes, *plane.equation)
 
     def _rebuild(self) -> None:
         """Find the visible faces anew."""
-        keep = self.kept()
+        keep = self._kept()
         self._faces = self._skin.visible(keep)
         self._whole = quads(self._points[self._faces.nodes], self._faces.quads, self._face_colours())
         self._cut(keep)
@@ -123,7 +129,7 @@ class Viewport:
         """The same faces, elsewhere and in other colours."""
         set_points(self._whole, self._points[self._faces.nodes])
         set_colours(self._whole, self._face_colours())
-        self._cut(None)
+        self._cut(self._uncut)
 
     def _cut(self, keep: np.ndarray | None) -> None:
         plane = self._look.clip
@@ -135,6 +141,10 @@ class Viewport:
         self._skin_surface.replace(cut.behind(self._whole, plane))
         every = self._colours(slice(None))
         self._section_surface.replace(cut.section(self._points, self._mesh.hexes, keep, plane, every))
+
+    def _cull(self) -> None:
+        """Leave out faces seen from behind, a third of the frame, unless an inverted element may turn them to us."""
+        self._skin_surface.cull(self._figures.n_inverted == 0)
 
     def _face_colours(self) -> np.ndarray:
         return self._colours(self._faces.hexes)
@@ -189,7 +199,7 @@ class Viewport:
 
     def still(self) -> None:
         """Prepare for a fine frame: smooth edges."""
-        self._plotter.render_window.SetMultiSamples(8)
+        self._plotter.render_window.SetMultiSamples(4)
 
     @property
     def look(self) -> Look:

@@ -33,9 +33,15 @@ class ClipPlane:
         object.__setattr__(self, "normal", tuple(float(c) / length for c in self.normal))
         object.__setattr__(self, "origin", tuple(float(c) for c in self.origin))
 
+    @property
+    def equation(self) -> tuple[np.ndarray, float]:
+        """Normal (3,) and offset: points of the plane have x . normal = offset."""
+        return np.array(self.normal), float(np.dot(self.normal, self.origin))
+
     def signed_distance(self, points: np.ndarray) -> np.ndarray:
         """Distance of (k, 3) points from the plane, positive on the hidden side."""
-        return np.asarray(points) @ np.array(self.normal) - float(np.dot(self.normal, self.origin))
+        normal, offset = self.equation
+        return np.asarray(points) @ normal - offset
 
     def flipped(self) -> ClipPlane:
         """The same plane hiding the other side."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QThread
 
+import numba
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
@@ -94,6 +95,8 @@ class Worker(QThread):
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
         try:
+            # One core stays with the window; results do not depend on the number of threads.
+            numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
             mesh, smoother, stop = self._order
             run = iterate(mesh, smoother, stop)
             self.prepared.set()

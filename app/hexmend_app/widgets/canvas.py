@@ -64,11 +64,13 @@ class Canvas(QWidget):
         self._show_inverted(figures)
         self._changed()
 
-    def set_points(self, points: np.ndarray, figures: ElementQuality) -> None:
-        """Draw the same mesh with its nodes elsewhere."""
+    def set_points(self, points: np.ndarray, figures: ElementQuality, live: bool = False) -> None:
+        """Draw the same mesh with its nodes elsewhere; `live` where more is to come, so that no fine frame is due."""
         self.viewport.set_points(points, figures)
         self._show_inverted(figures)
         self._changed()
+        if live:
+            self._rest.stop()
 
     def set_look(self, look: Look, plane_shown: bool) -> None:
         """Draw it differently."""
@@ -130,6 +132,10 @@ class Canvas(QWidget):
 
     def _draw(self) -> None:
         self.interactor.render()
+
+    def rest(self) -> None:
+        """Draw the fine frame soon: nothing moves for now."""
+        self._rest.start()
 
     def _draw_still(self) -> None:
         self.viewport.still()

@@ -1,0 +1,48 @@
+"""On which side of a plane the elements lie; on one thread, because the window's thread asks."""
+
+from __future__ import annotations
+
+import numpy as np
+from hexmend.kernels import serial
+
+
+@serial
+def centres_kept(points, hexes, normal, offset):
+    """True for each hex whose centre has x . normal <= offset, (m,) bool.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    normal : (3,) float64
+    offset : float
+    """
+    height = _heights(points, normal)
+    kept = np.empty(hexes.shape[0], np.bool_)
+    for h in range(hexes.shape[0]):
+        total = 0.0
+        for c in range(8):
+            total += height[hexes[h, c]]
+        kept[h] = total <= 8 * offset
+    return kept
+
+
+@serial
+def crossed(points, hexes, normal, offset):
+    """True for each hex with corners on both sides of the plane x . normal = offset, (m,) bool."""
+    height = _heights(points, normal)
+    answer = np.empty(hexes.shape[0], np.bool_)
+    for h in range(hexes.shape[0]):
+        beyond = 0
+        for c in range(8):
+            beyond += height[hexes[h, c]] > offset
+        answer[h] = 0 < beyond < 8
+    return answer
+
+
+@serial
+def _heights(points, normal):
+    height = np.empty(points.shape[0])
+    for i in range(points.shape[0]):
+        height[i] = points[i, 0] * normal[0] + points[i, 1] * normal[1] + points[i, 2] * normal[2]
+    return height
