@@ -5,20 +5,20 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 MESH   ?=
 
-export PIP_DISABLE_PIP_VERSION_CHECK = 1
-
 .PHONY: help run test lint format bench pins clean
 
 help:
 	@echo "make run [MESH=path]   open the viewer (on the demo mesh, or on yours)"
-	@echo "make test              run the tests"
-	@echo "make lint              check the style"
+	@echo "make test              run the tests, on a virtual screen"
+	@echo "make lint              check the style;  make format  mends it"
 	@echo "make bench             measure speed and memory"
+	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
+	@echo "Add PYTHON=/path/to/python3 (3.11 to 3.13) to choose the Python of a new environment."
 
 run: $(VENV)/.app
 	@scripts/debian-packages
-	@scripts/run $(BIN) $(MESH)
+	@scripts/run $(BIN) "$(MESH)"
 
 test: $(VENV)/.test
 	@scripts/debian-packages
@@ -36,10 +36,10 @@ bench: $(VENV)/.app
 	@scripts/debian-packages
 	@scripts/on-screen $(BIN)/hexmend bench
 
-# Versions of a fresh environment, for constraints.txt.
-pins: $(VENV)/.test
-	@$(BIN)/python -m pip freeze --exclude-editable --exclude pip --exclude setuptools | LC_ALL=C sort -f
+pins:
+	@scripts/pins "$(PYTHON)"
 
+# The stamps: what an environment holds is decided by these files alone.
 $(VENV)/.app: pyproject.toml constraints.txt scripts/environment
 	@scripts/environment "$(PYTHON)" $(VENV) app
 	@touch $@

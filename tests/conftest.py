@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,13 +12,16 @@ from hypothesis import settings
 
 os.environ.setdefault("QT_API", "pyside6")
 os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
-os.environ["QT_QPA_PLATFORM"] = "xcb"  # 3D needs a screen, a virtual one at least
+if sys.platform == "linux":
+    os.environ["QT_QPA_PLATFORM"] = "xcb"  # 3D needs a screen: pytest-xvfb makes one, and Wayland's is left alone
 
 # Kernels compile in the first example, and machines are shared: no example has a deadline.
-settings.register_profile("hexmend", deadline=None, max_examples=40, derandomize="CI" in os.environ)
-settings.load_profile("hexmend")
+# CI draws the same examples every time, so that a change is judged by what it changed.
+settings.register_profile("hexmend", deadline=None, max_examples=40)
+settings.register_profile("ci", settings.get_profile("hexmend"), derandomize=True, print_blob=True)
+settings.load_profile("ci" if os.environ.get("CI") else "hexmend")
 
-_REAL = Path(os.environ.get("HEXMEND_MESHES", Path(__file__).resolve().parents[2] / "shared" / "meshes"))
+_REAL = Path(os.environ.get("HEXMEND_MESHES") or Path(__file__).resolve().parents[2] / "shared" / "meshes")
 
 
 @pytest.fixture(scope="session")
@@ -25,8 +29,9 @@ def real_mesh() -> Callable[[str], Path]:
     """The path of one of the real meshes; the test is skipped where they are absent."""
 
     def find(name: str) -> Path:
-        if not (_REAL / name).exists():
-            pytest.skip(f"the real mesh {name} is not in {_REAL}")
-        return _REAL / name
+        path = _REAL / name
+        if not path.exists():
+            pytest.skip(f"the real mesh {name} is not in {_REAL}; the variable HEXMEND_MESHES names another folder")
+        return path
 
     return find

@@ -1,4 +1,4 @@
-"""The viewer's part of the benchmark: milliseconds a frame, and how late the event loop is beside a running smoother."""
+"""The viewer's part of the benchmark: milliseconds a frame, and how late the event loop is beside a smoother."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
 from hexmend.errors import HexmendError
 from hexmend.gallery import make
 from hexmend.study.bench import Section
 
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
-
     from hexmend_app.window import Window
 
 _FRAMES = 40
@@ -93,9 +93,10 @@ def _turn(seconds: float) -> None:
 
 def _while_running(window: Window) -> dict[str, Any]:
     """Run local-sd in the window with a crinkle cut: frames a second, and how late timers fire."""
+    from PySide6.QtCore import QTimer
+
     from hexmend.run import Stop
     from hexmend.smoothers.local_sd import LocalSteepestDescent
-    from PySide6.QtCore import QTimer
 
     window.document.preview(window.document.start)
     window.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
@@ -138,4 +139,6 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     return rows
 
 
-section = Section("viewer", f"The viewer: frames with points and colours changing (median of {_FRAMES})", _measure, _lines)
+section = Section(
+    "viewer", f"The viewer: frames with points and colours changing (median of {_FRAMES})", _measure, _lines
+)

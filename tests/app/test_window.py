@@ -6,15 +6,16 @@ import threading
 
 import numpy as np
 import pytest
-from hexmend import gallery, io
-from hexmend_app.program import application, report_unexpected_errors
-from hexmend_app.state.run import Phase
-from hexmend_app.window import Window
 from PIL import Image
 from PySide6.QtCore import QMimeData, QPoint, QPointF, QSettings, Qt, QThread, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QMessageBox, QPushButton
+
+from hexmend import gallery, io
+from hexmend_app.program import application, report_unexpected_errors
+from hexmend_app.state.run import Phase
+from hexmend_app.window import Window
 
 LEFT = Qt.MouseButton.LeftButton
 

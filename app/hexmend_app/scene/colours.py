@@ -1,4 +1,4 @@
-"""Colours of elements: maps that all kinds of colour vision can read, and a colour of their own for inverted elements."""
+"""Colours of elements: maps that all kinds of colour vision can read, and a colour of its own for what is inverted."""
 
 from __future__ import annotations
 

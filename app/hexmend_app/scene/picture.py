@@ -103,6 +103,6 @@ def colour_bar(look: Look, inverted: int, size: tuple[int, int], mode: str = "RG
 
 def _font() -> str:
     """A font file that comes with matplotlib, so that pictures look the same everywhere."""
-    import matplotlib
+    import matplotlib as mpl
 
-    return str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")
+    return str(Path(mpl.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")

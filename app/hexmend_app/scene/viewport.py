@@ -14,7 +14,7 @@ from hexmend_app.scene.surface import Surface, quads, set_colours, set_points
 from hexmend_app.state.look import Look
 
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
-_LIGHT = (-0.35, 0.45, 1.0)  # from over the viewer's left shoulder
+_LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 _OUTLINE = "#8a93a3"
 _CLOSER = 1.25  # VTK leaves room for the sphere around the box
 
@@ -46,7 +46,7 @@ class Viewport:
         self._look = Look()
         plotter.set_background(_BACKGROUND)
         plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
-        plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=0.85))
+        plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=1.0))
         plotter.render_window.SetMultiSamples(0)
         self._skin_surface = Surface(plotter, "skin")
         self._section_surface = Surface(plotter, "section")
@@ -109,7 +109,7 @@ class Viewport:
         return chosen if self._uncut is None else chosen & self._uncut
 
     def _choose_uncut(self) -> None:
-        """The hexes that a cut by whole elements leaves: chosen as the cut is made, so that none flickers as nodes move."""
+        """What a cut by whole elements leaves: chosen as the cut is made, so that none flickers as nodes move."""
         plane = self._look.clip
         self._uncut = None
         if plane is not None and plane.crinkle:

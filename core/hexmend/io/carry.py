@@ -1,4 +1,4 @@
-"""What files hold beside points and hexes, in the terms of VTK: data arrays, sets as arrays, cells of lower dimension."""
+"""What files hold beside points and hexes, in the terms of VTK: data, sets as arrays, cells of lower dimension."""
 
 from __future__ import annotations
 

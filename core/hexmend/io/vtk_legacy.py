@@ -19,7 +19,11 @@ _TYPES = {
     "int": "i4", "unsigned_int": "u4", "long": "i8", "unsigned_long": "u8", "vtktypeint64": "i8", "vtktypeuint64": "u8",
     "vtkidtype": "i8", "float": "f4", "double": "f8",
 }  # fmt: skip
-_NAMES = {code: name for name, code in _TYPES.items() if name not in ("bit", "char", "vtktypeint64", "vtktypeuint64", "vtkidtype")}
+_NAMES = {
+    code: name
+    for name, code in _TYPES.items()
+    if name not in ("bit", "char", "vtktypeint64", "vtktypeuint64", "vtkidtype")
+}
 _NAMES["i1"] = "char"
 _WIDTHS = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9, "GLOBAL_IDS": 1, "PEDIGREE_IDS": 1}
 
@@ -71,7 +75,9 @@ class _Reader:
         line = source.here
         try:
             if key == "POINTS":
-                self.found[key] = self._array(key, source.whole(words[1], "the number of points"), 3, words[2]).astype(float)
+                self.found[key] = self._array(key, source.whole(words[1], "the number of points"), 3, words[2]).astype(
+                    float
+                )
             elif key == "CELLS":
                 self._cells_section(source.whole(words[1], "the number of cells"), source.whole(words[2], "their size"))
             elif key == "CELL_TYPES":
@@ -102,7 +108,9 @@ class _Reader:
                 while source.raw_line():
                     pass
             else:
-                raise source.error(f"the line before {line} begins with {shown(words[0])}: expected a section of the format")
+                raise source.error(
+                    f"the line before {line} begins with {shown(words[0])}: expected a section of the format"
+                )
         except IndexError:
             raise source.error(f"the heading {' '.join(words)!r} before {line} is incomplete") from None
 
@@ -113,7 +121,9 @@ class _Reader:
                 pass
             words = self.source.line().split()
         if len(words) < 4:
-            raise self.source.error(f"an array's heading before {self.source.here} is incomplete: expected name, width, rows, type")
+            raise self.source.error(
+                f"an array's heading before {self.source.here} is incomplete: expected name, width, rows, type"
+            )
         width = self.source.whole(words[1], "the number of components")
         rows = self.source.whole(words[2], "the number of rows")
         values = self._array(f"array {words[0]}", rows, width, words[3])
@@ -161,7 +171,9 @@ class _Reader:
         if "OFFSETS" in self.found:
             start = self.found["OFFSETS"]
             if len(start) != count + 1 or start[0] != 0 or start[-1] != len(flat) or (np.diff(start) < 0).any():
-                raise self.source.error(f"CELLS has {len(start)} OFFSETS for {count} cells of CELL_TYPES: expected {count + 1}, rising")
+                raise self.source.error(
+                    f"CELLS has {len(start)} OFFSETS for {count} cells of CELL_TYPES: expected {count + 1}, rising"
+                )
             return start, flat
         widths = np.empty(count, np.int64)
         if len(flat) == 9 * count and (flat[::9] == 8).all():
@@ -217,14 +229,19 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             numbers(flat, "i4")
         file.write(f"CELL_TYPES {count}\n".encode())
         numbers(grid.types, "i4")
-        for section, rows, data in (("POINT_DATA", len(grid.points), grid.node_data), ("CELL_DATA", count, grid.cell_data)):
+        for section, rows, data in (
+            ("POINT_DATA", len(grid.points), grid.node_data),
+            ("CELL_DATA", count, grid.cell_data),
+        ):
             if data:
                 file.write(f"{section} {rows}\nFIELD FieldData {len(data)}\n".encode())
             for title, values in data.items():
                 values = np.asarray(values)
                 code = values.dtype.str[1:] if values.dtype.kind != "b" else "u1"
                 if code not in _NAMES:
-                    raise FileError(path, f"the array {title!r} holds {values.dtype}, which VTK cannot", "Remove the array.")
+                    raise FileError(
+                        path, f"the array {title!r} holds {values.dtype}, which VTK cannot", "Remove the array."
+                    )
                 flat = values.reshape(rows, -1)
                 file.write(f"{quote(title, safe=':')} {flat.shape[1]} {rows} {_NAMES[code]}\n".encode())
                 numbers(flat.astype(code), code)

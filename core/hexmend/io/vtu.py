@@ -6,7 +6,7 @@ import contextlib
 import io
 import warnings
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 import numpy as np
 
@@ -52,9 +52,9 @@ def _check_head(path: Path) -> None:
 def _check_xml(path: Path) -> None:
     """Raise `FileError` where the file is no XML, naming the place; the parser does not."""
     try:
-        for _ in ElementTree.iterparse(path):
+        for _ in ET.iterparse(path):
             pass
-    except ElementTree.ParseError as error:
+    except ET.ParseError as error:
         line, column = error.position
         raise FileError(path, f"its XML is broken at line {line}, column {column}", _DAMAGED) from None
 
@@ -66,7 +66,9 @@ def _grid(path: Path, found) -> Grid:
             first, others = sum(map(len, types)), len(block.data)
             which = "the cell" if others == 1 else f"the {others} cells of that kind"
             raise FileError(
-                path, f"cell {first} is a {block.type}; Hexmend reads hexahedra (types 11, 12)", f"Convert or remove {which}."
+                path,
+                f"cell {first} is a {block.type}; Hexmend reads hexahedra (types 11, 12)",
+                f"Convert or remove {which}.",
             )
         rows = np.asarray(block.data, dtype=np.int64)
         types.append(np.full(len(rows), _NUMBERS[block.type], np.uint8))
@@ -98,7 +100,9 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     while begin < len(grid.types):  # cells of one type follow one another
         end = begin + int(np.argmax(np.append(grid.types[begin:] != grid.types[begin], True)))
         width = int(grid.start[begin + 1] - grid.start[begin])
-        cells.append((kinds[int(grid.types[begin])], grid.nodes[grid.start[begin] : grid.start[end]].reshape(-1, width)))
+        cells.append(
+            (kinds[int(grid.types[begin])], grid.nodes[grid.start[begin] : grid.start[end]].reshape(-1, width))
+        )
         parts.append(slice(begin, end))
         begin = end
     native = {name: _native(values) for name, values in grid.cell_data.items()}

@@ -1,8 +1,8 @@
 """Numba kernels: arrays in, arrays out, no classes.
 
-They stand below `mesh` and `topology`, which are built with them, and import only the reference hexahedron. Every kernel
-releases the GIL, so that a window stays alive beside it, and is cached on disk. Results do not depend on the number of
-threads: parallel loops write disjoint rows, and sums are taken over those rows afterwards.
+They stand below `mesh` and `topology`, which are built with them, and import only the reference hexahedron. Every
+kernel releases the GIL, so that a window stays alive beside it, and is cached on disk. Results do not depend on the
+number of threads: parallel loops write disjoint rows, and sums are taken over those rows afterwards.
 
 Numba compiles a kernel once more for an array that is read-only. Points are therefore always handed over read-only
 where they are only read, as `Mesh` keeps them.

@@ -23,7 +23,7 @@ SIGMA, GX, GY, GZ, SQUARE, BX, BY, BZ, K = range(9)
 
 
 def _around(corner: int) -> list[list[int]]:
-    """The tetrahedra that hold a corner, as (apex, others in cyclic order), those of the neighbours beginning with it."""
+    """The tetrahedra that hold a corner, as (apex, others in cyclic order); a neighbour's others begin with it."""
     rows = [list(CORNER_TETRAHEDRA[corner])]
     for apex, *others in CORNER_TETRAHEDRA:
         if corner in others:

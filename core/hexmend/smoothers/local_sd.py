@@ -32,7 +32,7 @@ class LocalSteepestDescent(Smoother):
         low=0,
         high=10,
         unit="mean edge length³",
-        help="Softness of the barrier (3.2) while any hex is inverted; zero from then on. Large values move the optimum.",
+        help="Softness of the barrier (3.2) while any hex is inverted; then zero. Large values move the optimum.",
     )
     first_step: float = parameter(
         1.0, low=1e-6, high=1e3, unit="mean edge length", help="First trial step α of the line search (A.5)."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import platform
@@ -80,7 +81,7 @@ def _iterations() -> dict[str, Any]:
     for name in METHODS:
         run = iterate(mesh, name, Stop(max_iterations=9, tolerance=0))
         at = [0.0, *(it.seconds for it in run)]
-        seconds = median(b - a for a, b in zip(at, at[1:], strict=False))
+        seconds = median(b - a for a, b in itertools.pairwise(at))
         thesis = THESIS_SECONDS_PER_NODE.get(name)
         figures[name] = {
             "seconds": seconds,
@@ -95,7 +96,9 @@ def _iteration_lines(figures: dict[str, Any]) -> list[str]:
     rows = []
     for name, row in figures.items():
         against = f"   {row['ratio']:,.0f} x faster than the thesis's program" if row["ratio"] else ""
-        rows.append(f"{name:<18} {row['seconds'] * 1e3:8.1f} ms   {row['seconds_per_node'] * 1e9:8.0f} ns a node{against}")
+        rows.append(
+            f"{name:<18} {row['seconds'] * 1e3:8.1f} ms   {row['seconds_per_node'] * 1e9:8.0f} ns a node{against}"
+        )
     return rows
 
 
@@ -119,7 +122,8 @@ began = perf_counter()
 measure(mesh.points, mesh.hexes)
 quality = perf_counter() - began
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-print(json.dumps({"hexes": mesh.n_hexes, "topology_seconds": topology, "quality_seconds": quality, "peak_mb": peak / 1024}))
+row = {"hexes": mesh.n_hexes, "topology_seconds": topology, "quality_seconds": quality, "peak_mb": peak / 1024}
+print(json.dumps(row))
 """
 
 
@@ -133,11 +137,13 @@ def _scaling() -> dict[str, Any]:
 
 def _scaling_lines(figures: dict[str, Any]) -> list[str]:
     return [
-        f"{row['hexes']:>9,} hexes   topology {row['topology_seconds']:6.2f} s   quality {row['quality_seconds'] * 1e3:7.1f} ms"
-        f"   peak {row['peak_mb']:6.0f} MB"
+        f"{row['hexes']:>9,} hexes   topology {row['topology_seconds']:6.2f} s   "
+        f"quality {row['quality_seconds'] * 1e3:7.1f} ms   peak {row['peak_mb']:6.0f} MB"
         for row in figures["sizes"]
     ]
 
 
-ITERATIONS = Section("iterations", "One iteration on bridge-sharp, 32,000 hexes (median of 9)", _iterations, _iteration_lines)
+ITERATIONS = Section(
+    "iterations", "One iteration on bridge-sharp, 32,000 hexes (median of 9)", _iterations, _iteration_lines
+)
 SCALING = Section("scaling", "Topology and quality against size (whole process)", _scaling, _scaling_lines)

@@ -4,13 +4,13 @@ import os
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io import FORMATS
 from hexmend.io.atomic import replacing
-from hypothesis import given, settings
-from hypothesis import strategies as st
-
 from tests.core.grids import grid, scrambled
 
 WAYS = [(one.suffixes[0], encoding) for one in FORMATS.values() for encoding in one.encodings]
@@ -77,7 +77,7 @@ def test_what_is_wrong_is_named(name, text, words, tmp_path):
 
 def test_a_missing_file_is_said_with_its_nearest(tmp_path):
     io.write(tmp_path / "bridge.vtk", grid(1))
-    with pytest.raises(FileError, match="Did you mean bridge.vtk"):
+    with pytest.raises(FileError, match=r"Did you mean bridge\.vtk"):
         io.read(tmp_path / "brigde.vtk")
     with pytest.raises(FileError, match="is a folder"):
         io.read(tmp_path)

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+
 from hexmend.io.doctor import examine, mirrored
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
-
 from tests.core.grids import grid
 
 SOUND = grid(3)
@@ -27,7 +27,11 @@ def with_hexes(hexes):
         (with_hexes(np.where(SOUND.hexes == SOUND.hexes[0, 6], SOUND.hexes[0, 5], SOUND.hexes)), "degenerate-hexes", 4),
         (with_hexes(SOUND.hexes[[0, 26]]), "parts", 1),
         (mirrored(SOUND), "mirrored", 27),
-        (Mesh(np.vstack([SOUND.points, SOUND.points]), np.vstack([SOUND.hexes, SOUND.hexes + 64])), "coincident-nodes", 64),
+        (
+            Mesh(np.vstack([SOUND.points, SOUND.points]), np.vstack([SOUND.hexes, SOUND.hexes + 64])),
+            "coincident-nodes",
+            64,
+        ),
     ],
 )
 def test_trouble_is_found_and_counted(mesh, kind, count):

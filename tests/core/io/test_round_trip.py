@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from hexmend import io
-from hexmend.gallery import make
-from hexmend.io import FORMATS
-from hexmend.mesh import Cells, Mesh
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from hexmend import io
+from hexmend.gallery import make
+from hexmend.io import FORMATS
+from hexmend.mesh import Cells, Mesh
 from tests.core.grids import grid, scrambled
 
 WAYS = [(one.suffixes[0], encoding) for one in FORMATS.values() for encoding in one.encodings]
@@ -31,7 +31,11 @@ def rich() -> Mesh:
         hex_data={"medit:ref": np.arange(m)[::-1].copy()},
         node_sets={"corners": np.array([0, 3, 12]), "required": np.array([5, 21])},
         cells=(
-            Cells("line", bare.topology.edges[:4], {"medit:ref": np.arange(4), "medit:ridge": np.array([0, 1, 1, 0], np.uint8)}),
+            Cells(
+                "line",
+                bare.topology.edges[:4],
+                {"medit:ref": np.arange(4), "medit:ridge": np.array([0, 1, 1, 0], np.uint8)},
+            ),
             Cells("quad", quads, {"medit:ref": np.arange(7)}),
         ),
         name="rich",
@@ -143,7 +147,9 @@ def test_vtk_itself_reads_what_is_written(suffix, tmp_path):
     pytest.importorskip("pyvista")
     mesh = make("five-side", size=500)
     io.write(tmp_path / f"five{suffix}", mesh)
-    program = f"import pyvista; m = pyvista.read({str(tmp_path / f'five{suffix}')!r}); print(m.n_cells, m.n_points, m.volume)"
+    program = (
+        f"import pyvista; m = pyvista.read({str(tmp_path / f'five{suffix}')!r}); print(m.n_cells, m.n_points, m.volume)"
+    )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     cells, nodes, volume = done.stdout.split()
     assert (int(cells), int(nodes)) == (mesh.n_hexes, mesh.n_nodes)

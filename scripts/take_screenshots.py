@@ -1,0 +1,80 @@
+"""Takes the README's pictures: opens a mesh in the window, cuts it, runs local-sd, pauses, steps, stops.
+
+Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/take_screenshots.py MESH FOLDER
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+from PIL import Image
+from PySide6.QtCore import QEventLoop, QSettings, QTimer
+
+from hexmend_app.program import application
+from hexmend_app.state.look import ClipPlane
+from hexmend_app.state.run import Phase
+from hexmend_app.window import Window
+
+
+def turn(seconds: float) -> None:
+    """Let the window live for a while."""
+    loop = QEventLoop()
+    QTimer.singleShot(round(seconds * 1e3), loop.quit)
+    loop.exec()
+
+
+def until(condition, seconds: float = 120) -> None:
+    """Wait for something, looking ten times a second."""
+    for _ in range(round(seconds * 10)):
+        if condition():
+            return
+        turn(0.1)
+    raise TimeoutError(f"waited {seconds} s in vain")
+
+
+def shoot(window: Window, path: Path) -> None:
+    """Photograph the screen where the window stands."""
+    turn(1.0)
+    at = window.geometry()
+    window.screen().grabWindow(0, at.x(), at.y(), at.width(), at.height()).save(str(path))
+    Image.open(path).convert("RGB").save(path, optimize=True)
+    print(f"{path}: {path.stat().st_size / 1000:.0f} kB")
+
+
+def main(mesh: str, folder: Path) -> None:
+    """Go through the scenes."""
+    settings = tempfile.mkdtemp()
+    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, settings)
+    app = application()
+    window = Window()
+    window.setGeometry(0, 0, 1320, 830)
+    window.show()
+    turn(0.5)
+    window.build_canvas()
+    window.open(mesh)
+    until(lambda: window.document.is_open)
+    shoot(window, folder / "window-open.png")
+    middle = tuple(window.document.now.mesh.points.mean(axis=0))
+    window.view.set_clip(ClipPlane((1, 0, 0), middle, crinkle=True))
+    shoot(window, folder / "window-cut.png")
+    window.smoothing_panel.run_or_pause()
+    until(lambda: window.smoothing.phase is Phase.RUNNING)
+    turn(3)
+    window.smoothing_panel.run_or_pause()
+    until(lambda: window.smoothing.phase is Phase.PAUSED)
+    window.smoothing_panel.step()
+    turn(1)
+    window.view.set_clip(ClipPlane((1, 0, 0), middle, crinkle=False))
+    shoot(window, folder / "window-smoothing.png")
+    window.smoothing.stop()
+    until(lambda: window.smoothing.phase is Phase.FINISHED)
+    shoot(window, folder / "window-stopped.png")
+    window.document.saved(window.document.path)
+    window.close()
+    app.processEvents()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], Path(sys.argv[2]))
