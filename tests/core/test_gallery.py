@@ -1,0 +1,82 @@
+"""Gallery meshes: counts, soundness, determinism, size."""
+
+import numpy as np
+import pytest
+from hexmend.errors import ParameterError
+from hexmend.gallery import GALLERY, make
+from hexmend.io.doctor import examine
+from hexmend.parameters import declared
+from hexmend.quality import summarise
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+every = pytest.mark.parametrize("name", GALLERY)
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "hexes", "nodes", "free"),
+    [
+        ("five-side", 7350, 7350, 8711, 6119),  # the thesis's FiveSide4, 5 and 6
+        ("five-side", 16650, 16650, 18879, 14587),
+        ("five-side", 44400, 44400, 49329, 39737),
+        ("bridge-sharp", 32000, 32000, 35301, 28899),
+        ("cube", 1000, 1000, 1331, 729),
+    ],
+)
+def test_counts_are_those_of_the_thesis(name, size, hexes, nodes, free):
+    summary = summarise(make(name, size=size))
+    assert (summary.hexes, summary.nodes, summary.free_nodes) == (hexes, nodes, free)
+    assert summary.inverted == 0
+
+
+def test_figures_are_near_those_of_the_thesis():
+    five, bridge = summarise(make("five-side")), summarise(make("bridge-sharp"))
+    assert (five.q_min, five.q_mean, five.q_norm) == pytest.approx((0.5038, 0.8343, 0.8177), abs=0.04)
+    assert (bridge.q_min, bridge.q_mean, bridge.q_norm) == pytest.approx((0.1679, 0.8098, 0.6421), abs=0.04)
+
+
+@every
+@settings(max_examples=10)
+@given(size=st.integers(2000, 20_000))
+def test_any_size_comes_near_and_is_sound(name, size):
+    mesh = make(name, size=size)
+    assert mesh.n_hexes == pytest.approx(size, rel=0.3)
+    assert examine(mesh) == ()
+    assert summarise(mesh).inverted == 0
+    assert mesh.name == f"{name}-{mesh.n_hexes}"
+
+
+@every
+def test_scrambling_is_deterministic_and_leaves_the_boundary(name):
+    mesh, again, other, still = (
+        make(name, size=500, scramble=amplitude, seed=seed) for amplitude, seed in ((0.5, 1), (0.5, 1), (0.5, 2), (0, 0))
+    )
+    np.testing.assert_array_equal(mesh.points, again.points)
+    assert (mesh.points != other.points).any()
+    np.testing.assert_array_equal(mesh.points[mesh.fixed], still.points[mesh.fixed])
+    assert (mesh.points[mesh.free] != still.points[mesh.free]).any()
+
+
+@every
+def test_entries_say_what_they_are(name):
+    kind = GALLERY[name]
+    assert kind.name == name
+    assert kind.title
+    assert kind.help.endswith(".")
+    assert kind.source
+    assert {"size", "scramble", "seed"} <= {one.name for one in declared(kind)}
+
+
+def test_what_is_not_admitted_is_said():
+    with pytest.raises(ParameterError, match="size = 0 is out of range"):
+        make("cube", size=0)
+    with pytest.raises(ParameterError, match="there is no gallery mesh"):
+        make("torus")
+
+
+def test_sets_and_blocks_name_the_parts():
+    five = make("five-side")
+    assert len(five.node_sets["bottom"]) == len(five.node_sets["top"]) == 281
+    assert np.bincount(five.hex_data["block"])[1:].tolist() == [1470] * 5
+    assert five.points[five.node_sets["top"], 2] == pytest.approx(1.5)
+    assert len(make("bridge-sharp").node_sets["arch"]) == 41 * 21
