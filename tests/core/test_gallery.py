@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from hexmend.errors import ParameterError
 from hexmend.gallery import GALLERY, make
 from hexmend.io.doctor import examine
 from hexmend.parameters import declared
 from hexmend.quality import summarise
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 every = pytest.mark.parametrize("name", GALLERY)
 
@@ -49,7 +50,8 @@ def test_any_size_comes_near_and_is_sound(name, size):
 @every
 def test_scrambling_is_deterministic_and_leaves_the_boundary(name):
     mesh, again, other, still = (
-        make(name, size=500, scramble=amplitude, seed=seed) for amplitude, seed in ((0.5, 1), (0.5, 1), (0.5, 2), (0, 0))
+        make(name, size=500, scramble=amplitude, seed=seed)
+        for amplitude, seed in ((0.5, 1), (0.5, 1), (0.5, 2), (0, 0))
     )
     np.testing.assert_array_equal(mesh.points, again.points)
     assert (mesh.points != other.points).any()
