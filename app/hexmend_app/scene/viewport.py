@@ -16,7 +16,7 @@ from hexmend_app.state.look import Look
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 _OUTLINE = "#8a93a3"
-_CLOSER = 1.25  # VTK leaves room for the sphere around the box
+_CLOSER = 1.1  # VTK leaves room for the sphere around the box
 
 #: Directions to look from: the place of the camera, and what is up.
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
