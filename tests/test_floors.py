@@ -36,6 +36,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
+    {"menus"},
     {"window"},
     {"program"},
     {"bench", "cli"},

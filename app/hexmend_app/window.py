@@ -6,28 +6,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSettings, Qt, QTimer
-from PySide6.QtGui import QAction, QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
     QDockWidget,
-    QFileDialog,
     QLabel,
     QMainWindow,
-    QMessageBox,
     QProgressBar,
     QScrollArea,
     QStyle,
-    QToolBar,
     QVBoxLayout,
     QWidget,
 )
 
 from hexmend.errors import FileError, HexmendError
-from hexmend.io import readable_suffixes, writable_suffixes
 from hexmend.parameters import declared
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
-from hexmend_app.actions import ACTIONS, ActionSpec
+from hexmend_app.actions import ACTIONS
 from hexmend_app.commands import Commands, methods_offered
+from hexmend_app.menus import build_menus
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state.document import Document
 from hexmend_app.state.opener import Opener
@@ -37,9 +34,9 @@ from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
+from hexmend_app.widgets.questions import Answer, ask_mesh, ask_target, ask_unsaved, remember_folder, show_about
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
-from hexmend_app.widgets.style import icon
 from hexmend_app.widgets.welcome import Welcome
 
 if TYPE_CHECKING:
@@ -78,9 +75,12 @@ class Window(QMainWindow):
         self.progress.setTextVisible(False)
         self.counts = QLabel()
 
-        self.actions_by_id: dict[str, QAction] = {}
         self._lay_out()
-        self._make_actions()
+        self.actions_by_id = build_menus(self, lambda id: getattr(self, f"_on_{id}"))
+        self.actions_by_id["edges"].setChecked(self.view.look.edges)
+        self.smoothing_panel.set_shortcuts(
+            {id: self.actions_by_id[id].shortcut().toString() for id in ("run", "step", "stop", "reset")}
+        )
         self._connect()
         self._restore()
         self._enable()
@@ -134,46 +134,6 @@ class Window(QMainWindow):
         )
         self.addDockWidget(area, dock)
         return dock
-
-    def _make_actions(self) -> None:
-        bar = QToolBar("Tools")
-        bar.setObjectName("toolbar")
-        bar.setMovable(False)
-        bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.addToolBar(bar)
-        menus = {}
-        for spec in ACTIONS:
-            if spec.menu not in menus:
-                menus[spec.menu] = self.menuBar().addMenu(spec.menu)
-                if bar.actions() and not bar.actions()[-1].isSeparator():
-                    bar.addSeparator()
-            action = self._make_action(spec)
-            if spec.separated:
-                menus[spec.menu].addSeparator()
-            menus[spec.menu].addAction(action)
-            if spec.tool:
-                bar.addAction(action)
-        self.actions_by_id["edges"].setChecked(self.view.look.edges)
-        named = {"run": "run", "step": "step", "stop": "stop", "reset": "reset"}
-        self.smoothing_panel.set_shortcuts(
-            {part: self.actions_by_id[id].shortcut().toString() for part, id in named.items()}
-        )
-
-    def _make_action(self, spec: ActionSpec) -> QAction:
-        action = QAction(spec.text, self)
-        if spec.icon:
-            action.setIcon(icon(spec.icon))
-        if spec.tool:
-            action.setIconText(spec.tool)
-        keys = f" ({spec.shortcut})" if spec.shortcut else ""
-        action.setShortcut(QKeySequence(spec.shortcut))
-        action.setToolTip(f"<qt>{spec.help}{keys}</qt>")
-        action.setStatusTip(spec.help)
-        action.setCheckable(spec.checkable)
-        handler = getattr(self, f"_on_{spec.id}")
-        (action.toggled if spec.checkable else action.triggered).connect(handler)
-        self.actions_by_id[spec.id] = action
-        return action
 
     def build_canvas(self) -> None:
         """Load what draws in 3D and put it where the welcome is; slow the first time."""
@@ -261,7 +221,7 @@ class Window(QMainWindow):
         self.statusBar().clearMessage()
         self.messages.clear()
         if path.resolve() != demo_mesh().resolve():
-            QSettings().setValue("folder", str(path.resolve().parent))
+            remember_folder(path)
 
     def _on_open_failed(self, path: Path, error: Exception) -> None:
         self.progress.hide()
@@ -318,11 +278,7 @@ class Window(QMainWindow):
             self.commands.open(path)
 
     def _on_open(self) -> None:
-        kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
-        folder = str(QSettings().value("folder", ""))
-        path, _ = QFileDialog.getOpenFileName(
-            self, "Open a mesh", folder, f"Hexahedral meshes ({kinds});;All files (*)"
-        )
+        path = ask_mesh(self)
         if path:
             self.open(path)
 
@@ -330,11 +286,7 @@ class Window(QMainWindow):
         self.open(demo_mesh())
 
     def _on_save(self) -> bool:
-        kinds = ";;".join(f"{suffix[1:].upper()} mesh (*{suffix})" for suffix in writable_suffixes())
-        stem = self.document.path.stem if self.document.path else "mesh"
-        folder = Path(str(QSettings().value("folder", "")))
-        proposal = str(folder / f"{stem}-smoothed.vtu")
-        path, _ = QFileDialog.getSaveFileName(self, "Save the mesh as", proposal, kinds, "VTU mesh (*.vtu)")
+        path = ask_target(self, self.document.path.stem if self.document.path else "mesh")
         return bool(path) and self.save(path)
 
     def save(self, path: str | Path) -> bool:
@@ -414,13 +366,7 @@ class Window(QMainWindow):
     def _on_about(self) -> None:
         from hexmend import __version__
 
-        QMessageBox.about(
-            self,
-            "About Hexmend",
-            f"<b>Hexmend {__version__}</b><p>See a hexahedral mesh, and mend it while you watch.</p>"
-            "<p>Its mathematics is T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
-            "Meshes</i>. BSD 3-clause licence.</p>",
-        )
+        show_about(self, __version__)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take one file that is dragged in."""
@@ -440,18 +386,11 @@ class Window(QMainWindow):
         """Whether what is unsaved was saved or may be lost."""
         if not self.document.modified and not self.smoothing.busy:
             return True
-        buttons = QMessageBox.StandardButton
-        box = QMessageBox(self)
-        box.setIcon(QMessageBox.Icon.Question)
-        box.setText(f"{self.document.name} has been smoothed and not saved.")
-        box.setInformativeText("Save the smoothed mesh before it is closed?")
-        box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
-        box.setDefaultButton(buttons.Save)
-        answer = box.exec()
-        if answer == buttons.Save:
+        answer = ask_unsaved(self, self.document.name)
+        if answer is Answer.SAVE:
             self.smoothing.end_now()
             return self._on_save()
-        return answer == buttons.Discard
+        return answer is Answer.DISCARD
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """End the threads and the 3D view before the window goes."""

@@ -17,7 +17,8 @@ def section(
 ) -> pv.PolyData:
     """Where a plane cuts through the elements: a polygon for each, in its colour.
 
-    Only hexes that the plane crosses are handed to VTK, a few in a hundred.
+    Only hexes that the plane crosses or touches are handed to VTK, a few in a hundred. To VTK a node on the plane lies
+    beyond it: of two hexes whose common face lies in the plane, the one that is kept gives the polygon.
 
     Parameters
     ----------
@@ -28,10 +29,10 @@ def section(
     plane : ClipPlane
     colours : (m, 3) uint8
     """
-    crossed = sides.crossed(points, hexes, *plane.equation)
+    touched = sides.touched(points, hexes, *plane.equation)
     if keep is not None:
-        crossed &= keep
-    chosen = np.flatnonzero(crossed)
+        touched &= keep
+    chosen = np.flatnonzero(touched)
     if not len(chosen):
         return pv.PolyData()
     nodes, cells = np.unique(hexes[chosen], return_inverse=True)

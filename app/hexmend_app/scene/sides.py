@@ -29,15 +29,24 @@ def centres_kept(points, hexes, normal, offset):
 
 
 @serial
-def crossed(points, hexes, normal, offset):
-    """True for each hex with corners on both sides of the plane x . normal = offset, (m,) bool."""
+def touched(points, hexes, normal, offset):
+    """True for each hex that the plane x . normal = offset crosses or touches, (m,) bool.
+
+    A plane through nodes has hexes that only touch it on either side, and by rounding a node may lie here or there.
+    Those of both sides are named, so that whoever cuts them can decide for each node once.
+    """
     height = _heights(points, normal)
+    slack = 0.0
+    for i in range(height.size):
+        slack = max(slack, abs(height[i]))
+    slack = 1e-12 * max(slack, abs(offset))
     answer = np.empty(hexes.shape[0], np.bool_)
     for h in range(hexes.shape[0]):
-        beyond = 0
+        low, high = np.inf, -np.inf
         for c in range(8):
-            beyond += height[hexes[h, c]] > offset
-        answer[h] = 0 < beyond < 8
+            low = min(low, height[hexes[h, c]])
+            high = max(high, height[hexes[h, c]])
+        answer[h] = low <= offset + slack and high >= offset - slack
     return answer
 
 

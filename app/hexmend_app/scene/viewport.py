@@ -9,6 +9,7 @@ from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
 from hexmend_app.scene import cut, sides
 from hexmend_app.scene.colours import colours
+from hexmend_app.scene.fitting import fit
 from hexmend_app.scene.skin import Skin
 from hexmend_app.scene.surface import Surface, quads, set_colours, set_points
 from hexmend_app.state.look import Look
@@ -16,7 +17,6 @@ from hexmend_app.state.look import Look
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 _OUTLINE = "#8a93a3"
-_CLOSER = 1.1  # VTK leaves room for the sphere around the box
 
 #: Directions to look from: the place of the camera, and what is up.
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
@@ -93,8 +93,9 @@ class Viewport:
 
     @property
     def bounds(self) -> tuple[float, float, float, float, float, float]:
-        """x low, x high, y low, y high, z low, z high of the mesh as it was opened."""
-        low, high = self._mesh.points.min(axis=0), self._mesh.points.max(axis=0)
+        """x low, x high, y low, y high, z low, z high of the opened mesh, unused nodes left out."""
+        points = self._mesh.points[self._mesh.topology.used]
+        low, high = points.min(axis=0), points.max(axis=0)
         return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
 
     def _kept(self) -> np.ndarray | None:
@@ -174,15 +175,17 @@ class Viewport:
     def reset_camera(self) -> None:
         """Show the whole mesh, from where the camera looks."""
         if self._mesh is not None:
-            self._plotter.renderer.ResetCamera(self.bounds)
-            camera = self._plotter.camera
-            camera.SetParallelScale(camera.GetParallelScale() / _CLOSER)
-            camera.Dolly(_CLOSER)
-            self._plotter.renderer.ResetCameraClippingRange(self.bounds)
+            bounds, renderer = self.bounds, self._plotter.renderer
+            renderer.ResetCamera(bounds)
+            fit(self._plotter.camera, bounds, renderer.GetTiledAspectRatio())
+            renderer.ResetCameraClippingRange(bounds)
 
     def view(self, direction: str | tuple[float, float, float]) -> None:
-        """Look at the whole mesh from a direction: a name of `VIEWS`, or a vector with z up."""
-        place, up = VIEWS[direction] if isinstance(direction, str) else (direction, (0.0, 0.0, 1.0))
+        """Look at the whole mesh from a direction: a name of `VIEWS`, or a vector, with z up where it can be."""
+        if isinstance(direction, str):
+            place, up = VIEWS[direction]
+        else:
+            place, up = direction, (0.0, 0.0, 1.0) if any(direction[:2]) else (0.0, 1.0, 0.0)
         camera = self._plotter.camera
         camera.SetFocalPoint(0, 0, 0)
         camera.SetPosition(place)

@@ -11,18 +11,23 @@ from hexmend.kernels.shape import determinant, power_minus_two_thirds
 
 
 @serial
+def ring_mean(points, ring_start, ring, i):
+    """Mean of the edge neighbours of node i, (x, y, z)."""
+    x, y, z = 0.0, 0.0, 0.0
+    for s in range(ring_start[i], ring_start[i + 1]):
+        x += points[ring[s], 0]
+        y += points[ring[s], 1]
+        z += points[ring[s], 2]
+    count = ring_start[i + 1] - ring_start[i]
+    return x / count, y / count, z / count
+
+
+@serial
 def in_place(points, ring_start, ring, nodes):
     """Algorithm 3.1: node after node, each seeing where those before it went; changes points (n, 3)."""
     for k in range(nodes.size):
         i = nodes[k]
-        sx, sy, sz = 0.0, 0.0, 0.0
-        for s in range(ring_start[i], ring_start[i + 1]):
-            j = ring[s]
-            sx += points[j, 0]
-            sy += points[j, 1]
-            sz += points[j, 2]
-        count = ring_start[i + 1] - ring_start[i]
-        points[i, 0], points[i, 1], points[i, 2] = sx / count, sy / count, sz / count
+        points[i, 0], points[i, 1], points[i, 2] = ring_mean(points, ring_start, ring, i)
 
 
 @parallel
@@ -30,14 +35,7 @@ def simultaneous(points, ring_start, ring, nodes, moved):
     """All nodes at once, each seeing where the others were; writes moved (n, 3)."""
     for k in numba.prange(nodes.size):
         i = nodes[k]
-        sx, sy, sz = 0.0, 0.0, 0.0
-        for s in range(ring_start[i], ring_start[i + 1]):
-            j = ring[s]
-            sx += points[j, 0]
-            sy += points[j, 1]
-            sz += points[j, 2]
-        count = ring_start[i + 1] - ring_start[i]
-        moved[i, 0], moved[i, 1], moved[i, 2] = sx / count, sy / count, sz / count
+        moved[i, 0], moved[i, 1], moved[i, 2] = ring_mean(points, ring_start, ring, i)
 
 
 @serial
@@ -79,15 +77,13 @@ def guarded(points, hexes, start, corners, ring_start, ring, nodes, keep_least_q
     x = np.empty((8, 3))
     sound, sound_after = np.empty(widest, np.bool_), np.empty(widest, np.bool_)
     q, q_after = np.empty(widest), np.empty(widest)
-    one = np.empty(1, np.int32)
     taken_back = 0
     for k in range(nodes.size):
         i = nodes[k]
         begin, end = start[i], start[i + 1]
         _attached(points, hexes, corners, begin, end, x, sound, q)
         ox, oy, oz = points[i, 0], points[i, 1], points[i, 2]
-        one[0] = i
-        in_place(points, ring_start, ring, one)
+        points[i, 0], points[i, 1], points[i, 2] = ring_mean(points, ring_start, ring, i)
         _attached(points, hexes, corners, begin, end, x, sound_after, q_after)
         harm = False
         least, least_after = np.inf, np.inf

@@ -1,0 +1,61 @@
+"""Menus and tool bar, built from the actions as data."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QToolBar
+
+from hexmend_app.actions import ACTIONS, ActionSpec
+from hexmend_app.widgets.style import icon
+
+
+def build_menus(window: QMainWindow, handler: Callable[[str], Callable]) -> dict[str, QAction]:
+    """Give a window its menus and tool bar.
+
+    Parameters
+    ----------
+    window : QMainWindow
+    handler : callable
+        From an action's id to what it calls; the handler of a checkable action takes whether it is on.
+
+    Returns
+    -------
+    dict
+        Actions by id.
+    """
+    bar = QToolBar("Tools")
+    bar.setObjectName("toolbar")
+    bar.setMovable(False)
+    bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+    window.addToolBar(bar)
+    actions, menus = {}, {}
+    for spec in ACTIONS:
+        if spec.menu not in menus:
+            menus[spec.menu] = window.menuBar().addMenu(spec.menu)
+            if bar.actions() and not bar.actions()[-1].isSeparator():
+                bar.addSeparator()
+        action = actions[spec.id] = _action(window, spec)
+        (action.toggled if spec.checkable else action.triggered).connect(handler(spec.id))
+        if spec.separated:
+            menus[spec.menu].addSeparator()
+        menus[spec.menu].addAction(action)
+        if spec.tool:
+            bar.addAction(action)
+    return actions
+
+
+def _action(window: QMainWindow, spec: ActionSpec) -> QAction:
+    action = QAction(spec.text, window)
+    if spec.icon:
+        action.setIcon(icon(spec.icon))
+    if spec.tool:
+        action.setIconText(spec.tool)
+    keys = f" ({spec.shortcut})" if spec.shortcut else ""
+    action.setShortcut(QKeySequence(spec.shortcut))
+    action.setToolTip(f"<qt>{spec.help}{keys}</qt>")
+    action.setStatusTip(spec.help)
+    action.setCheckable(spec.checkable)
+    return action

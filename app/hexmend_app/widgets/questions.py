@@ -1,0 +1,65 @@
+"""What the window asks in dialogs: which file, and what becomes of unsaved work."""
+
+from __future__ import annotations
+
+from enum import Enum
+from pathlib import Path
+
+from PySide6.QtCore import QSettings
+from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+
+from hexmend.io import readable_suffixes, writable_suffixes
+
+
+class Answer(Enum):
+    """What becomes of unsaved work."""
+
+    SAVE = "save"
+    DISCARD = "discard"
+    CANCEL = "cancel"
+
+
+def ask_mesh(parent: QWidget) -> str:
+    """The mesh file to open, "" for none."""
+    kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
+    filters = f"Hexahedral meshes ({kinds});;All files (*)"
+    return QFileDialog.getOpenFileName(parent, "Open a mesh", _folder(), filters)[0]
+
+
+def ask_target(parent: QWidget, stem: str) -> str:
+    """Where to save the mesh, "" for nowhere."""
+    kinds = ";;".join(f"{suffix[1:].upper()} mesh (*{suffix})" for suffix in writable_suffixes())
+    proposal = str(Path(_folder()) / f"{stem}-smoothed.vtu")
+    return QFileDialog.getSaveFileName(parent, "Save the mesh as", proposal, kinds, "VTU mesh (*.vtu)")[0]
+
+
+def remember_folder(path: Path) -> None:
+    """Begin the next dialog where this file lies."""
+    QSettings().setValue("folder", str(path.resolve().parent))
+
+
+def ask_unsaved(parent: QWidget, name: str) -> Answer:
+    """What becomes of a smoothed mesh that was not saved."""
+    buttons = QMessageBox.StandardButton
+    box = QMessageBox(parent)
+    box.setIcon(QMessageBox.Icon.Question)
+    box.setText(f"{name} has been smoothed and not saved.")
+    box.setInformativeText("Save the smoothed mesh before it is closed?")
+    box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
+    box.setDefaultButton(buttons.Save)
+    return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(box.exec(), Answer.CANCEL)
+
+
+def show_about(parent: QWidget, version: str) -> None:
+    """Version, licence and sources."""
+    QMessageBox.about(
+        parent,
+        "About Hexmend",
+        f"<b>Hexmend {version}</b><p>See a hexahedral mesh, and mend it while you watch.</p>"
+        "<p>Its mathematics is T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
+        "Meshes</i>. BSD 3-clause licence.</p>",
+    )
+
+
+def _folder() -> str:
+    return str(QSettings().value("folder", ""))
