@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -17,6 +18,8 @@ class Render:
     help = "Write a picture of a mesh; needs neither a window nor an X server."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
+        # argparse takes words that begin with a minus for options, numbers apart; -x and -1,0,0 are values here.
+        parser._negative_number_matcher = re.compile(r"-(\d|\.\d|[xyz]$)")
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
         parser.add_argument("-o", "--output", metavar="PNG", required=True, help="where to write the picture")
         parser.add_argument(
@@ -47,15 +50,14 @@ class Render:
         mesh = read(args.mesh)
         figures = measure(mesh.points, mesh.hexes)
         look = _look(args, mesh)
-        view = args.view if args.view in _NAMED else _numbers(args.view, 3, "--view")
+        view = args.view if args.view in _NAMED else _direction(args.view, "--view")
         from hexmend_app.scene.graphics import prepare_off_screen
 
         prepare_off_screen()
         from hexmend_app.scene.picture import picture
 
-        image = picture(
-            mesh, figures, look, size, view=view, transparent=args.transparent, bar=not args.no_bar
-        )  # fmt: skip
+        bar = not args.no_bar
+        image = picture(mesh, figures, look, size, view=view, transparent=args.transparent, bar=bar)
         with replacing(args.output) as temporary:
             image.save(temporary, format="PNG")
         print(f"{args.output}: {size[0]} × {size[1]} pixels")
@@ -77,8 +79,8 @@ def _look(args: argparse.Namespace, mesh: Mesh):
     low, high = metric.full_range
     return Look(
         clip=plane(args.clip, mesh, crinkle=not args.smooth, flip=args.flip) if args.clip else None,
-        quality_range=_numbers(args.quality_range, 2, "--quality-range") if args.quality_range else None,
-        colour_range=_numbers(args.colour_range, 2, "--colour-range") if args.colour_range else (max(low, 0.0), high),
+        quality_range=_range(args.quality_range, "--quality-range") if args.quality_range else None,
+        colour_range=_range(args.colour_range, "--colour-range") if args.colour_range else (max(low, 0.0), high),
         colour_map=args.colour_map,
         edges=not args.no_edges,
         metric=metric.name,
@@ -90,11 +92,11 @@ def plane(text: str, mesh: Mesh, *, crinkle: bool, flip: bool) -> ClipPlane:
     from hexmend_app.state.look import ClipPlane
 
     direction, _, position = text.partition(":")
-    normal = _AXES.get(direction.lower()) or _numbers(direction, 3, "--clip")
-    if not any(normal):
-        raise _wrong("--clip", text, "a normal that is not zero")
+    normal = _AXES.get(direction.lower()) or _direction(direction, "--clip")
     (share,) = _numbers(position, 1, "--clip") if position else (0.5,)
-    along = mesh.points @ normal
+    if not 0 <= share <= 1:
+        raise _wrong("--clip", text, "a position from 0 to 1, as in x:0.5")
+    along = mesh.points[mesh.topology.used] @ normal
     place = along.min() + share * (along.max() - along.min())
     origin = tuple(c * place / sum(n * n for n in normal) for c in normal)
     answer = ClipPlane(normal, origin, crinkle)
@@ -103,9 +105,25 @@ def plane(text: str, mesh: Mesh, *, crinkle: bool, flip: bool) -> ClipPlane:
 
 def _size(text: str) -> tuple[int, int]:
     width, _, height = text.lower().partition("x")
-    if not (width.isdigit() and height.isdigit() and 16 <= int(width) <= 16384 and 16 <= int(height) <= 16384):
-        raise _wrong("--size", text, "WIDTHxHEIGHT of 16 to 16384 pixels, as in 1600x1000")
+    if not (width.isdecimal() and height.isdecimal() and 64 <= int(width) <= 8192 and 64 <= int(height) <= 8192):
+        raise _wrong("--size", text, "WIDTHxHEIGHT of 64 to 8192 pixels each, as in 1600x1000")
     return int(width), int(height)
+
+
+def _direction(text: str, option: str) -> tuple[float, ...]:
+    """A vector, scaled so that its largest component is 1 or -1."""
+    numbers = _numbers(text, 3, option)
+    largest = max(map(abs, numbers))
+    if not largest > 0:
+        raise _wrong(option, text, "a direction that is not zero")
+    return tuple(number / largest for number in numbers)
+
+
+def _range(text: str, option: str) -> tuple[float, ...]:
+    low, high = _numbers(text, 2, option)
+    if not low < high:
+        raise _wrong(option, text, "the lower number first, as in 0.2,0.8")
+    return low, high
 
 
 def _numbers(text: str, count: int, option: str) -> tuple[float, ...]:

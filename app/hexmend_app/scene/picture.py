@@ -16,6 +16,9 @@ from hexmend_app.state.look import Look
 
 _INK = (31, 38, 48)
 
+#: Width and height in pixels below which there is no room for the colour bar.
+_SMALLEST_WITH_BAR = (320, 160)
+
 
 def picture(
     mesh: Mesh,
@@ -45,10 +48,11 @@ def picture(
     transparent : bool
         Leave the background out.
     bar : bool
-        Draw the colour bar below.
+        Draw the colour bar below; a picture too small for it has none.
     """
     width, height = size
-    strip = max(30, round(height * 0.075)) if bar else 0
+    bar = bar and width >= _SMALLEST_WITH_BAR[0] and height >= _SMALLEST_WITH_BAR[1]
+    strip = max(30, round(0.075 * min(height, width * 5 / 8))) if bar else 0
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
     try:
         viewport = Viewport(plotter)

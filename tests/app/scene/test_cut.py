@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from hexmend_app.scene import cut
 from hexmend_app.scene.skin import Skin
@@ -21,6 +23,24 @@ def test_the_section_has_the_area_of_the_cut(normal, origin, area, cells):
     got = cut.section(MESH.points, MESH.hexes, None, ClipPlane(normal, origin, False), COLOURS)
     assert got.area == pytest.approx(area, rel=1e-6)
     assert cells is None or got.n_cells == cells
+
+
+@pytest.mark.parametrize("x", [1, 2, 3, 4])
+def test_a_plane_through_nodes_shows_the_elements_that_are_kept(x):
+    got = cut.section(MESH.points, MESH.hexes, None, ClipPlane((1, 0, 0), (x, 0, 0), False), COLOURS)
+    assert got.area == pytest.approx(6)
+    hexes = got.cell_data["colours"][:, 0] // 3
+    assert sorted(hexes) == [x - 1 + 4 * k for k in range(6)]
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 3))
+def test_a_plane_through_nodes_is_whole_however_their_places_are_rounded(seed, x):
+    turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    turn *= np.linalg.det(turn)  # a rotation, not a mirror image
+    shift = np.random.default_rng(seed).normal(size=3) * 10
+    plane = ClipPlane(turn[:, 0], turn[:, 0] * x + shift, False)
+    got = cut.section(MESH.points @ turn.T + shift, MESH.hexes, None, plane, COLOURS)
+    assert got.area == pytest.approx(6)
 
 
 def test_each_polygon_has_the_colour_of_its_hex():

@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 from hexmend.io import write
+from hexmend.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.state.look import ClipPlane, Look
@@ -60,6 +61,22 @@ def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
     assert (np.abs(inside - INVERTED).sum(axis=2) < 90).sum() > 50
 
 
+def test_words_that_begin_with_a_minus_are_values(pictures):
+    from_left, from_right = pictures("--view", "-x"), pictures("--view", "+x")
+    assert np.abs(from_left - from_right).max() > 100
+    half = pictures("--view", "+z", "--clip", "-1,0,0:0.4", "--no-bar")
+    middle = np.flatnonzero((np.ptp(half, axis=2) > 40).any(axis=0)).mean()
+    assert middle > 170  # the lower x, on the left, is hidden
+
+
+def test_a_view_from_above_is_no_view_along_the_up_direction(pictures):
+    np.testing.assert_array_equal(pictures("--view", "0,0,2"), pictures("--view", "+z"))
+
+
+def test_a_small_picture_has_no_bar(pictures):
+    assert pictures("--size", "128x96").shape == (96, 128, 3)
+
+
 def test_a_quality_range_hides_the_others(pictures):
     assert ink(pictures("--quality-range", "0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
 
@@ -68,11 +85,16 @@ def test_a_quality_range_hides_the_others(pictures):
     ("words", "message"),
     [
         (["--clip", "w"], "--clip 'w' cannot be used"),
-        (["--clip", "0,0,0"], "a normal that is not zero"),
+        (["--clip", "0,0,0"], "a direction that is not zero"),
+        (["--clip", "x:1.5"], "a position from 0 to 1"),
         (["--size", "big"], "as in 1600x1000"),
+        (["--size", "16x16"], "64 to 8192 pixels"),
+        (["--quality-range", "0.8,0.2"], "the lower number first"),
+        (["--colour-range", "0.5,0.5"], "the lower number first"),
         (["--metric", "beauty"], "there is no metric 'beauty'"),
         (["--colour-map", "jet"], "one of viridis"),
         (["--view", "up"], "3 numbers separated by commas"),
+        (["--view", "0,0,0"], "a direction that is not zero"),
     ],
 )
 def test_wrong_words_are_said(words, message, tmp_path, capsys):
@@ -91,6 +113,15 @@ def test_planes_are_named_by_axis_or_normal_and_position():
     assert plane("z", mesh, crinkle=False, flip=True) == ClipPlane((0, 0, -1), (0, 0, 2), False)
     slanted = plane("1,1,0:0.5", mesh, crinkle=True, flip=False)
     assert slanted.signed_distance(np.array([[2.0, 2.0, 0.0]]))[0] == pytest.approx(0)
+    assert plane("1e300,0,0:0.25", mesh, crinkle=True, flip=False) == ClipPlane((1, 0, 0), (1, 0, 0))
+
+
+def test_nodes_that_no_hex_uses_do_not_count():
+    from hexmend_app.cli.render import plane
+
+    mesh = grid(4)
+    stray = Mesh(np.vstack([mesh.points, [[100.0, 0.0, 0.0]]]), mesh.hexes)
+    assert plane("x", stray, crinkle=True, flip=False) == ClipPlane((1, 0, 0), (2, 0, 0))
 
 
 def test_looks_are_values():

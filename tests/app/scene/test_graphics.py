@@ -1,0 +1,35 @@
+"""Missing graphics are said, with the package that brings them, and nothing crashes."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from hexmend.io import write
+from tests.core.grids import grid
+
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere the system brings OpenGL")
+
+
+def render(folder, **environment):
+    write(folder / "mesh.vtu", grid(1))
+    return subprocess.run(
+        [sys.executable, "-m", "hexmend", "render", folder / "mesh.vtu", "-o", folder / "out.png"],
+        env=os.environ | environment, capture_output=True, text=True,
+    )  # fmt: skip
+
+
+def test_without_the_library(tmp_path):
+    (tmp_path / "libEGL.so.1").write_text("not a library")
+    done = render(tmp_path, LD_LIBRARY_PATH=str(tmp_path))
+    assert done.returncode == 2
+    assert done.stderr == "hexmend: pictures need OpenGL: run  apt-get install libegl1 libgl1-mesa-dri\n"
+    assert not (tmp_path / "out.png").exists()
+
+
+def test_without_a_driver(tmp_path):
+    done = render(tmp_path, __EGL_VENDOR_LIBRARY_FILENAMES=str(tmp_path / "none.json"))
+    assert done.returncode == 2
+    assert done.stderr == "hexmend: OpenGL finds no driver to draw with: run  apt-get install libgl1-mesa-dri\n"
+    assert not (tmp_path / "out.png").exists()

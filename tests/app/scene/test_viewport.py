@@ -1,0 +1,125 @@
+"""The view of a mesh, off screen: what is drawn follows points, qualities and look."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from hexmend.mesh import Mesh
+from hexmend.quality import measure
+from hexmend_app.scene.colours import INVERTED
+from hexmend_app.scene.plane_widget import PlaneWidget
+from hexmend_app.scene.viewport import Viewport
+from hexmend_app.state.look import ClipPlane, Look
+from tests.core.grids import grid, scrambled
+
+MESH = grid(4)
+INSIDE = ClipPlane((0, 0, 1), (0, 0, 2), False)
+
+
+def figures_of(mesh):
+    return measure(mesh.points, mesh.hexes)
+
+
+@pytest.fixture
+def plotter():
+    plotter = pv.Plotter(off_screen=True, window_size=(200, 150))
+    yield plotter
+    plotter.close()
+
+
+@pytest.fixture
+def seen(plotter):
+    """A viewport with a grid in it, seen from above, and a function that returns its pixels."""
+    viewport = Viewport(plotter)
+    viewport.set_mesh(MESH, figures_of(MESH))
+    viewport.view("+z")
+    plotter.camera_set = True
+
+    def pixels():
+        plotter.show(auto_close=False, interactive=False)
+        plotter.render()
+        return np.asarray(plotter.screenshot(return_img=True)).astype(int)
+
+    return viewport, pixels
+
+
+def magenta(image):
+    """Number of pixels in the colour of inverted elements, shade aside."""
+    share = image / np.maximum(image.max(axis=2, keepdims=True), 1)
+    return int((np.abs(share - np.array(INVERTED) / max(INVERTED)).max(axis=2) < 0.1).sum())
+
+
+def test_pixels_follow_the_points_and_come_back_with_them(seen):
+    viewport, pixels = seen
+    before = pixels()
+    turned = MESH.points * [1, 0.5, 1]
+    viewport.set_points(turned, figures_of(MESH.with_points(turned)))
+    assert np.abs(pixels() - before).max() > 50
+    viewport.set_points(MESH.points, figures_of(MESH))
+    np.testing.assert_array_equal(pixels(), before)
+
+
+@pytest.mark.parametrize("crinkle", [True, False])
+def test_inside_a_cut_elements_turn_over_and_back(seen, crinkle):
+    viewport, pixels = seen
+    viewport.set_look(Look(clip=ClipPlane((0, 0, 1), (0, 0, 2), crinkle)))
+    before = pixels()
+    assert magenta(before) == 0
+    tangled = scrambled(MESH, 1.5)
+    assert figures_of(tangled).n_inverted > 10
+    viewport.set_points(tangled.points, figures_of(tangled))
+    assert magenta(pixels()) > 50
+    viewport.set_points(MESH.points, figures_of(MESH))
+    np.testing.assert_array_equal(pixels(), before)
+
+
+def test_a_cut_through_nodes_is_closed(seen):
+    viewport, pixels = seen
+    viewport.set_look(Look(edges=False))
+    whole = pixels()
+    viewport.set_look(Look(edges=False, clip=INSIDE))
+    middle = np.s_[60:90, 85:115]
+    assert np.abs(pixels()[middle] - whole[middle]).max() <= 2  # q = 1 everywhere, lit alike
+
+
+def test_edges_are_drawn_or_not(seen):
+    viewport, pixels = seen
+    middle = np.s_[40:110, 65:135]
+    assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) > 1
+    viewport.set_look(Look(edges=False))
+    assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) == 1
+
+
+def test_the_same_picture_however_its_look_was_reached(seen):
+    viewport, pixels = seen
+    tangled = scrambled(MESH, 0.6)
+    look = Look(clip=INSIDE, quality_range=(0.3, 0.9), colour_map="plasma")
+    viewport.set_look(look)
+    viewport.set_points(tangled.points, figures_of(tangled))
+    moved = pixels()
+    viewport.set_look(Look())
+    viewport.set_look(look)
+    np.testing.assert_array_equal(pixels(), moved)
+
+
+def test_nodes_that_no_hex_uses_do_not_count(seen):
+    viewport, pixels = seen
+    before = pixels()
+    stray = Mesh(np.vstack([MESH.points, [[100.0, 0.0, 0.0]]]), MESH.hexes)
+    viewport.set_mesh(stray, figures_of(stray))
+    viewport.view("+z")
+    assert viewport.bounds == (0, 4, 0, 4, 0, 4)
+    np.testing.assert_array_equal(pixels(), before)
+
+
+def test_setting_the_plane_is_no_wish_of_the_user(plotter):
+    told = []
+    plotter.show(auto_close=False, interactive=False)
+    widget = PlaneWidget(plotter, lambda *plane: told.append(plane))
+    widget.set_bounds((0, 4, 0, 4, 0, 4))
+    for clip in (INSIDE, ClipPlane((1, 0, 0), (1, 0, 0)), None, INSIDE):
+        widget.set(clip)
+    assert told == []
+    widget._widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
+    assert told == [(INSIDE.origin, INSIDE.normal)]
+    widget.close()
