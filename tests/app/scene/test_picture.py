@@ -1,5 +1,6 @@
 """Pictures without a window: what is shown, hidden and coloured, seen in the pixels."""
 
+import argparse
 import os
 import subprocess
 import sys
@@ -11,7 +12,9 @@ from PIL import Image
 from hexmend.io import write
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
+from hexmend_app.cli.render import command, plane
 from hexmend_app.scene.colours import INVERTED
+from hexmend_app.scene.picture import picture
 from hexmend_app.state.look import ClipPlane, Look
 from tests.core.grids import grid, scrambled
 
@@ -61,22 +64,6 @@ def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
     assert (np.abs(inside - INVERTED).sum(axis=2) < 90).sum() > 50
 
 
-def test_words_that_begin_with_a_minus_are_values(pictures):
-    from_left, from_right = pictures("--view", "-x"), pictures("--view", "+x")
-    assert np.abs(from_left - from_right).max() > 100
-    half = pictures("--view", "+z", "--clip", "-1,0,0:0.4", "--no-bar")
-    middle = np.flatnonzero((np.ptp(half, axis=2) > 40).any(axis=0)).mean()
-    assert middle > 170  # the lower x, on the left, is hidden
-
-
-def test_a_view_from_above_is_no_view_along_the_up_direction(pictures):
-    np.testing.assert_array_equal(pictures("--view", "0,0,2"), pictures("--view", "+z"))
-
-
-def test_a_small_picture_has_no_bar(pictures):
-    assert pictures("--size", "128x96").shape == (96, 128, 3)
-
-
 def test_a_quality_range_hides_the_others(pictures):
     assert ink(pictures("--quality-range", "0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
 
@@ -105,9 +92,21 @@ def test_wrong_words_are_said(words, message, tmp_path, capsys):
     assert message in capsys.readouterr().err
 
 
-def test_planes_are_named_by_axis_or_normal_and_position():
-    from hexmend_app.cli.render import plane
+def test_words_that_begin_with_a_minus_are_values():
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    command.arguments(parser)
+    args = parser.parse_args(["a.vtk", "-o", "a.png", "--view", "-x", "--clip", "-1,0,0:0.4", "--no-bar"])
+    assert (args.view, args.clip, args.output, args.no_bar) == ("-x", "-1,0,0:0.4", "a.png", True)
+    assert parser.parse_args(["a.vtk", "-o", "a.png", "--clip", "-.5,1,0"]).clip == "-.5,1,0"
 
+
+@pytest.mark.parametrize("size", [(64, 64), (128, 96), (320, 160), (200, 600)])
+def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
+    mesh = grid(2)
+    assert picture(mesh, measure(mesh.points, mesh.hexes), Look(), size).size == size
+
+
+def test_planes_are_named_by_axis_or_normal_and_position():
     mesh = grid(4)
     assert plane("x:0.25", mesh, crinkle=True, flip=False) == ClipPlane((1, 0, 0), (1, 0, 0))
     assert plane("z", mesh, crinkle=False, flip=True) == ClipPlane((0, 0, -1), (0, 0, 2), False)
@@ -117,8 +116,6 @@ def test_planes_are_named_by_axis_or_normal_and_position():
 
 
 def test_nodes_that_no_hex_uses_do_not_count():
-    from hexmend_app.cli.render import plane
-
     mesh = grid(4)
     stray = Mesh(np.vstack([mesh.points, [[100.0, 0.0, 0.0]]]), mesh.hexes)
     assert plane("x", stray, crinkle=True, flip=False) == ClipPlane((1, 0, 0), (2, 0, 0))

@@ -52,8 +52,7 @@ def magenta(image):
 def test_pixels_follow_the_points_and_come_back_with_them(seen):
     viewport, pixels = seen
     before = pixels()
-    turned = MESH.points * [1, 0.5, 1]
-    viewport.set_points(turned, figures_of(MESH.with_points(turned)))
+    viewport.set_points(MESH.points * 0.5, figures_of(MESH))  # the colours stay
     assert np.abs(pixels() - before).max() > 50
     viewport.set_points(MESH.points, figures_of(MESH))
     np.testing.assert_array_equal(pixels(), before)
@@ -82,6 +81,24 @@ def test_a_cut_through_nodes_is_closed(seen):
     assert np.abs(pixels()[middle] - whole[middle]).max() <= 2  # q = 1 everywhere, lit alike
 
 
+def test_faces_turned_inside_out_are_seen(seen):
+    viewport, pixels = seen
+    background = pixels()[0, 0]
+    drawn = (pixels() != background).any(axis=2).sum()
+    mirrored = MESH.with_points(MESH.points * [-1, 1, 1] + [4, 0, 0])
+    viewport.set_look(Look(edges=False))
+    viewport.set_points(mirrored.points, figures_of(mirrored))
+    assert magenta(pixels()) > 0.9 * drawn
+
+
+def test_a_vector_along_z_is_a_direction_like_any_other(seen, capfd):
+    viewport, pixels = seen
+    before = pixels()
+    viewport.view((0.0, 0.0, 2.0))
+    np.testing.assert_array_equal(pixels(), before)
+    assert capfd.readouterr().err == ""  # VTK would say that it had to turn the camera
+
+
 def test_edges_are_drawn_or_not(seen):
     viewport, pixels = seen
     middle = np.s_[40:110, 65:135]
@@ -97,9 +114,15 @@ def test_the_same_picture_however_its_look_was_reached(seen):
     viewport.set_look(look)
     viewport.set_points(tangled.points, figures_of(tangled))
     moved = pixels()
-    viewport.set_look(Look())
+    lower = Look(clip=ClipPlane((0, 0, 1), (0, 0, 1)))
+    viewport.set_look(lower)
+    crinkle = pixels()
+    assert np.abs(crinkle - moved).max() > 50
     viewport.set_look(look)
     np.testing.assert_array_equal(pixels(), moved)
+    viewport.set_look(Look())
+    viewport.set_look(lower)
+    np.testing.assert_array_equal(pixels(), crinkle)
 
 
 def test_nodes_that_no_hex_uses_do_not_count(seen):
