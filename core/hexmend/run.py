@@ -54,6 +54,8 @@ class Run(Iterator[Iteration]):
         `Iteration.row` of every iteration so far, number 0 first.
     outcome : Outcome or None
         None while the run goes on.
+    decisions : list of str
+        What the method decided on the way, in sentences.
     setup_seconds : float
         What the method's preparation took.
     """
@@ -71,6 +73,7 @@ class Run(Iterator[Iteration]):
         self.setup_seconds = perf_counter() - began
         self.start = self.last = Iteration(0, read_only(first.points), measure(first.points, mesh.hexes), 0.0, 0.0)
         self.history = [self.start.row()]
+        self.decisions: list[str] = []
         if not mesh.free.any():
             self._end(Outcome.NOTHING_FREE)
         elif stop.max_iterations == 0:
@@ -82,17 +85,19 @@ class Run(Iterator[Iteration]):
         began = perf_counter()
         try:
             step = next(self._steps)
-        except StopIteration:
-            self._end(Outcome.FINISHED)
-            raise
+        except StopIteration as end:
+            self._end(end.value or Outcome.FINISHED)
+            raise StopIteration from None
         seconds = self.last.seconds + perf_counter() - began
         points = read_only(step.points)
         move = float(np.sqrt(np.square(points - self.last.points).sum(axis=1).max())) / self._unit
         figures = measure(points, self.mesh.hexes)
         self.last = Iteration(self.last.number + 1, points, figures, seconds, move, step.notes)
         self.history.append(self.last.row())
+        if step.decision:
+            self.decisions.append(step.decision)
         # Algorithm A.1
-        if move < self.stop.tolerance:
+        if move < self.stop.tolerance and not step.more:
             self._end(Outcome.CONVERGED)
         elif self.last.number >= self.stop.max_iterations:
             self._end(Outcome.MAX_ITERATIONS)
@@ -118,7 +123,7 @@ class Run(Iterator[Iteration]):
         count = f"{at.number} iteration{'s' * (at.number != 1)}"
         left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
-        return f"{said} {count} in {at.seconds:.3g} s; {move}{left}."
+        return " ".join([said, f"{count} in {at.seconds:.3g} s; {move}{left}.", *self.decisions])
 
     def result(self) -> Result:
         """The record of the run as far as it went."""

@@ -22,6 +22,8 @@ class Outcome(Enum):
     STOPPED = "Stopped by the user."
     NOTHING_FREE = "Nothing to do: every node is fixed."
     FINISHED = "The method has no further step to make."
+    NO_IMPROVEMENT = "Converged: neither the least nor the mean quality rises any more."
+    NO_DESCENT = "Stopped: along the search direction no step descends, however short."
 
     @property
     def key(self) -> str:
@@ -39,10 +41,16 @@ class Step:
         Never changed after it was yielded.
     notes : mapping
         What the method wants to tell of the step: delta, moves taken back...
+    decision : str
+        A sentence, where the method has just decided how to go on; the run's message repeats it.
+    more : bool
+        True while another stage is to come: however little this step moved, the run has not converged.
     """
 
     points: np.ndarray
     notes: Mapping[str, Any] = field(default_factory=dict)
+    decision: str = ""
+    more: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +10,7 @@ from hexmend.kernels import laplacian as kernels
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
-from hexmend.smoothers.smoother import Smoother, method
+from hexmend.smoothers.smoother import Smoother, Steps, method
 
 
 @method
@@ -30,7 +29,7 @@ class Laplacian(Smoother):
         help="Whether a node sees where the nodes before it went (Algorithm 3.1), or all move at once.",
     )
 
-    def steps(self, mesh: Mesh) -> Iterator[Step]:
+    def steps(self, mesh: Mesh) -> Steps:
         ring = mesh.topology.rings
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         points = mesh.points

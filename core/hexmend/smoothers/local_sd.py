@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from hexmend.energy import FixedDelta
@@ -11,7 +10,7 @@ from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
 from hexmend.quality import measure
-from hexmend.smoothers.smoother import Smoother, method
+from hexmend.smoothers.smoother import Smoother, Steps, method
 
 
 @method
@@ -41,7 +40,7 @@ class LocalSteepestDescent(Smoother):
     c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
     max_cuts: int = parameter(30, low=1, high=200, help="Cuts of a step after which the node is left where it is.")
 
-    def steps(self, mesh: Mesh) -> Iterator[Step]:
+    def steps(self, mesh: Mesh) -> Steps:
         policy = FixedDelta(self.delta)
         corners = mesh.topology.node_corners
         colours = mesh.topology.colouring(mesh.free)

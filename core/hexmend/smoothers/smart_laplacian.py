@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +10,7 @@ from hexmend.kernels import laplacian as kernels
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
-from hexmend.smoothers.smoother import Smoother, method
+from hexmend.smoothers.smoother import Smoother, Steps, method
 
 
 @method
@@ -30,7 +29,7 @@ class SmartLaplacian(Smoother):
         help="What counts as harm: inverting an attached hex, or lowering the least q(H) of the attached hexes too.",
     )
 
-    def steps(self, mesh: Mesh) -> Iterator[Step]:
+    def steps(self, mesh: Mesh) -> Steps:
         corners, ring = mesh.topology.node_corners, mesh.topology.rings
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         points = mesh.points

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Generator
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, TypeAlias, TypeVar
 
 from hexmend.mesh import Mesh
-from hexmend.optimise import Step
+from hexmend.optimise import Outcome, Step
 from hexmend.parameters import Parametrised, declared
 from hexmend.registry import Registry
+
+#: What a smoother's `steps` gives.
+Steps: TypeAlias = Generator[Step, None, Outcome | None]
 
 
 @dataclass(frozen=True)
@@ -27,10 +30,10 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
 
     @abstractmethod
-    def steps(self, mesh: Mesh) -> Iterator[Step]:
+    def steps(self, mesh: Mesh) -> Steps:
         """Yield the initial points once what the method prepares is ready, then the points after each step.
 
-        The iterator goes on until nobody asks for more, or ends by itself where the method has no further step.
+        The generator goes on until nobody asks for more, or returns the outcome where the method has no further step.
         Yielded arrays are never changed afterwards; rows of fixed nodes stay as they are to the last bit.
         """
 
