@@ -6,7 +6,8 @@
 >>> result.after.q_mean > result.before.q_mean
 True
 
-Names are imported when they are first used: a command that compiles nothing does not wait for the compiler.
+Names are imported when they are first used: a command that compiles nothing does not wait for the compiler. Beside
+those of `__all__` the class of every registered method is here under its own name, such as `hx.LocalSteepestDescent`.
 """
 
 import importlib as _importlib
@@ -23,9 +24,6 @@ if _TYPE_CHECKING:
     from hexmend.quality import METRICS, Summary, measure, summarise
     from hexmend.run import Run, Stop, iterate, smooth
     from hexmend.smoothers import METHODS, Smoother
-    from hexmend.smoothers.laplacian import Laplacian
-    from hexmend.smoothers.local_sd import LocalSteepestDescent
-    from hexmend.smoothers.smart_laplacian import SmartLaplacian
 
 _HOMES = {
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
@@ -35,9 +33,6 @@ _HOMES = {
     "quality": ("METRICS", "Summary", "measure", "summarise"),
     "run": ("Run", "Stop", "iterate", "smooth"),
     "smoothers": ("METHODS", "Smoother"),
-    "smoothers.laplacian": ("Laplacian",),
-    "smoothers.local_sd": ("LocalSteepestDescent",),
-    "smoothers.smart_laplacian": ("SmartLaplacian",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -48,15 +43,12 @@ __all__ = [
     "FileError",
     "HexmendError",
     "Iteration",
-    "Laplacian",
-    "LocalSteepestDescent",
     "Mesh",
     "MeshError",
     "Outcome",
     "ParameterError",
     "Result",
     "Run",
-    "SmartLaplacian",
     "Smoother",
     "Stop",
     "Summary",
@@ -75,8 +67,12 @@ def __getattr__(name: str) -> object:
         return _importlib.import_module("hexmend.gallery")
     if name in _HOME_OF:
         return getattr(_importlib.import_module(f"hexmend.{_HOME_OF[name]}"), name)
+    for smoother in () if name.startswith("_") else _importlib.import_module("hexmend.smoothers").METHODS.values():
+        if smoother.__name__ == name:
+            return smoother
     raise AttributeError(f"module 'hexmend' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    methods = _importlib.import_module("hexmend.smoothers").METHODS.values()
+    return sorted({*__all__, *(smoother.__name__ for smoother in methods)})

@@ -91,7 +91,7 @@ def test_numbering_of_hexes_does_not_matter_much(name):
     order = np.random.default_rng(1).permutation(mesh.n_hexes)
     other = type(mesh)(mesh.points, mesh.hexes[order])
     a, b = points_after(mesh, METHODS[name](), 3)[-1], points_after(other, METHODS[name](), 3)[-1]
-    np.testing.assert_allclose(a, b, atol=1e-9)
+    np.testing.assert_allclose(a, b, atol=1e-6)  # sums in another order, and a linear solver that ends at 1e-6
 
 
 def test_quality_rises_on_a_scrambled_gallery_mesh(name):

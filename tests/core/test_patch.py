@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.energy import energies
+from hexmend.energy import MeshEnergy, energies
 from hexmend.kernels import patch
 from tests.core.grids import grid, scrambled
 
@@ -36,7 +36,7 @@ def test_value_is_the_energy_of_the_attached_hexes(case):
     points = mesh.points.copy()
     points[node] += y / scale
     attached = mesh.hexes[mesh.topology.node_corners[node] // 8]
-    expected = (energies(points * scale, attached, delta) ** p).sum() ** (1 / p)
+    expected = (energies(points * scale, attached, delta) ** p).sum()
     got = patch.value(table, rest, size, *y, delta, p, np.empty((3, 4 * size)))
     assert got == pytest.approx(expected, rel=1e-9)
 
@@ -48,15 +48,35 @@ def test_gradient_is_that_of_central_differences(case):
     delta = 0.05 if soft else 0.0
     node = int(np.flatnonzero(mesh.free)[seed % 8])
     table, rest, size, _ = patch_of(mesh, node, delta)
-    eta = np.empty((3, 4 * size))
-    f, *gradient = patch.value_and_gradient(table, rest, size, delta, p, eta)
-    assert f == pytest.approx(patch.value(table, rest, size, 0.0, 0.0, 0.0, delta, p, eta))
+    lane = np.empty((3, 4 * size))
+    f, *gradient = patch.value_and_gradient(table, rest, size, delta, p, lane)
+    assert f == pytest.approx(patch.value(table, rest, size, 0.0, 0.0, 0.0, delta, p, lane))
     step = 1e-6
     for k in range(3):
         y = np.zeros(3)
         y[k] = step
-        rise = patch.value(table, rest, size, *y, delta, p, eta) - patch.value(table, rest, size, *-y, delta, p, eta)
+        rise = patch.value(table, rest, size, *y, delta, p, lane) - patch.value(table, rest, size, *-y, delta, p, lane)
         assert rise / (2 * step) == pytest.approx(gradient[k], rel=1e-5, abs=1e-5 * max(1, f))
+
+
+@given(CASES)
+def test_gradient_and_hessian_are_rows_and_blocks_of_the_meshs(case):
+    seed, amplitude, p, soft = case
+    mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
+    k = seed % 8
+    energy = MeshEnergy(mesh, p)
+    node = int(energy.nodes[k])
+    unit = 0.05 if soft else 0.0  # of the patch
+    table, rest, size, scale = patch_of(mesh, node, unit)
+    delta = unit / (scale * energy.unit) ** 3
+    lane = np.empty((3, 4 * size))
+    _, *gradient = patch.value_and_gradient(table, rest, size, unit, p, lane)
+    xx, xy, xz, yy, yz, zz = patch.hessian(table, rest, size, unit, p, lane[0], np.empty(6))
+    x, ratio = energy.scaled(mesh.points), scale * energy.unit
+    np.testing.assert_allclose(np.multiply(gradient, ratio), energy.gradient(x, delta)[k], rtol=1e-9, atol=1e-9)
+    block = energy.hessian(x, delta).diagonal_blocks()[k]
+    own = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    np.testing.assert_allclose(own * ratio**2, block, rtol=1e-8, atol=1e-9 * np.abs(block).max())
 
 
 def test_a_perfect_patch_has_no_gradient():

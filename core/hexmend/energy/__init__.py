@@ -1,6 +1,9 @@
-"""The energy that the optimisers minimise, and the policies for its delta."""
+"""The energy that the optimisers minimise, its derivatives, and the policies for its delta."""
 
-from hexmend.energy.delta import FixedDelta
+from hexmend.energy.delta import POLICIES, AdaptiveDelta, DeltaPolicy, FixedDelta
 from hexmend.energy.hexahedral import energies, objective
+from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 
-__all__ = ["FixedDelta", "energies", "objective"]
+__all__ = [
+    "POLICIES", "AdaptiveDelta", "DeltaPolicy", "FixedDelta", "Hessian", "MeshEnergy", "energies", "objective",
+]  # fmt: skip

@@ -16,6 +16,7 @@ import numpy as np
 from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES
 from hexmend.kernels import serial
 from hexmend.kernels.elements import corner_edges
+from hexmend.kernels.objective import add_own, weights
 from hexmend.kernels.shape import MAGIC, TINY, barrier, determinant, power_minus_two_thirds
 
 #: Columns of a patch table.
@@ -155,7 +156,7 @@ def lanes(table, count, y0, y1, y2, delta, lane):
 
 @serial
 def value(table, rest, size, y0, y1, y2, delta, p, lane):
-    """Objective of the patch, (sum over its hexes of eta(H)^p)^(1/p), with the node displaced by y: (3.3), (B.20)."""
+    """Sum over the patch's hexes of eta(H)^p with the node displaced by y: (3.3) without its root, (B.20)."""
     lanes(table, 4 * size, y0, y1, y2, delta, lane)
     eta = lane[0]
     total = 0.0
@@ -163,35 +164,69 @@ def value(table, rest, size, y0, y1, y2, delta, p, lane):
         energy = (eta[4 * s] + eta[4 * s + 1] + eta[4 * s + 2] + eta[4 * s + 3] + rest[s]) / 8 - 1
         energy = max(energy, 0.0)
         total += energy * energy if p == 2 else energy**p
-    return np.sqrt(total) if p == 2 else total ** (1 / p)
+    return total
 
 
 @serial
 def value_and_gradient(table, rest, size, delta, p, lane):
-    """Objective of the patch where the node is, and its gradient: (B.3), (B.21), (C.2)."""
+    """Value where the node is, and its gradient: (B.3), (B.21), (C.1)."""
     lanes(table, 4 * size, 0.0, 0.0, 0.0, delta, lane)
     eta = lane[0]
     total, gx, gy, gz = 0.0, 0.0, 0.0, 0.0
     for s in range(size):
-        energy, ex, ey, ez = rest[s], 0.0, 0.0, 0.0
-        for t in range(4 * s, 4 * s + 4):
-            # d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ]
-            r = np.sqrt(table[SIGMA, t] ** 2 + 4 * delta * delta)
-            stretch, squeeze = eta[t] / table[SQUARE, t], 2 * eta[t] / (3 * r)
-            ex += stretch * table[BX, t] - squeeze * table[GX, t]
-            ey += stretch * table[BY, t] - squeeze * table[GY, t]
-            ez += stretch * table[BZ, t] - squeeze * table[GZ, t]
-            energy += eta[t]
-        energy = energy / 8 - 1
+        energy, ex, ey, ez = hex_gradient(table, rest, s, delta, eta)
         if not energy > 0:  # a perfect hex; softened by delta, one better than perfect counts as perfect
-            continue
-        weight = energy if p == 2 else energy ** (p - 1)
-        total += energy * weight
-        gx += weight * ex / 8
-        gy += weight * ey / 8
-        gz += weight * ez / 8
-    if not 0 < total < np.inf:
-        return total, 0.0, 0.0, 0.0
-    objective = np.sqrt(total) if p == 2 else total ** (1 / p)
-    factor = objective / total  # total^(1/p - 1)
-    return objective, factor * gx, factor * gy, factor * gz
+            energy = 0.0
+        total += energy * energy if p == 2 else energy**p
+        first, _ = weights(energy, p)
+        gx += first * ex
+        gy += first * ey
+        gz += first * ez
+    return total, gx, gy, gz
+
+
+@serial
+def hex_gradient(table, rest, s, delta, eta):
+    """eta(H) of the patch's hex s and its gradient by the node, from the eta(T) that `lanes` wrote."""
+    energy, ex, ey, ez = rest[s], 0.0, 0.0, 0.0
+    for t in range(4 * s, 4 * s + 4):
+        # d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ]
+        r = np.sqrt(table[SIGMA, t] ** 2 + 4 * delta * delta)
+        stretch, squeeze = eta[t] / table[SQUARE, t], 2 * eta[t] / (3 * r)
+        ex += stretch * table[BX, t] - squeeze * table[GX, t]
+        ey += stretch * table[BY, t] - squeeze * table[GY, t]
+        ez += stretch * table[BZ, t] - squeeze * table[GZ, t]
+        energy += eta[t]
+    return energy / 8 - 1, ex / 8, ey / 8, ez / 8
+
+
+@serial
+def hessian(table, rest, size, delta, p, eta, own):
+    """Second derivatives of the value where the node is, (xx xy xz yy yz zz): (B.19) mended, (B.22).
+
+    Parameters
+    ----------
+    eta : (4 * size or more,) float64
+        Row 0 of `lane` as `value_and_gradient` left it.
+    own : (6,) float64, scratch
+    """
+    xx, xy, xz, yy, yz, zz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for s in range(size):
+        energy, ex, ey, ez = hex_gradient(table, rest, s, delta, eta)
+        first, second = weights(energy, p)
+        own[:] = 0.0
+        for t in range(4 * s, 4 * s + 4):
+            sigma, square = table[SIGMA, t], table[SQUARE, t]
+            r = np.sqrt(sigma * sigma + 4 * delta * delta)
+            add_own(
+                own, eta[t] / square, square, sigma, r, table[K, t],
+                table[BX, t] / 2, table[BY, t] / 2, table[BZ, t] / 2,
+                table[GX, t], table[GY, t], table[GZ, t],
+            )  # fmt: skip
+        xx += first * own[0] / 8 + second * ex * ex
+        xy += first * own[1] / 8 + second * ex * ey
+        xz += first * own[2] / 8 + second * ex * ez
+        yy += first * own[3] / 8 + second * ey * ey
+        yz += first * own[4] / 8 + second * ey * ez
+        zz += first * own[5] / 8 + second * ez * ez
+    return xx, xy, xz, yy, yz, zz

@@ -1,0 +1,153 @@
+"""The energy of a whole mesh as a function of its free nodes: value, gradient, Hessian."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
+
+from hexmend.energy.hexahedral import energies
+from hexmend.kernels import objective as kernels
+from hexmend.mesh import Mesh
+from hexmend.quality.measure import read_only
+
+#: Hexes whose 24 x 24 Hessians are held at once while a matrix is assembled.
+_BATCH = 4096
+
+
+class MeshEnergy:
+    """Sum over all hexes of eta(H)^p, which has the minimisers of (3.3).
+
+    Lengths are in mean edge lengths of the mesh as given, so that delta means the same on every mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    p : float
+        At least 1.
+
+    Attributes
+    ----------
+    unit : float
+        Mean edge length of the mesh.
+    nodes : (k,) int32
+        The free nodes; row i of a gradient is that of node nodes[i].
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> mesh = make("cube", size=27)
+    >>> energy = MeshEnergy(mesh)
+    >>> x = energy.scaled(mesh.points)
+    >>> round(energy.value(x), 12), energy.gradient(x).shape
+    (0.0, (8, 3))
+    """
+
+    def __init__(self, mesh: Mesh, p: float = 2.0):
+        self.mesh = mesh
+        self.p = p
+        self.unit = mesh.mean_edge_length or 1.0
+        self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
+        self._blocks = np.empty((mesh.n_hexes, 8, 3))
+
+    @cached_property
+    def slots(self) -> np.ndarray:
+        """Number of each corner among the free nodes, -1 if it is fixed, (m, 8) int32."""
+        slot = np.full(self.mesh.n_nodes, -1, np.int32)
+        slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
+        return slot[self.mesh.hexes]
+
+    def scaled(self, points: np.ndarray) -> np.ndarray:
+        """Points in mean edge lengths, (n, 3)."""
+        return points / self.unit
+
+    def placed(self, x: np.ndarray) -> np.ndarray:
+        """Points in the mesh's own unit of length, (n, 3); fixed nodes to the last bit where they were."""
+        points = self.mesh.points.copy()
+        points[self.nodes] = x[self.nodes] * self.unit
+        return points
+
+    def moved(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """x (n, 3) with its free nodes displaced by step (k, 3)."""
+        there = x.copy()
+        there[self.nodes] += step
+        return there
+
+    def value(self, x: np.ndarray, delta: float = 0.0) -> float:
+        """Sum of eta(H)^p at points x (n, 3); +inf at delta = 0 while any hex is inverted."""
+        eta = energies(x, self.mesh.hexes, delta)
+        return float((np.square(eta) if self.p == 2 else np.power(eta, self.p)).sum())
+
+    def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
+        """Derivative of `value` by the free nodes, (k, 3): (B.3), (B.21), (C.2)."""
+        kernels.gradient(read_only(x), self.mesh.hexes, delta, self.p, self._blocks)
+        return self._gathered(self._blocks)
+
+    def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
+        """Second derivative of `value` by the free nodes, at points x (n, 3)."""
+        return Hessian(self, x, delta)
+
+    def _gathered(self, blocks: np.ndarray) -> np.ndarray:
+        corners = self.mesh.topology.node_corners
+        flat = blocks.reshape(8 * self.mesh.n_hexes, -1)
+        rows = np.empty((self.nodes.size, flat.shape[1]))
+        kernels.gather(flat, corners.start, corners.items, self.nodes, rows)
+        return rows
+
+
+class Hessian(scipy.sparse.linalg.LinearOperator):
+    """Hessian of a `MeshEnergy` at one place, (3 k, 3 k): a linear operator that scipy's solvers take; symmetric.
+
+    Unknowns are x, y, z of the first free node, then of the second... `shift` is added to the diagonal.
+    """
+
+    def __init__(self, energy: MeshEnergy, x: np.ndarray, delta: float, shift: float = 0.0):
+        size = 3 * energy.nodes.size
+        super().__init__(np.float64, (size, size))
+        self.energy, self.x, self.delta, self.shift = energy, read_only(x), float(delta), float(shift)
+
+    def shifted(self, shift: float) -> Hessian:
+        """H + shift I."""
+        return Hessian(self.energy, self.x, self.delta, self.shift + shift)
+
+    def _matvec(self, v: np.ndarray) -> np.ndarray:
+        energy, v = self.energy, np.ascontiguousarray(v, dtype=np.float64).reshape(-1, 3)
+        kernels.hessian_product(
+            self.x,
+            energy.mesh.hexes,
+            energy.slots,
+            v,
+            self.delta,
+            energy.p,
+            energy._blocks,
+        )
+        product = energy._gathered(energy._blocks)
+        if self.shift:
+            product += self.shift * v
+        return product.ravel()
+
+    def _adjoint(self) -> Hessian:
+        return self
+
+    def diagonal_blocks(self) -> np.ndarray:
+        """The 3 x 3 blocks that couple a node with itself, (k, 3, 3)."""
+        energy = self.energy
+        blocks = np.empty((energy.mesh.n_hexes, 8, 6))
+        kernels.diagonal_blocks(self.x, energy.mesh.hexes, self.delta, energy.p, blocks)
+        own = energy._gathered(blocks)[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)
+        return own + self.shift * np.eye(3)
+
+    def matrix(self) -> scipy.sparse.csr_array:
+        """The assembled sparse matrix, (3 k, 3 k), some 243 entries a free node."""
+        energy, total = self.energy, self.shift * scipy.sparse.eye_array(self.shape[0], format="csr")
+        for first in range(0, energy.mesh.n_hexes, _BATCH):
+            slots = energy.slots[first : first + _BATCH]
+            blocks = np.empty((len(slots), 24, 24))
+            kernels.hex_hessians(self.x, energy.mesh.hexes, self.delta, energy.p, first, blocks)
+            unknown = np.where(slots[:, :, None] < 0, -1, 3 * slots[:, :, None] + np.arange(3)).reshape(-1, 24)
+            row, column = np.broadcast_arrays(unknown[:, :, None], unknown[:, None, :])
+            free = (row >= 0) & (column >= 0)
+            total = total + scipy.sparse.coo_array((blocks[free], (row[free], column[free])), shape=self.shape).tocsr()
+        return total

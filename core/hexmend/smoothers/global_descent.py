@@ -1,0 +1,88 @@
+"""What the global methods share: Algorithm 3.3, all free nodes at once."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.energy import POLICIES, MeshEnergy
+from hexmend.mesh import Mesh
+from hexmend.optimise import Outcome, Step
+from hexmend.optimise.direction import Direction, Found, steepest_descent
+from hexmend.optimise.line_search import BackLineSearch
+from hexmend.parameters import parameter
+from hexmend.quality import measure
+from hexmend.smoothers.smoother import Smoother, Steps
+
+
+@dataclass(frozen=True)
+class GlobalDescent(Smoother):
+    """A search direction for all free nodes, a line search along it, and so on; a method names the direction."""
+
+    p: float = parameter(
+        2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
+    )
+    delta: float = parameter(
+        0.01,
+        low=0,
+        high=10,
+        unit="mean edge length³",
+        help="Softness of the barrier (3.2) while any hex is inverted; then zero. Large values move the optimum.",
+    )
+    delta_policy: str = parameter(
+        "fixed",
+        choices=tuple(POLICIES),
+        help="fixed: delta as given; adaptive: as large as the worst hex asks, falling to delta as it recovers.",
+    )
+    first_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
+    shrink: float = parameter(0.7, low=0.01, high=0.99, help="Factor λ by which the line search cuts a step (A.5).")
+    c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
+    max_cuts: int = parameter(60, low=1, high=500, help="Cuts of a step after which the method gives up.")
+
+    @abstractmethod
+    def direction(self) -> Direction:
+        """The search direction: Algorithm A.2, A.3 or A.4."""
+
+    def steps(self, mesh: Mesh) -> Steps:
+        energy, policy = MeshEnergy(mesh, self.p), POLICIES[self.delta_policy](self.delta)
+        search = BackLineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
+        find = self.direction()
+        x, points = energy.scaled(mesh.points), mesh.points
+        yield Step(points)
+        while True:
+            delta = policy.at(measure(points, mesh.hexes), energy.unit)  # zero in the feasible region, 3.2.4
+            value = energy.value(x, delta)
+            if not np.isfinite(value):  # inverted, and delta is zero
+                return Outcome.NO_DESCENT
+            gradient = energy.gradient(x, delta)
+            if perfect(value, mesh.n_hexes):
+                found, alpha, cuts = Found(np.zeros_like(gradient)), 0.0, 0
+            else:
+                found = find(value, gradient, energy.hessian(x, delta))  # A.2, A.3, A.4
+                if not np.vdot(found.p, gradient) < 0:
+                    found = steepest_descent(value, gradient, energy.hessian(x, delta))
+                alpha, cuts = search(
+                    lambda alpha, x=x, p=found.p, delta=delta: energy.value(energy.moved(x, alpha * p), delta),
+                    value,
+                    float(np.vdot(found.p, gradient)),
+                )  # A.5
+                if alpha == 0:
+                    return Outcome.NO_DESCENT
+            x = energy.moved(x, alpha * found.p)
+            points = energy.placed(x)
+            notes = {
+                "delta": delta,
+                "gradient_norm": float(np.linalg.norm(gradient)),
+                "step_length": alpha,
+                "cuts": cuts,
+                "solver_iterations": found.solver_iterations,
+                "shift": found.shift,
+            }
+            yield Step(points, notes)
+
+
+def perfect(value: float, hexes: int) -> bool:
+    """Whether every hex is a cube but for rounding, so that gradient and Hessian are nothing but noise."""
+    return value <= hexes * np.finfo(float).eps ** 2

@@ -1,0 +1,145 @@
+"""Gradient and Hessian of the energy, element by element against complex steps and for whole meshes against differences.
+
+Inverted and degenerate elements are among the cases; delta = 0 is tried where no element is inverted.
+"""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from hexmend.energy import MeshEnergy
+from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
+from hexmend.kernels import objective
+from hexmend.mesh import Mesh
+from hexmend.quality import measure
+from tests.core.grids import grid, scrambled
+
+seeds = st.integers(0, 2**32 - 1)
+exponents = st.sampled_from([1.0, 1.5, 2.0, 3.5])
+
+
+def eta_of(x, delta):
+    """eta(H) before it is clamped, as the book writes it; x may be complex."""
+    edges = np.stack([x[CORNER_TETRAHEDRA[:, k]] - x[CORNER_TETRAHEDRA[:, 0]] for k in (1, 2, 3)], axis=2)
+    sigma = np.linalg.det(edges)
+    h = (sigma + np.sqrt(sigma * sigma + 4 * delta * delta)) / 2  # (3.2)
+    return ((edges * edges).sum(axis=(1, 2)) / (3 * h ** (2 / 3))).mean() - 1  # (3.1), (B.20)
+
+
+def complex_gradient(x, delta):
+    gradient = np.empty((8, 3))
+    for place in np.ndindex(8, 3):
+        there = x.astype(complex)
+        there[place] += 1e-40j
+        gradient[place] = eta_of(there, delta).imag / 1e-40
+    return gradient
+
+
+@st.composite
+def corners(draw):
+    """Corners of a hex with a delta: sound, softened, turned inside out, or with corners that coincide."""
+    random = np.random.default_rng(draw(seeds))
+    kind = draw(st.sampled_from(["sound", "soft", "tangled", "mirrored", "degenerate"]))
+    amplitude = {"sound": 0.3, "soft": 0.3, "tangled": 1.6, "mirrored": 0.3, "degenerate": 0.3}[kind]
+    x = UNIT_CUBE + amplitude * random.uniform(-0.5, 0.5, (8, 3))
+    if kind == "mirrored":
+        x[:, 0] *= -1
+    if kind == "degenerate":
+        x[1] = x[0]  # sigma = 0 at two corners, an edge of no length
+        x[6] = x[2] + x[5] - x[1]  # and a flat one
+    delta = 0.0 if kind == "sound" else draw(st.sampled_from([0.02, 0.1, 0.5]))
+    if kind == "sound":
+        assume(np.linalg.det(x[CORNER_TETRAHEDRA[:, 1:]] - x[CORNER_TETRAHEDRA[:, :1]]).min() > 0.02)
+    return x, delta
+
+
+@given(corners())
+def test_gradient_of_a_hex_is_that_of_complex_steps(case):
+    x, delta = case
+    gradient, expected = np.empty((8, 3)), complex_gradient(x, delta)
+    assert objective.hex_gradient(x, delta, gradient) == pytest.approx(eta_of(x, delta), rel=1e-10)
+    np.testing.assert_allclose(gradient, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+
+
+@given(corners(), seeds, exponents)
+def test_hessian_of_a_hex_is_that_of_differences_of_complex_gradients(case, seed, p):
+    x, delta = case
+    energy = eta_of(x, delta)
+    assume(energy > 1e-2)  # softened by delta it may be below zero, where it counts as zero
+    v = np.random.default_rng(seed).normal(size=(8, 3))
+    gradient, product = np.empty((8, 3)), np.empty((8, 3))
+    objective.hex_product(x, v, delta, p, gradient, product)
+
+    def of_power(y):
+        return p * eta_of(y, delta) ** (p - 1) * complex_gradient(y, delta)
+
+    step = 1e-4 * max(delta, 0.02) / np.abs(v).max()
+    coarse, fine = ((of_power(x + h * v) - of_power(x - h * v)) / (2 * h) for h in (2 * step, step))
+    expected = (4 * fine - coarse) / 3  # Richardson: fourth order
+    np.testing.assert_allclose(product, expected, rtol=1e-5, atol=1e-6 * np.abs(expected).max())
+
+
+@given(seeds)
+def test_what_softened_energy_falls_below_zero_counts_as_zero(seed):
+    x = UNIT_CUBE + 0.01 * np.random.default_rng(seed).uniform(-1, 1, (8, 3))
+    gradient, product = np.empty((8, 3)), np.empty((8, 3))
+    assert objective.hex_gradient(x, 0.5, gradient) < 0
+    objective.hex_product(x, np.ones((8, 3)), 0.5, 2.0, gradient, product)
+    assert (product == 0).all()
+
+
+@given(seeds, exponents, st.sampled_from([0.0, 0.05]))
+def test_derivatives_of_a_mesh_are_those_of_differences(seed, p, delta):
+    mesh = scrambled(grid(3), 0.2 if delta == 0 else 0.8, seed)
+    assume(delta > 0 or measure(mesh.points, mesh.hexes).q.min() > 0.2)
+    energy = MeshEnergy(mesh, p)
+    x, v = energy.scaled(mesh.points), np.random.default_rng(seed + 1).normal(size=(8, 3))
+    gradient, hessian = energy.gradient(x, delta), energy.hessian(x, delta)
+    step = 1e-6
+
+    def difference(of):
+        return (of(energy.moved(x, step * v), delta) - of(energy.moved(x, -step * v), delta)) / (2 * step)
+
+    assert np.vdot(gradient, v) == pytest.approx(difference(energy.value), rel=1e-5, abs=1e-6)
+    expected = difference(energy.gradient).ravel()
+    np.testing.assert_allclose(hessian @ v.ravel(), expected, rtol=1e-4, atol=1e-5 * np.abs(expected).max())
+
+
+@given(seeds, exponents)
+def test_the_assembled_hessian_is_the_product_and_symmetric(seed, p):
+    mesh = scrambled(grid(4, 3, 3), 0.8, seed)
+    energy = MeshEnergy(mesh, p)
+    hessian = energy.hessian(energy.scaled(mesh.points), 0.05).shifted(0.25)
+    matrix = hessian.matrix().toarray()
+    size = np.abs(matrix).max()
+    np.testing.assert_allclose(hessian @ np.eye(len(matrix)), matrix, atol=1e-12 * size)
+    np.testing.assert_allclose(matrix, matrix.T, atol=1e-12 * size)
+    blocks = np.array([matrix[3 * k : 3 * k + 3, 3 * k : 3 * k + 3] for k in range(len(matrix) // 3)])
+    np.testing.assert_allclose(hessian.diagonal_blocks(), blocks, atol=1e-12 * size)
+
+
+def test_a_mesh_is_assembled_in_batches_of_any_size(monkeypatch):
+    mesh = scrambled(grid(4), 0.3)
+    energy = MeshEnergy(mesh)
+    hessian = energy.hessian(energy.scaled(mesh.points), 0.05)
+    whole = hessian.matrix()
+    monkeypatch.setattr("hexmend.energy.mesh_energy._BATCH", 7)
+    assert abs(hessian.matrix() - whole).max() < 1e-12 * abs(whole).max()
+
+
+def test_a_translation_is_no_change():
+    mesh = Mesh(UNIT_CUBE + 0.2 * np.random.default_rng(0).uniform(-1, 1, (8, 3)), [range(8)])
+    gradient, product = np.empty((8, 3)), np.empty((8, 3))
+    objective.hex_gradient(mesh.points, 0.0, gradient)
+    np.testing.assert_allclose(gradient.sum(axis=0), 0, atol=1e-13)
+    objective.hex_product(mesh.points, np.ones((8, 3)), 0.0, 2.0, gradient, product)
+    np.testing.assert_allclose(product, 0, atol=1e-12)
+
+
+@given(seeds)
+def test_lengths_do_not_matter(seed):
+    here = scrambled(grid(3), 0.8, seed)
+    there = here.with_points(here.points * 1e3)
+    one, other = MeshEnergy(here), MeshEnergy(there)
+    assert one.value(one.scaled(here.points), 0.01) == pytest.approx(other.value(other.scaled(there.points), 0.01))

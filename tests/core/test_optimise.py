@@ -1,0 +1,146 @@
+"""The parts that methods are put together from, each on its own."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.energy import AdaptiveDelta, FixedDelta, MeshEnergy
+from hexmend.kernels import local, symmetric
+from hexmend.optimise.direction import ModifiedNewton, Newton, extreme_eigenvalues, steepest_descent
+from hexmend.optimise.line_search import BackLineSearch
+from hexmend.optimise.linear import ConjugateGradients, Minres, block_jacobi
+from hexmend.quality import measure
+from tests.core.grids import grid, scrambled
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def matrix_of(xx, xy, xz, yy, yz, zz):
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+@given(seeds, st.integers(-8, 8))
+def test_symmetric_matrices_of_three_rows(seed, exponent):
+    random = np.random.default_rng(seed)
+    entries = random.normal(size=6) * 10.0**exponent
+    right = random.normal(size=3)
+    values = np.linalg.eigvalsh(matrix_of(*entries))
+    least, greatest = symmetric.extreme_eigenvalues(*entries)
+    assert (least, greatest) == pytest.approx((values[0], values[2]), rel=1e-6, abs=1e-9 * np.abs(values).max())
+    solution = np.array(symmetric.solve(*entries, *right))
+    scale = np.abs(solution).max() * np.abs(entries).max()
+    np.testing.assert_allclose(matrix_of(*entries) @ solution, right, atol=1e-10 * max(scale, 1))
+
+
+def test_special_symmetric_matrices():
+    assert symmetric.extreme_eigenvalues(2.0, 0.0, 0.0, 2.0, 0.0, 2.0) == (2.0, 2.0)
+    assert symmetric.extreme_eigenvalues(1.0, 0.0, 0.0, 3.0, 0.0, 3.0) == pytest.approx((1, 3))
+    assert symmetric.solve(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0) == (0.0, 0.0, 0.0)
+
+
+@given(seeds)
+def test_modified_newton_of_a_node_is_algorithm_a_4(seed):
+    random = np.random.default_rng(seed)
+    entries, gradient = random.normal(size=6), random.normal(size=3)
+    hessian = matrix_of(*entries)
+    values = np.linalg.eigvalsh(hessian)
+    if values[0] < 0.001 * values[2]:
+        hessian = hessian + (0.001 * values[2] - values[0]) * np.eye(3)
+    p = np.array(local.newton(tuple(entries), *gradient, True))
+    np.testing.assert_allclose(hessian @ p, -gradient, atol=1e-7 * max(1, np.abs(p).max()))
+    if values[2] > 0.1:  # positive definite now
+        assert p @ gradient < 0
+
+
+def test_the_line_search_takes_the_first_step_that_descends_enough():
+    search = BackLineSearch(first=1.0, shrink=0.5, c1=0.1, cuts=10)
+    tried = []
+
+    def along(alpha):
+        tried.append(alpha)
+        return np.inf if alpha > 0.3 else (alpha - 0.2) ** 2
+
+    assert search(along, 0.04, -0.4) == (0.25, 2)
+    assert tried == [1.0, 0.5, 0.25]
+    assert search(lambda alpha: 1.0, 0.04, -0.4) == (0.0, 10)
+    assert search(lambda alpha: np.nan, 0.04, -0.4)[0] == 0.0
+
+
+@pytest.fixture(scope="module")
+def problem():
+    mesh = scrambled(grid(5), 0.15, 3)
+    energy = MeshEnergy(mesh)
+    x = energy.scaled(mesh.points)
+    return energy, x, energy.value(x), energy.gradient(x), energy.hessian(x)
+
+
+@pytest.mark.parametrize("solver", [Minres(1e-10), ConjugateGradients(1e-10)])
+def test_solvers_solve_where_the_matrix_is_positive_definite(problem, solver):
+    *_, gradient, hessian = problem
+    hessian = hessian.shifted(0.5)
+    matrix = hessian.matrix().toarray()
+    assert np.linalg.eigvalsh(matrix)[0] > 0
+    solution, count = solver(hessian, gradient.ravel())
+    assert 1 < count < 200
+    np.testing.assert_allclose(solution, np.linalg.solve(matrix, gradient.ravel()), atol=1e-7)
+
+
+def test_minres_solves_an_indefinite_system(problem):
+    *_, gradient, hessian = problem
+    hessian = hessian.shifted(-1.0)
+    values = np.linalg.eigvalsh(hessian.matrix().toarray())
+    assert values[0] < 0 < values[-1]
+    solution, _ = Minres(1e-10)(hessian, gradient.ravel())
+    np.testing.assert_allclose(hessian @ solution, gradient.ravel(), atol=1e-7)
+
+
+@given(seeds, st.floats(-5, 1))
+def test_conjugate_gradients_descend_whatever_the_curvature(problem, seed, shift):
+    *_, hessian = problem
+    right = np.random.default_rng(seed).normal(size=hessian.shape[0])
+    solution, _ = ConjugateGradients(1e-3, 50)(hessian.shifted(shift), right)
+    assert solution @ right > 0
+
+
+def test_block_jacobi_inverts_the_blocks():
+    blocks = np.array([np.diag([1.0, 2.0, 4.0]), np.diag([1.0, -1.0, 2.0])])
+    applied = block_jacobi(blocks)(np.ones(6))
+    np.testing.assert_allclose(applied[:3], [1, 0.5, 0.25])
+    assert (applied > 0).all()  # Algorithm A.4 has made the second one positive definite
+
+
+def test_extreme_eigenvalues_are_good_to_a_thousandth(problem):
+    *_, hessian = problem
+    for shift in (0.0, -2.0):
+        values = np.linalg.eigvalsh(hessian.shifted(shift).matrix().toarray())
+        least, greatest = extreme_eigenvalues(hessian.shifted(shift))
+        assert (least, greatest) == pytest.approx((values[0], values[-1]), abs=2e-3 * (values[-1] - values[0]))
+
+
+def test_directions_are_those_of_appendix_a(problem):
+    *_, value, gradient, hessian = problem
+    np.testing.assert_allclose(steepest_descent(value, gradient, hessian).p, -gradient / (2 * np.sqrt(value)))
+    newton = Newton(Minres(1e-12))(value, gradient, hessian).p
+    np.testing.assert_allclose(hessian @ newton.ravel(), -gradient.ravel(), atol=1e-8)
+    indefinite = hessian.shifted(-1.0)
+    found = ModifiedNewton(Minres(1e-12))(value, gradient, indefinite)
+    shift = found.shift - indefinite.shift
+    values = np.linalg.eigvalsh(indefinite.matrix().toarray())
+    assert shift == pytest.approx(0.001 * values[-1] - values[0], rel=1e-2)
+    assert np.vdot(found.p, gradient) < 0
+
+
+def test_delta_is_zero_once_nothing_is_inverted():
+    sound, tangled = grid(3), scrambled(grid(3), 0.9)
+    for policy in (FixedDelta(0.1), AdaptiveDelta(0.1)):
+        assert policy.at(measure(sound.points, sound.hexes), 1.0) == 0
+        assert policy.at(measure(tangled.points, tangled.hexes), 1.0) >= 0.1
+
+
+def test_adaptive_delta_gives_the_worst_determinant_the_h_that_is_asked():
+    tangled = scrambled(grid(3), 0.9)
+    for length in (1.0, 50.0):
+        figures = measure(tangled.points * length, tangled.hexes)
+        sigma, delta = figures.sigma.min() / length**3, AdaptiveDelta(0.1).at(figures, length)
+        assert (sigma + np.sqrt(sigma**2 + 4 * delta**2)) / 2 == pytest.approx(0.1)
