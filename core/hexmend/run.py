@@ -212,3 +212,5 @@ def warm_up(smoother: Smoother) -> None:
     for _ in range(2):
         next(steps, None)
     steps.close()
+    for name in smoother.uses:
+        warm_up(METHODS[name]())

@@ -23,6 +23,7 @@ class Outcome(Enum):
     NOTHING_FREE = "Nothing to do: every node is fixed."
     FINISHED = "The method has no further step to make."
     NO_IMPROVEMENT = "Converged: neither the least nor the mean quality rises any more."
+    SUFFICIENT = "Done: the quality that was asked for is reached."
     NO_DESCENT = "Stopped: along the search direction no step descends, however short."
 
     @property

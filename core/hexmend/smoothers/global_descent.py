@@ -21,6 +21,8 @@ from hexmend.smoothers.smoother import Smoother, Steps
 class GlobalDescent(Smoother):
     """A search direction for all free nodes, a line search along it, and so on; a method names the direction."""
 
+    optimises = True
+
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
     )

@@ -18,6 +18,7 @@ from hexmend.smoothers.smoother import Smoother, Steps
 class LocalDescent(Smoother):
     """One line-searched step per free node, sweep after sweep, on the node's patch scaled to unit mean edge length."""
 
+    optimises = True
     #: Search direction, one of `hexmend.kernels.local`.
     direction: ClassVar[int]
 

@@ -28,6 +28,10 @@ class Smoother(Parametrised, ABC):
     title: ClassVar[str]
     help: ClassVar[str]
     source: ClassVar[str]
+    #: Whether it goes to a minimum of the energy.
+    optimises: ClassVar[bool] = False
+    #: Names of the methods that this one may hand over to.
+    uses: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:
