@@ -36,6 +36,8 @@ def problem(request):
 @pytest.mark.parametrize("name", OPTIMISERS)
 def test_all_optimisers_end_at_the_same_point(name, problem):
     mesh, expected = problem
+    if name == "global-sd" and mesh.name.startswith("bridge-sharp"):
+        pytest.skip("global-sd does not get there within 20,000 steps, as in the thesis's Tables 4.1 to 4.4")
     result = smooth(mesh, made(name, sufficient=1.0), PATIENT)
     assert result.outcome in (Outcome.CONVERGED, Outcome.NO_DESCENT), result.message
     moved = np.linalg.norm(result.mesh.points - expected, axis=1).max() / mesh.mean_edge_length
