@@ -21,6 +21,29 @@ def corner_edges(x, t):
     )  # fmt: skip
 
 
+@serial
+def load(points, hexes, h, x):
+    """Write the corners of hex h into x (8, 3)."""
+    for c in range(8):
+        for k in range(3):
+            x[c, k] = points[hexes[h, c], k]
+
+
+@serial
+def quality(x):
+    """q(H) of the hex with corners x (8, 3), (2.10), and whether none of its corners is inverted."""
+    total, sound = 0.0, True
+    for t in range(8):
+        ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
+        det = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+        if det > 0:
+            square = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
+            total += 3 / (square * power_minus_two_thirds(det))
+        else:
+            sound = False
+    return total / 8, sound
+
+
 @parallel
 def measure(points, hexes, q, sigma, jacobian, eta):
     """Quality of every hex at delta = 0.
@@ -42,9 +65,7 @@ def measure(points, hexes, q, sigma, jacobian, eta):
     for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
         x = np.empty((8, 3))
         for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
-            for c in range(8):
-                for k in range(3):
-                    x[c, k] = points[hexes[h, c], k]
+            load(points, hexes, h, x)
             q_sum, eta_sum, lowest, worst = 0.0, 0.0, np.inf, np.inf
             for t in range(8):
                 ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
@@ -74,9 +95,7 @@ def energies(points, hexes, delta, eta):
     for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
         x = np.empty((8, 3))
         for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
-            for c in range(8):
-                for k in range(3):
-                    x[c, k] = points[hexes[h, c], k]
+            load(points, hexes, h, x)
             total = 0.0
             for t in range(8):
                 ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)

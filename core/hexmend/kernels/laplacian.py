@@ -6,8 +6,7 @@ import numba
 import numpy as np
 
 from hexmend.kernels import parallel, serial
-from hexmend.kernels.elements import corner_edges
-from hexmend.kernels.shape import determinant, power_minus_two_thirds
+from hexmend.kernels.elements import load, quality
 
 
 @serial
@@ -42,21 +41,8 @@ def simultaneous(points, ring_start, ring, nodes, moved):
 def _attached(points, hexes, corners, begin, end, x, sound, q):
     """Write, for each attached hex, whether no corner is inverted, and its q(H)."""
     for s in range(begin, end):
-        h = corners[s] // 8
-        for c in range(8):
-            for k in range(3):
-                x[c, k] = points[hexes[h, c], k]
-        sound[s - begin] = True
-        total = 0.0
-        for t in range(8):
-            ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
-            det = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
-            if det > 0:
-                square = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
-                total += 3 / (square * power_minus_two_thirds(det))
-            else:
-                sound[s - begin] = False
-        q[s - begin] = total / 8
+        load(points, hexes, corners[s] // 8, x)
+        q[s - begin], sound[s - begin] = quality(x)
 
 
 @serial

@@ -46,12 +46,15 @@ class Step:
         A sentence, where the method has just decided how to go on; the run's message repeats it.
     more : bool
         True while another stage is to come: however little this step moved, the run has not converged.
+    figures : ElementQuality, optional
+        `measure(points, hexes)`, where the method has needed it itself.
     """
 
     points: np.ndarray
     notes: Mapping[str, Any] = field(default_factory=dict)
     decision: str = ""
     more: bool = False
+    figures: ElementQuality | None = None
 
 
 @dataclass(frozen=True, eq=False)

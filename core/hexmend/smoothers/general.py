@@ -1,0 +1,91 @@
+"""The general method: Algorithm 5.1."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Generator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.hexahedron import EDGES
+from hexmend.mesh import Mesh
+from hexmend.optimise import Outcome, Step
+from hexmend.parameters import parameter
+from hexmend.quality import measure
+from hexmend.smoothers.smoother import METHODS, Smoother, Steps, method
+
+
+@method
+@dataclass(frozen=True)
+class General(Smoother):
+    """GETMe first; then, where that does not suffice, the optimiser that suits the mesh."""
+
+    name = "general"
+    title = "General (GETMe, then an optimiser)"
+    help = "GETMe; then global Newton if hexes are of similar size and none is inverted, else local steepest descent."
+    source = "Wilson 5.1, Algorithm 5.1"
+    uses = ("getme", "global-nr", "local-sd")
+    optimises = True
+
+    sufficient: float = parameter(
+        0.9, low=0, high=1, help="Least q(H) with which GETMe's result is taken as it is; 1 goes on to the optimum."
+    )
+    similar: float = parameter(
+        3.0,
+        low=1,
+        high=1e6,
+        help="Hexes are of similar size if 19 in 20 are at most this many times as long as the shortest 1 in 20.",
+    )
+    getme_tolerance: float = parameter(
+        1e-4, low=0, high=1, unit="mean edge length", help="GETMe has converged when no node moves further (A.1)."
+    )
+    getme_iterations: int = parameter(500, low=0, high=100_000, help="Most iterations of GETMe.")
+
+    def steps(self, mesh: Mesh) -> Steps:
+        points = yield from self._getme(mesh)
+        figures = measure(points, mesh.hexes)
+        if not figures.n_inverted and figures.q.min() >= self.sufficient:
+            return Outcome.SUFFICIENT
+        ratio = size_ratio(points, mesh.hexes)
+        sizes = f"{'similar' if ratio <= self.similar else 'different'} sizes (ratio {ratio:.2g})"
+        count = figures.n_inverted
+        inverted = f"{count:,} inverted element{'s' * (count != 1)}" if count else "no inverted elements"
+        chosen = METHODS["global-nr" if ratio <= self.similar and not count else "local-sd"]
+        decision = f"After GETMe: {sizes}, {inverted}: {chosen.title}."
+        rest = chosen().steps(mesh.with_points(points))
+        next(rest)
+        return (yield from _beginning_with(decision, rest))
+
+    def _getme(self, mesh: Mesh) -> Generator[Step, None, np.ndarray]:
+        """GETMe to its end; returns the points."""
+        points, unit = mesh.points, mesh.mean_edge_length or 1.0
+        getme = METHODS["getme"]().steps(mesh)
+        yield dataclasses.replace(next(getme), more=True)
+        for _, step in zip(range(self.getme_iterations), getme, strict=False):
+            move = float(np.sqrt(np.square(step.points - points).sum(axis=1).max())) / unit
+            points = step.points
+            yield dataclasses.replace(step, more=True)
+            if move < self.getme_tolerance:
+                break
+        return points
+
+
+def _beginning_with(decision: str, steps: Steps) -> Steps:
+    """The steps, the first of them telling the decision that led to it."""
+    while True:
+        try:
+            step = next(steps)
+        except StopIteration as end:
+            return end.value
+        yield dataclasses.replace(step, decision=decision)
+        decision = ""
+
+
+def size_ratio(points: np.ndarray, hexes: np.ndarray) -> float:
+    """Ratio of the 95th to the 5th percentile of the hexes' mean edge lengths; infinite if some have no extent."""
+    total = np.zeros(len(hexes))
+    for a, b in EDGES:
+        total += np.linalg.norm(points[hexes[:, a]] - points[hexes[:, b]], axis=1)
+    low, high = np.percentile(total, [5, 95])
+    return float(high / low) if low > 0 else np.inf

@@ -1,0 +1,156 @@
+"""GETMe: its element step against the definition, and what both stages promise."""
+
+import heapq
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from hexmend.gallery import make
+from hexmend.hexahedron import EDGES, UNIT_CUBE
+from hexmend.kernels.getme import element_steps
+from hexmend.kernels.worst_first import replay, tournament
+from hexmend.optimise import Outcome
+from hexmend.quality import measure
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS
+from tests.core.grids import grid, scrambled
+
+ONE = np.arange(8, dtype=np.int32)[None]
+STAGES = ["getme", "getme-sequential"]
+
+
+def stepped(x, s=1.0, rho=1.0):
+    """One element step of a hex by the kernel."""
+    places = np.empty((1, 8, 3))
+    element_steps(x, ONE, s, rho, places)
+    return places[0]
+
+
+def by_definition(x, s, rho):
+    """The same from its definition: faces are corners that share a coordinate of the unit cube."""
+    towards = 2 * UNIT_CUBE - 1
+    y = np.empty((8, 3))
+    for k in range(8):
+        faces = [x[UNIT_CUBE[:, axis] == UNIT_CUBE[k, axis]].mean(axis=0) for axis in range(3)]
+        n = np.cross(faces[1] - faces[0], faces[2] - faces[0]) * towards[k].prod()
+        y[k] = np.mean(faces, axis=0) + s * n / np.sqrt(np.linalg.norm(n))
+    length = [np.linalg.norm(z[EDGES[:, 0]] - z[EDGES[:, 1]], axis=1).mean() for z in (x, y)]
+    y = y.mean(axis=0) + length[0] / length[1] * (y - y.mean(axis=0))
+    return x + rho * (y - x)
+
+
+hexes = st.integers(0, 2**32 - 1).map(lambda seed: UNIT_CUBE + np.random.default_rng(seed).normal(0, 0.4, (8, 3)))
+
+
+@given(hexes, st.floats(0.1, 3), st.floats(0.01, 1))
+def test_the_element_step_is_its_definition_on_any_hex(x, s, rho):
+    np.testing.assert_allclose(stepped(x, s, rho), by_definition(x, s, rho), atol=1e-9)
+
+
+@given(st.floats(1e-3, 1e3), st.integers(0, 2**32 - 1), st.floats(0.1, 3))
+def test_a_cube_of_any_size_and_place_is_a_fixed_point(size, seed, s):
+    random = np.random.default_rng(seed)
+    cube = size * (Rotation.random(rng=random).apply(UNIT_CUBE) + random.uniform(-1, 1, 3))
+    np.testing.assert_allclose(stepped(cube, s), cube, atol=1e-12 * size)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_repeated_steps_make_a_hex_regular(seed):
+    x = UNIT_CUBE + np.random.default_rng(seed).uniform(-0.25, 0.25, (8, 3))
+    for _ in range(60):
+        x = stepped(x)
+    assert measure(x, ONE).q[0] > 1 - 1e-6
+
+
+def test_degenerate_hexes_give_finite_places():
+    for x in (np.zeros((8, 3)), UNIT_CUBE * [1, 1, 0], UNIT_CUBE * [1, 1, -1]):
+        assert np.isfinite(stepped(x)).all()
+
+
+@pytest.mark.parametrize("name", STAGES)
+@settings(max_examples=15)
+@given(seed=st.integers(0, 2**32 - 1), amplitude=st.floats(0.1, 1.2))
+def test_no_sound_hex_is_ever_inverted(name, seed, amplitude):
+    mesh = scrambled(grid(4), amplitude, seed)
+    inverted = measure(mesh.points, mesh.hexes).inverted
+    for step in itertools.islice(METHODS[name]().steps(mesh), 8):
+        now = measure(step.points, mesh.hexes).inverted
+        assert not (now & ~inverted).any()
+        inverted = now
+
+
+@pytest.mark.parametrize("name", STAGES)
+@pytest.mark.parametrize("amplitude", [0.3, 0.9])
+def test_figures_that_come_with_a_step_are_those_of_its_points(name, amplitude):
+    mesh = scrambled(grid(4), amplitude)
+    steps = list(itertools.islice(METHODS[name]().steps(mesh), 1, 6))
+    for step in steps:
+        np.testing.assert_array_equal(step.figures.q, measure(step.points, mesh.hexes).q)
+    assert steps
+
+
+@pytest.mark.parametrize("weights", ["quality", "paper", "equal"])
+def test_simultaneous_ends_by_itself_and_untangles_a_scrambled_grid(weights):
+    mesh = scrambled(grid(6), 0.6, 3)
+    assert measure(mesh.points, mesh.hexes).n_inverted > 20
+    result = smooth(mesh, METHODS["getme"](weights=weights), Stop(max_iterations=2000, tolerance=0))
+    assert result.outcome is Outcome.NO_IMPROVEMENT
+    assert result.after.inverted == 0
+    assert result.after.q_mean > 0.99
+
+
+def test_weights_are_finite_and_grow_as_quality_falls():
+    q = np.array([0.0, 1e-9, 0.2, 0.7, 1.0])
+    for weights in ("quality", "paper"):
+        got = METHODS["getme"](weights=weights)._weights(q)
+        assert np.isfinite(got).all()
+        assert (got > 0).all()
+        assert (np.diff(got) <= 0).all()
+        assert got[0] > got[-1]
+
+
+@settings(max_examples=15)
+@given(seed=st.integers(0, 2**32 - 1), amplitude=st.floats(0.05, 0.45))
+def test_sequential_never_lowers_q_min_of_a_valid_mesh(seed, amplitude):
+    mesh = scrambled(grid(4), amplitude, seed)
+    assume(measure(mesh.points, mesh.hexes).n_inverted == 0)
+    least = [step.figures.q.min() for step in itertools.islice(METHODS["getme-sequential"]().steps(mesh), 1, 12)]
+    least.insert(0, measure(mesh.points, mesh.hexes).q.min())
+    assert (np.diff(least) >= 0).all()
+    assert least[-1] > least[0]
+
+
+@settings(max_examples=15)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_sequential_never_has_more_inverted_hexes_than_before(seed):
+    mesh = scrambled(grid(4), 1.0, seed)
+    counts = [step.figures.n_inverted for step in itertools.islice(METHODS["getme-sequential"]().steps(mesh), 1, 10)]
+    counts.insert(0, measure(mesh.points, mesh.hexes).n_inverted)
+    assert counts[0] > 0
+    assert (np.diff(counts) <= 0).all()
+
+
+@pytest.mark.parametrize("mesh", [("five-side", 920), ("bridge-sharp", 500)], ids=lambda m: m[0])
+def test_the_second_stage_raises_q_min_over_the_first(mesh):
+    first = smooth(make(mesh[0], size=mesh[1]), "getme")
+    second = smooth(first.mesh, "getme-sequential")
+    assert second.outcome is Outcome.NO_IMPROVEMENT
+    assert second.after.q_min > first.after.q_min + 0.002
+
+
+@given(st.lists(st.integers(0, 9), min_size=1, max_size=40), st.lists(st.tuples(st.integers(0, 39), st.integers(0, 9))))
+def test_the_queue_gives_what_a_heap_gives(keys, changes):
+    key = np.array(keys, dtype=float)
+    members = np.arange(len(keys), dtype=np.int32)[::-1].copy()  # leaves need not be in the order of the hexes
+    tree = tournament(key, members)
+    leaf = np.argsort(members)
+    for h, new in [(0, keys[0]), *((h % len(keys), new) for h, new in changes)]:
+        key[h] = new
+        replay(tree, key, leaf[h])
+        heap = [(k, i) for i, k in enumerate(key)]
+        heapq.heapify(heap)
+        assert tree[1] == heap[0][1]
