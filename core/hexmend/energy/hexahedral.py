@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.kernels import elements
+from hexmend.kernels import objective as kernels
 from hexmend.quality.measure import read_only
 
 
@@ -30,7 +30,7 @@ def energies(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0) -> np.nd
     array([0.])
     """
     eta = np.empty(len(hexes))
-    elements.energies(read_only(points), read_only(hexes), float(delta), eta)
+    kernels.energies(read_only(points), read_only(hexes), float(delta), eta)
     return eta
 
 

@@ -57,8 +57,15 @@ def _compiled(**options: Any) -> Callable[[Callable], Callable]:
     return decorate
 
 
-#: A kernel that runs on one thread, or a piece of one.
-serial = _compiled()
+#: A kernel that runs on one thread, or a piece of one. Products and sums may be contracted to one rounding, which is
+#: what vector units are fast at.
+serial = _compiled(fastmath={"contract"})
 
 #: A kernel whose `prange` loops share the threads.
-parallel = _compiled(parallel=True)
+parallel = _compiled(parallel=True, fastmath={"contract"})
+
+#: A formula that its callers take in whole, as a loop over lanes needs it to be.
+formula = _compiled(fastmath={"contract"}, forceinline=True)
+
+#: The same, every operation rounded on its own: its result is the same to the last bit wherever it stands.
+exact = _compiled(forceinline=True)

@@ -7,7 +7,7 @@ import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import CHUNK, parallel, serial
-from hexmend.kernels.shape import barrier, determinant, power_minus_two_thirds
+from hexmend.kernels.shape import determinant, power_minus_two_thirds
 
 
 @serial
@@ -86,20 +86,3 @@ def measure(points, hexes, q, sigma, jacobian, eta):
             sigma[h] = lowest
             jacobian[h] = worst
             eta[h] = max(eta_sum / 8 - 1, 0.0)
-
-
-@parallel
-def energies(points, hexes, delta, eta):
-    """eta(H) of every hex with the barrier of (3.2) softened by delta, in the unit of sigma; writes eta (m,)."""
-    m = hexes.shape[0]
-    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
-        x = np.empty((8, 3))
-        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
-            load(points, hexes, h, x)
-            total = 0.0
-            for t in range(8):
-                ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
-                det = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
-                square = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
-                total += square * power_minus_two_thirds(barrier(det, delta)[0]) / 3
-            eta[h] = max(total / 8 - 1, 0.0)

@@ -84,7 +84,7 @@ def sweep(points, hexes, start, corners, groups, nodes, direction, delta, p, fir
         for chunk in numba.prange((count + _CHUNK - 1) // _CHUNK):
             x = np.empty((8, 3))
             table = np.empty((9, 4 * widest))
-            lane = np.empty((3, 4 * widest))
+            lane = np.empty((2, 4 * widest))
             rest = np.empty(widest)
             own = np.empty(6)
             for k in range(groups[g] + chunk * _CHUNK, min(groups[g + 1], groups[g] + (chunk + 1) * _CHUNK)):

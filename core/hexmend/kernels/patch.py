@@ -16,8 +16,8 @@ import numpy as np
 from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES
 from hexmend.kernels import serial
 from hexmend.kernels.elements import corner_edges
-from hexmend.kernels.objective import add_own, weights
-from hexmend.kernels.shape import MAGIC, TINY, barrier, determinant, power_minus_two_thirds
+from hexmend.kernels.hexahedron import add_own, weights
+from hexmend.kernels.shape import TINY, barrier, determinant, power_minus_two_thirds
 
 #: Columns of a patch table.
 SIGMA, GX, GY, GZ, SQUARE, BX, BY, BZ, K = range(9)
@@ -128,15 +128,14 @@ def tabulate(points, hexes, corners, begin, end, scale, delta, x, table, rest):
 def lanes(table, count, y0, y1, y2, delta, lane):
     """eta(T) of the patch's first `count` tetrahedra with the node displaced by y.
 
-    Three short loops, each without a branch or a call, so that the compiler runs them over vectors.
+    Two short loops without a branch or a call, so that the compiler runs them over vectors.
 
     Parameters
     ----------
-    lane : (3, count or more) float64, written
-        Row 0 holds eta; the others are scratch.
+    lane : (2, count or more) float64, written
+        Row 0 holds eta, row 1 h.
     """
-    eta, h, q = lane[0], lane[1], lane[2]
-    h_bits, q_bits = h.view(np.int64), q.view(np.int64)
+    eta, h = lane[0], lane[1]
     softness = 4 * delta * delta
     far = y0 * y0 + y1 * y1 + y2 * y2
     for t in range(count):
@@ -146,12 +145,7 @@ def lanes(table, count, y0, y1, y2, delta, lane):
         h[t] = 0.5 * u if sigma >= 0 else 0.5 * softness / max(u, TINY)  # (3.2)
         eta[t] = square * (1.0 / 3.0)
     for t in range(count):
-        q_bits[t] = MAGIC - np.int64(h_bits[t] * (2.0 / 3.0))
-    for t in range(count):
-        root, square = q[t], h[t] * h[t]
-        for _ in range(4):
-            root *= (4.0 - square * root * root * root) * (1.0 / 3.0)  # h^(-2/3)
-        eta[t] *= root if h[t] > TINY else np.inf  # (3.1)
+        eta[t] *= power_minus_two_thirds(h[t])  # (3.1)
 
 
 @serial

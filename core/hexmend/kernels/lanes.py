@@ -1,0 +1,77 @@
+"""A block of hexes side by side: one coordinate a row, one hex a lane, so that arithmetic runs over vectors.
+
+What makes the compiler vectorise a loop over lanes, found by trial:
+
+- the rows that it reads and writes lie in one array, at distances that are known: nothing is left to ask about overlap;
+- indices are unsigned: Numba asks of a signed one whether it counts from the end;
+- no branch, no call that is not taken in whole (`kernels.formula`), no row number that is known only at run time. The
+  edges of a tetrahedron are therefore copied to fixed rows first, and its shares added to their rows afterwards.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.kernels import serial
+
+#: Hexes in a block.
+LANES = 64
+
+#: The same, for loops over lanes.
+ALL = np.uint64(LANES)
+
+#: Rows of an array of work, by where they begin: nine of S, nine of a direction of it, nine of a derivative, nine of
+#: another, two of sums.
+ROW = tuple(np.uint64(k * LANES) for k in range(38))
+S, A, G, H = ROW[0], ROW[9], ROW[18], ROW[27]
+SUM, SLOPE = ROW[36], ROW[37]
+
+#: Length of an array of work, and of one that holds a vector at eight corners.
+WORK, CORNERS = 38 * LANES, 24 * LANES
+
+
+@serial
+def load(values, rows, first, count, x):
+    """Write vectors at the corners of `count` hexes from `first` on into x (CORNERS,); further lanes repeat the last.
+
+    Parameters
+    ----------
+    values : (n, 3) float64
+    rows : (m, 8) int32
+        Row of each corner; below 0 for one where the vector is zero.
+    """
+    for lane in range(LANES):
+        h = first + min(lane, count - 1)
+        for c in range(8):
+            i = rows[h, c]
+            for k in range(3):
+                x[(3 * c + k) * LANES + lane] = values[i, k] if i >= 0 else 0.0
+
+
+@serial
+def edges(x, t, w, to):
+    """Differences along the edges of corner tetrahedron t, u, v and w, into nine rows of w from `to` on."""
+    a = CORNER_TETRAHEDRA[t, 0]
+    for j in range(3):
+        b = CORNER_TETRAHEDRA[t, j + 1]
+        for k in range(3):
+            tip, apex = np.uint64((3 * b + k) * LANES), np.uint64((3 * a + k) * LANES)
+            row = to + np.uint64((3 * j + k) * LANES)
+            for lane in range(ALL):
+                w[row + lane] = x[tip + lane] - x[apex + lane]
+
+
+@serial
+def scatter(w, begin, t, to):
+    """Add a derivative by u, v and w, nine rows of w from `begin` on, to the nodes' rows of `to` (CORNERS,)."""
+    a = CORNER_TETRAHEDRA[t, 0]
+    for k in range(3):
+        for j in range(3):
+            row, tip = begin + np.uint64((3 * j + k) * LANES), np.uint64((3 * CORNER_TETRAHEDRA[t, j + 1] + k) * LANES)
+            for lane in range(ALL):
+                to[tip + lane] += w[row + lane]
+        u, apex = begin + np.uint64(k * LANES), np.uint64((3 * a + k) * LANES)
+        v, z = u + np.uint64(3 * LANES), u + np.uint64(6 * LANES)
+        for lane in range(ALL):
+            to[apex + lane] -= w[u + lane] + w[v + lane] + w[z + lane]
