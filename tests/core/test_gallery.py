@@ -10,6 +10,7 @@ from hexmend.gallery import GALLERY, make
 from hexmend.io.doctor import examine
 from hexmend.parameters import declared
 from hexmend.quality import summarise
+from hexmend.run import Stop, smooth
 
 every = pytest.mark.parametrize("name", GALLERY)
 
@@ -33,7 +34,18 @@ def test_counts_are_those_of_the_thesis(name, size, hexes, nodes, free):
 def test_figures_are_near_those_of_the_thesis():
     five, bridge = summarise(make("five-side")), summarise(make("bridge-sharp"))
     assert (five.q_min, five.q_mean, five.q_norm) == pytest.approx((0.5038, 0.8343, 0.8177), abs=0.04)
-    assert (bridge.q_min, bridge.q_mean, bridge.q_norm) == pytest.approx((0.1679, 0.8098, 0.6421), abs=0.04)
+    assert (bridge.q_min, bridge.q_mean, bridge.q_norm) == pytest.approx((0.1679, 0.8098, 0.6421), abs=0.025)
+
+
+def test_the_sharp_bridge_gains_by_optimising_and_is_inverted_by_laplacian_smoothing():
+    bridge = make("bridge-sharp", size=4000)
+    before = summarise(bridge)
+    after = smooth(bridge, "local-sd", Stop(max_iterations=40)).after
+    assert after.inverted == 0
+    assert after.q_min > before.q_min + 0.05
+    assert after.q_mean > before.q_mean + 0.03
+    assert after.q_norm > before.q_norm + 0.1
+    assert smooth(bridge, "laplacian").after.inverted > 0
 
 
 @every
@@ -43,7 +55,7 @@ def test_any_size_comes_near_and_is_sound(name, size):
     mesh = make(name, size=size)
     assert mesh.n_hexes == pytest.approx(size, rel=0.3)
     assert examine(mesh) == ()
-    assert summarise(mesh).inverted == 0
+    assert (summarise(mesh).inverted == 0) == (name != "plane")  # plane is made to be mended
     assert mesh.name == f"{name}-{mesh.n_hexes}"
 
 

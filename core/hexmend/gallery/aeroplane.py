@@ -1,0 +1,124 @@
+"""The aeroplane in the gallery mesh `plane`: parts that are boxes in a grid, and where the boxes' surfaces go.
+
+Lengths are in about the fuselage's length. x runs aft from the nose, y to starboard, z up; the fuselage's axis is
+y = z = 0.
+
+A part gives the `boxes` that it fills in the grid and `onto`, which takes points of the boxes' surfaces to its own
+surface. Parts come in order: a point that two share, at a wing's root, goes where the later takes it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+#: Half the width of the boxes of wings and fin.
+HALF_BOX = 0.0225
+
+
+@dataclass(frozen=True)
+class Fuselage:
+    """A round body: half an ellipsoid, a cylinder, a tail that narrows and rises."""
+
+    radius: float = 0.075
+    bow: float = 0.02  # where its box begins; the ellipsoid's tip is at 0
+    stern: float = 0.98
+    nose: float = 0.22  # the ellipsoid's length
+    tail: float = 0.6  # where it begins to narrow
+    narrowing: float = 0.75  # of the radius, at x = 1
+    cone: float = 0.05  # how far the middle of the last section stands out
+
+    @property
+    def boxes(self) -> tuple[np.ndarray, ...]:
+        """Corners with the lowest and the highest coordinates, (2, 3) each."""
+        r = self.radius
+        return (np.array([[self.bow, -r, -r], [self.stern, r, r]]),)
+
+    def section(self, x: np.ndarray) -> np.ndarray:
+        """Radius of the section at x."""
+        ellipse = np.sqrt(np.clip(1 - np.clip(1 - x / self.nose, 0, None) ** 2, 0, None))
+        aft = np.clip((x - self.tail) / (1 - self.tail), 0, None)
+        return self.radius * ellipse * (1 - self.narrowing * aft**2)
+
+    def onto(self, points: np.ndarray) -> np.ndarray:
+        """Squares about the axis become circles; the two ends become caps."""
+        x, y, z = points.T
+        square = np.maximum(np.abs(y), np.abs(z)) / self.radius
+        rho, distance = square * self.section(x), np.hypot(y, z)
+        stretch = np.divide(rho, distance, out=np.zeros_like(rho), where=distance > 0)
+        cap = self.nose * (1 - np.sqrt(np.clip(1 - (rho / self.radius) ** 2, 0, None)))
+        x = np.where(np.isclose(x, self.bow), cap, x)
+        x = np.where(np.isclose(x, self.stern), x + self.cone * (1 - square**2), x)
+        return np.column_stack([x, stretch * y, stretch * z])
+
+
+@dataclass(frozen=True)
+class Wing:
+    """A swept, tapered surface that stands on the fuselage: a pair of them to the sides (axis 1) or one up (axis 2)."""
+
+    axis: int
+    leading: float  # x of the root's leading edge
+    root: float  # chord
+    tip: float  # chord
+    sweep: float  # how far the tip's leading edge is behind the root's
+    span: float  # from the fuselage's axis to the tip
+    rise: float = 0.0  # how far the tip is above the root
+    fuselage: Fuselage = Fuselage()
+
+    thickness = 0.12  # half the greatest, over the chord
+    edge = 0.8  # thickness of the leading and trailing edge, over the greatest
+    crest = 0.35  # where the greatest is, over the chord
+    bulge = 0.6  # how far the edges and the tip are rounded, over half the thickness
+
+    @property
+    def boxes(self) -> tuple[np.ndarray, ...]:
+        """Corners with the lowest and the highest coordinates, (2, 3) each."""
+        found = []
+        for side in (1, -1) if self.axis == 1 else (1,):
+            box = np.array([[self.leading, -HALF_BOX, -HALF_BOX], [self.leading + self.root, HALF_BOX, HALF_BOX]])
+            box[:, self.axis] = sorted((side * self.fuselage.radius, side * self.span))
+            found.append(box)
+        return tuple(found)
+
+    def profile(self, c: np.ndarray) -> np.ndarray:
+        """Thickness at the share c of the chord, over the greatest."""
+        fore = self.edge + (1 - self.edge) * np.sqrt(np.clip(1 - (1 - c / self.crest) ** 2, 0, 1))
+        aft = 1 - (1 - self.edge) * np.clip((c - self.crest) / (1 - self.crest), 0, 1) ** 1.5
+        return np.where(c < self.crest, fore, aft)
+
+    def onto(self, points: np.ndarray) -> np.ndarray:
+        """The box is sheared, tapered and given a profile; its root goes onto the fuselage, its edges are rounded."""
+        out, across = points[:, self.axis], points[:, 3 - self.axis] / HALF_BOX
+        c = (points[:, 0] - self.leading) / self.root
+        s = np.clip((np.abs(out) - self.fuselage.radius) / (self.span - self.fuselage.radius), 0, 1)
+        chord = self.root + (self.tip - self.root) * s
+        half = self.thickness * chord * self.profile(c)
+        rounding = self.bulge * half * (1 - across**2)
+        edge = np.isclose(c, 1) * 1.0 - np.isclose(c, 0)
+        x = self.leading + self.sweep * s + c * chord + rounding * edge
+        foot = np.sqrt(np.clip(self.fuselage.section(x) ** 2 - (half * across) ** 2, 0, None))
+        placed = np.empty_like(points)
+        placed[:, 0] = x
+        placed[:, self.axis] = np.sign(out) * (foot + s * (self.span - foot) + np.isclose(s, 1) * rounding)
+        placed[:, 3 - self.axis] = half * across
+        placed[:, 2] += self.rise * s
+        return placed
+
+
+FUSELAGE = Fuselage()
+WINGS = Wing(axis=1, leading=0.33, root=0.22, tip=0.14, sweep=0.18, span=0.47, rise=0.066)
+TAILPLANE = Wing(axis=1, leading=0.79, root=0.14, tip=0.105, sweep=0.11, span=0.22, rise=0.031)
+FIN = Wing(axis=2, leading=0.79, root=0.14, tip=0.135, sweep=0.09, span=0.21)
+PARTS = (FUSELAGE, WINGS, TAILPLANE, FIN)
+
+
+def onto_aeroplane(points: np.ndarray) -> np.ndarray:
+    """Take points of the boxes' surfaces to the aeroplane's, (n, 3) float64."""
+    placed = points.copy()
+    for part in PARTS:
+        for low, high in part.boxes:
+            here = ((points > low - 1e-9) & (points < high + 1e-9)).all(axis=1)
+            placed[here] = part.onto(points[here])
+    placed[:, 2] += 0.03 * np.clip((placed[:, 0] - FUSELAGE.tail) / (1 - FUSELAGE.tail), 0, None) ** 2
+    return placed

@@ -1,0 +1,222 @@
+"""Plane: the space around an aeroplane in a box, unstructured, with inverted hexes (thesis 4.4, Figures 4.5 to 4.9)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from hexmend.gallery.aeroplane import PARTS, onto_aeroplane
+from hexmend.gallery.blocks import box_hexes, extruded
+from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
+from hexmend.mesh import Mesh
+from hexmend.parameters import parameter
+from hexmend.topology import Topology
+
+#: Hexes at the scale 1, for which the numbers of cells below are.
+HEXES = 31962
+#: Cells between successive knots of x, y and z: the planes in which a part's box begins or ends, and the core's ends.
+CELLS = ((1, 7, 5, 7, 3, 1, 1), (1, 5, 4, 1, 1, 1, 4, 5, 1), (1, 1, 1, 1, 5, 1))
+#: How far the core reaches beyond the aeroplane's boxes.
+MARGIN = 0.06
+#: The outer box, (2, 3).
+BOX = np.array([[-1.3, -1.8, -1.1], [2.3, 1.8, 1.3]])
+#: Layers of the shell at the scale 1, and how much thicker each is than the one within.
+SHELL, GROWTH = 12, 1.15
+#: Layers on the aeroplane at the scale 1, and their thickness over the size of the quads beneath.
+COAT, THICKNESS = 2, 0.25
+
+
+@gallery_mesh
+@dataclass(frozen=True)
+class Plane(GalleryMesh):
+    """A core, a grid from which the aeroplane's boxes are cut; a shell out to the box; a coat on the aeroplane.
+
+    The nodes of the cut are pulled to their places just off the aeroplane, and the others follow only a little: where
+    wings and fin are swept across cells that stay behind, hexes are inverted. The coat fills what is left (a pillow):
+    without it, hexes would have two faces side by side on the smooth fuselage, and no quality to gain. Where the
+    pieces meet along edges of the boxes or of the core, the mesh is unstructured.
+    """
+
+    name = "plane"
+    title = "Plane"
+    help = "The space around an aeroplane, with a wide range of sizes: some hexes are inverted, and all can be mended."
+    source = "Wilson 4.4; shape by trial, the thesis's own file being unpublished"
+
+    size: int = parameter(31760, low=4, high=10**8, help="About how many hexes; no fewer than 700.")
+    follow: float = parameter(
+        1.0,
+        low=0,
+        high=100,
+        unit="sweeps at the default size",
+        help="How far nodes follow those pulled onto the aeroplane: the further, the fewer hexes are inverted.",
+    )
+
+    def regular(self) -> Mesh:
+        plan = _nearest(self.size)
+        grid = plan.grid
+        core = Topology(plan.core.astype(np.int32), len(grid))
+        faces = core.boundary_faces
+        outer = ((grid == grid[0]) | (grid == grid[-1]))[faces].all(axis=1).any(axis=1)
+
+        # The shell: from the core's outside straight to the box, layers growing.
+        wall, quads = _numbered(faces[outer])
+        share = np.cumsum(GROWTH ** (np.arange(plan.shell) / plan.scale))[:, None, None]
+        shell_points = (grid[wall] + share / share[-1] * (plan.on_box[wall] - grid[wall])).reshape(-1, 3)
+        points = np.concatenate([grid, shell_points])
+        shell_nodes = np.concatenate([wall, np.arange(len(grid), len(points))])
+        shell = shell_nodes[extruded(quads, len(wall), plan.shell)]
+        box = shell_nodes[-len(wall) :]
+
+        # The coat: from where the core's inside will be, off the aeroplane, to the aeroplane's surface.
+        skin, quads = _numbered(faces[~outer])
+        surface = onto_aeroplane(grid[skin])
+        step = THICKNESS * _off(surface, quads)
+        coat_points = (surface + np.arange(plan.coat)[::-1, None, None] * step).reshape(-1, 3)
+        coat_nodes = np.concatenate([skin, len(points) + np.arange(len(coat_points))])
+        coat = coat_nodes[extruded(quads, len(skin), plan.coat)]
+        aeroplane = coat_nodes[-len(skin) :]
+
+        # The pull: the core's inside goes to its place, and nodes near it follow.
+        move, held = np.zeros_like(points), np.zeros(len(points), dtype=bool)
+        move[skin] = surface + plan.coat * step - grid[skin]
+        held[skin] = held[box] = True
+        around = np.concatenate([core.hexes, shell])
+        points += _spread(move, held, around, round(self.follow * plan.scale**2))
+
+        used, hexes = _numbered(np.concatenate([around, coat]))  # nodes within the aeroplane are left out
+        return Mesh(
+            np.concatenate([points, coat_points])[used],
+            hexes,
+            node_sets={"aeroplane": np.searchsorted(used, aeroplane), "box": np.searchsorted(used, box)},
+        )
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """How finely the three pieces are divided: `scale` times as finely, in each direction, as above.
+
+    As cells come in whole numbers, so that the core grows by leaps, the shell makes up for it within a quarter.
+    """
+
+    scale: float
+    size: int
+
+    @property
+    def coat(self) -> int:
+        """Layers on the aeroplane."""
+        return max(1, round(COAT * self.scale))
+
+    @cached_property
+    def shell(self) -> int:
+        """Layers between the core and the box."""
+        nominal = SHELL * self.scale
+        wanted = (self.size - self.within) / self.wall
+        return max(1, round(min(max(wanted, 0.75 * nominal), 1.25 * nominal)))
+
+    @cached_property
+    def planes(self) -> tuple[np.ndarray, ...]:
+        """Coordinates of the grid's planes across x, y and z."""
+        bounds = np.concatenate([box for part in PARTS for box in part.boxes])
+        found = []
+        for values, cells in zip(bounds.T, CELLS, strict=True):
+            knots = np.unique(np.round(values, 9))
+            knots = np.concatenate([knots[:1] - MARGIN, knots, knots[-1:] + MARGIN])
+            count = [max(1, round(c * self.scale)) for c in cells]
+            at = np.concatenate([[0], np.cumsum(count)])
+            found.append(np.interp(np.arange(at[-1] + 1), at, knots))
+        return tuple(found)
+
+    @cached_property
+    def solid(self) -> np.ndarray:
+        """True for each of the grid's cells that is the aeroplane's, (nz, ny, nx) bool."""
+        x, y, z = ((p[:-1] + p[1:]) / 2 for p in self.planes)
+        solid = np.zeros((len(z), len(y), len(x)), dtype=bool)
+        for low, high in (box for part in PARTS for box in part.boxes):
+            in_x, in_y, in_z = ((low[a] < c) & (c < high[a]) for a, c in enumerate((x, y, z)))
+            solid |= in_z[:, None, None] & in_y[:, None] & in_x
+        return solid
+
+    @property
+    def grid(self) -> np.ndarray:
+        """Nodes of the whole grid, x first, (n, 3) float64."""
+        return _product(self.planes)
+
+    @property
+    def on_box(self) -> np.ndarray:
+        """Places of the grid's nodes if the grid filled the box, finer towards the middle of each side."""
+        steps = (np.linspace(-1, 1, len(p)) for p in self.planes)
+        return BOX.mean(axis=0) + np.ptp(BOX, axis=0) / 2 * _product([0.85 * w + 0.15 * w**3 for w in steps])
+
+    @property
+    def core(self) -> np.ndarray:
+        """Hexes of the grid that are not the aeroplane's, (m, 8)."""
+        nz, ny, nx = self.solid.shape
+        return box_hexes(nx, ny, nz)[~self.solid.ravel()]
+
+    @cached_property
+    def within(self) -> int:
+        """How many hexes core and coat have."""
+        skin = sum(np.count_nonzero(np.diff(self.solid, axis=a)) for a in range(3))
+        return int(np.count_nonzero(~self.solid)) + self.coat * skin
+
+    @property
+    def wall(self) -> int:
+        """How many quads the core's outside has."""
+        nz, ny, nx = self.solid.shape
+        return 2 * (nx * ny + ny * nz + nz * nx)
+
+    @property
+    def error(self) -> float:
+        """By what share the number of hexes misses the size, if it is by more than 3 %."""
+        return max(0.03, abs((self.within + self.shell * self.wall) / self.size - 1))
+
+
+def _nearest(size: int) -> _Plan:
+    """The division for about so many hexes: of those that come near enough the one with the most fitting scale."""
+    scale = (size / HEXES) ** (1 / 3)
+    factors = sorted(np.linspace(0.5, 1.25, 76), key=lambda factor: abs(np.log(factor)))
+    return min((_Plan(scale * factor, size) for factor in factors), key=lambda plan: plan.error)
+
+
+def _product(axes: list[np.ndarray] | tuple[np.ndarray, ...]) -> np.ndarray:
+    """Points of the tensor product of three axes, the first running fastest, (n, 3)."""
+    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
+    return np.column_stack([x.ravel(), y.ravel(), z.ravel()])
+
+
+def _numbered(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The nodes that cells use, ascending, and the cells in terms of their places in that list."""
+    nodes, places = np.unique(cells, return_inverse=True)
+    return nodes, places.reshape(cells.shape)
+
+
+def _off(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
+    """A step off a surface at each node: along the mean normal, as long as the quads around are wide.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    quads : (k, 4) int
+        Counter-clockwise seen from the side away from the step.
+    """
+    a, b, c, d = (points[quads[:, i]] for i in range(4))
+    normal = -np.cross(c - a, d - b)
+    double_area = np.linalg.norm(normal, axis=1)
+    row = np.arange(0, quads.size + 1, 4)
+    at = csr_matrix((np.ones(quads.size), quads.ravel(), row), (len(quads), len(points))).T  # (n, k): 1 at its corners
+    mean = at @ (normal / double_area[:, None])
+    width = (at @ np.sqrt(double_area / 2)) / np.bincount(quads.ravel())
+    return mean * (width / np.linalg.norm(mean, axis=1))[:, None]
+
+
+def _spread(move: np.ndarray, held: np.ndarray, hexes: np.ndarray, sweeps: int) -> np.ndarray:
+    """Let each node that is not held make the mean move of its edge neighbours, so many times."""
+    ring = Topology(hexes.astype(np.int32), len(move)).rings
+    mean = csr_matrix((np.ones(len(ring.items)), ring.items, ring.start), (len(move), len(move)))
+    degree = np.maximum(np.diff(ring.start), 1)[:, None]
+    for _ in range(sweeps):
+        move = np.where(held[:, None], move, mean @ move / degree)
+    return move
