@@ -21,6 +21,10 @@ from hexmend.smoothers import METHODS, Smoother
 
 log = logging.getLogger(__name__)
 
+#: An objective still falls if a step lowers it by a greater share than the first, and by more than the second: a
+#: hundredth of what one hex of q = 1/2 has.
+_FALLING, _WORTH = 1e-3, 1e-2
+
 
 @dataclass(frozen=True)
 class Stop(Parametrised):
@@ -96,14 +100,19 @@ class Run(Iterator[Iteration]):
         self.history.append(self.last.row())
         if step.decision:
             self.decisions.append(step.decision)
-        # Algorithm A.1
-        if move < self.stop.tolerance and not step.more:
+        if move < self.stop.tolerance and not step.more and not self._falling():  # Algorithm A.1
             self._end(Outcome.CONVERGED)
         elif self.last.number >= self.stop.max_iterations:
             self._end(Outcome.MAX_ITERATIONS)
         elif 0 < self.stop.max_seconds <= seconds:
             self._end(Outcome.MAX_SECONDS)
         return self.last
+
+    def _falling(self) -> bool:
+        """Whether an optimiser's objective still falls: beside the barrier steps are short, however much they gain."""
+        before, now = (row["objective"] for row in self.history[-2:])
+        known = before is not None and now is not None
+        return self.smoother.optimises and known and before - now > max(_FALLING * before, _WORTH)
 
     def close(self) -> None:
         """End the run where it is; what was reached stands."""

@@ -8,6 +8,7 @@ import pytest
 from hexmend.errors import ParameterError
 from hexmend.gallery import make
 from hexmend.optimise import Outcome
+from hexmend.quality import measure, summarise
 from hexmend.report import HISTORY, record, to_json, write_history, write_json
 from hexmend.run import Stop, iterate, smooth
 from tests.core.grids import grid, scrambled
@@ -112,3 +113,23 @@ def test_reports_are_complete_and_strict(mesh, tmp_path):
     rows = (tmp_path / "history.csv").read_text().splitlines()
     assert rows[0] == ",".join(HISTORY)
     assert len(rows) == 1 + 4
+
+
+def test_an_optimiser_beside_the_barrier_has_not_converged_however_short_its_steps():
+    mesh = grid(3)
+    inner = np.flatnonzero(mesh.free)[0]
+
+    def pushed(by):
+        points = mesh.points.copy()
+        points[inner] -= by
+        return mesh.with_points(points)
+
+    sound, inverted = 0.0, 1.0  # as far as it goes before a hex is flat
+    while inverted - sound > 1e-7:
+        half = (sound + inverted) / 2
+        sound, inverted = (sound, half) if measure(pushed(half).points, mesh.hexes).n_inverted else (half, inverted)
+    assert summarise(pushed(sound)).objective > 1e6
+    for method in ("global-nr", "global-mnr", "local-sd", "local-nr", "local-mnr"):
+        result = smooth(pushed(sound), method)
+        assert result.outcome is Outcome.CONVERGED
+        assert result.after.q_min > 0.99, method

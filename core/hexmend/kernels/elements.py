@@ -6,7 +6,8 @@ import numba
 import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.kernels import CHUNK, parallel, serial
+from hexmend.kernels import CHUNK, lanes, parallel, serial
+from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, SUM, WORK, S
 from hexmend.kernels.shape import determinant, power_minus_two_thirds
 
 
@@ -44,6 +45,30 @@ def quality(x):
     return total / 8, sound
 
 
+#: Rows in which `measure` keeps, beside the sum of eta, the sum of q, the least determinant and scaled Jacobian.
+_Q, _LOWEST, _WORST = ROW[9], ROW[10], ROW[11]
+
+
+@serial
+def _judge(w):
+    """Take the tetrahedra in S into the sums and minima of their hexes."""
+    for i in range(ALL):
+        ux, uy, uz = w[ROW[0] + i], w[ROW[1] + i], w[ROW[2] + i]
+        vx, vy, vz = w[ROW[3] + i], w[ROW[4] + i], w[ROW[5] + i]
+        wx, wy, wz = w[ROW[6] + i], w[ROW[7] + i], w[ROW[8] + i]
+        det = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+        u2 = ux * ux + uy * uy + uz * uz
+        v2 = vx * vx + vy * vy + vz * vz
+        w2 = wx * wx + wy * wy + wz * wz
+        shape = (u2 + v2 + w2) * power_minus_two_thirds(det) * (1.0 / 3.0)  # eta(T), (3.1)
+        w[SUM + i] += shape if det > 0 else np.inf
+        w[_Q + i] += 1 / shape if det > 0 else 0.0  # (2.8)
+        lengths = np.sqrt(u2) * np.sqrt(v2) * np.sqrt(w2)
+        jacobian = det / lengths if lengths > 0 else 0.0
+        w[_LOWEST + i] = min(w[_LOWEST + i], det)
+        w[_WORST + i] = min(w[_WORST + i], jacobian)
+
+
 @parallel
 def measure(points, hexes, q, sigma, jacobian, eta):
     """Quality of every hex at delta = 0.
@@ -63,26 +88,21 @@ def measure(points, hexes, q, sigma, jacobian, eta):
     """
     m = hexes.shape[0]
     for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
-        x = np.empty((8, 3))
-        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
-            load(points, hexes, h, x)
-            q_sum, eta_sum, lowest, worst = 0.0, 0.0, np.inf, np.inf
+        x, w = np.empty(CORNERS), np.empty(WORK)
+        end = min(m, (chunk + 1) * CHUNK)
+        for begin in range(chunk * CHUNK, end, LANES):
+            count = min(LANES, end - begin)
+            lanes.load(points, hexes, begin, count, x)
+            w[SUM : SUM + ALL] = 0.0
+            w[_Q : _Q + ALL] = 0.0
+            w[_LOWEST : _LOWEST + ALL] = np.inf
+            w[_WORST : _WORST + ALL] = np.inf
             for t in range(8):
-                ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
-                det = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
-                u2 = ux * ux + uy * uy + uz * uz
-                v2 = vx * vx + vy * vy + vz * vz
-                w2 = wx * wx + wy * wy + wz * wz
-                shape = (u2 + v2 + w2) * power_minus_two_thirds(det) / 3  # eta(T), (3.1)
-                eta_sum += shape
-                if det > 0:
-                    q_sum += 1 / shape  # (2.8)
-                else:
-                    eta_sum = np.inf
-                lowest = min(lowest, det)
-                lengths = np.sqrt(u2) * np.sqrt(v2) * np.sqrt(w2)
-                worst = min(worst, det / lengths if lengths > 0 else 0.0)
-            q[h] = q_sum / 8
-            sigma[h] = lowest
-            jacobian[h] = worst
-            eta[h] = max(eta_sum / 8 - 1, 0.0)
+                lanes.edges(x, t, w, S)
+                _judge(w)
+            for k in range(count):
+                i, h = np.uint64(k), begin + k
+                q[h] = w[_Q + i] / 8
+                sigma[h] = w[_LOWEST + i]
+                jacobian[h] = w[_WORST + i]
+                eta[h] = max(w[SUM + i] / 8 - 1, 0.0)

@@ -25,7 +25,7 @@ class BackLineSearch:
     first: float = 1.0
     shrink: float = 0.7
     c1: float = 1e-4
-    cuts: int = 60
+    cuts: int = 100
 
     def __call__(self, along: Callable[[float], float], value: float, slope: float) -> tuple[float, int]:
         """Find a step that descends.

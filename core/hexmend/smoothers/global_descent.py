@@ -41,7 +41,7 @@ class GlobalDescent(Smoother):
     first_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
     shrink: float = parameter(0.7, low=0.01, high=0.99, help="Factor λ by which the line search cuts a step (A.5).")
     c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
-    max_cuts: int = parameter(60, low=1, high=500, help="Cuts of a step after which the method gives up.")
+    max_cuts: int = parameter(100, low=1, high=500, help="Cuts of a step after which the method gives up.")
 
     @abstractmethod
     def direction(self) -> Direction:
