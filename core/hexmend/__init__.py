@@ -24,6 +24,7 @@ if _TYPE_CHECKING:
     from hexmend.quality import METRICS, Summary, measure, summarise
     from hexmend.run import Run, Stop, iterate, smooth
     from hexmend.smoothers import METHODS, Smoother
+    from hexmend.study.compare import Comparison, compare
 
 _HOMES = {
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
@@ -33,6 +34,7 @@ _HOMES = {
     "quality": ("METRICS", "Summary", "measure", "summarise"),
     "run": ("Run", "Stop", "iterate", "smooth"),
     "smoothers": ("METHODS", "Smoother"),
+    "study.compare": ("Comparison", "compare"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -40,6 +42,7 @@ __all__ = [
     "METHODS",
     "METRICS",
     "Cells",
+    "Comparison",
     "FileError",
     "HexmendError",
     "Iteration",
@@ -52,6 +55,7 @@ __all__ = [
     "Smoother",
     "Stop",
     "Summary",
+    "compare",
     "gallery",
     "iterate",
     "measure",

@@ -1,4 +1,7 @@
-"""What a command is. Commands of other distributions join through the entry-point group `hexmend.commands`."""
+"""What a command is, and what commands share.
+
+Commands of other distributions join through the entry-point group `hexmend.commands`.
+"""
 
 from __future__ import annotations
 

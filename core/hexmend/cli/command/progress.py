@@ -1,0 +1,111 @@
+"""Where a run is, on standard error: a live line on a terminal, else a plain line every few seconds."""
+
+from __future__ import annotations
+
+import sys
+from time import monotonic
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from hexmend.run import Run
+
+#: Seconds between plain lines, and of iterations before the first of them: a short run says nothing.
+EVERY = 4.0
+
+
+class Progress:
+    """Shows runs, one after another, while the block lasts.
+
+    `show` is a `Watch`: call it with the run after each of its iterations.
+    """
+
+    def __enter__(self) -> Self:
+        from rich.console import Console
+
+        console = Console(stderr=True, highlight=False)
+        self._display = _Live(console) if console.is_terminal else _Lines()
+        return self
+
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self._display.close()
+
+    def show(self, run: Run) -> None:
+        """Show where the run is."""
+        self._display.show(run)
+
+
+def follow(run: Run) -> None:
+    """Go through a run to its end and show where it is; Ctrl-C ends it with what was reached so far."""
+    interrupted = False
+    with Progress() as progress:
+        try:
+            for _ in run:
+                progress.show(run)
+        except KeyboardInterrupt:
+            run.close()
+            interrupted = True
+    if interrupted:
+        print("Interrupted: what was reached so far is kept.", file=sys.stderr)
+
+
+def described(run: Run) -> str:
+    """The newest iteration in words."""
+    at = run.last
+    return (
+        f"{at.figures.n_inverted:,} inverted, q min {at.figures.q.min():.4f}, q mean {at.figures.q.mean():.4f}, "
+        f"move {at.largest_move:.2g}"
+    )
+
+
+class _Live:
+    """A line that changes in place, and vanishes at the end."""
+
+    def __init__(self, console: object):
+        from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+        from rich.table import Column
+
+        self._line = Progress(
+            SpinnerColumn(table_column=Column(no_wrap=True)),
+            TimeElapsedColumn(table_column=Column(no_wrap=True)),
+            TextColumn(
+                "{task.fields[method]} {task.completed:,} of {task.total:,}: {task.description}",
+                table_column=Column(no_wrap=True, ratio=1),  # what gives way where the terminal is narrow
+            ),
+            console=console,
+            expand=True,
+            transient=True,
+            redirect_stdout=sys.stdout.isatty(),  # else what is printed meanwhile would go the line's way
+        )
+        self._line.start()
+        self._run: Run | None = None
+        self._task = None
+
+    def show(self, run: Run) -> None:
+        if run is not self._run:
+            if self._task is not None:
+                self._line.remove_task(self._task)
+            self._run = run
+            self._task = self._line.add_task("", total=run.stop.max_iterations, method=run.smoother.name)
+        self._line.update(self._task, completed=run.last.number, description=described(run))
+
+    def close(self) -> None:
+        self._line.stop()
+
+
+class _Lines:
+    """For a log: few lines, each complete in itself."""
+
+    def __init__(self):
+        self._due: float | None = None
+
+    def show(self, run: Run) -> None:
+        if self._due is None:  # compiling, before the first iteration, does not count
+            self._due = monotonic() + EVERY
+        if monotonic() >= self._due:
+            at = f"iteration {run.last.number:,} of at most {run.stop.max_iterations:,}, {run.last.seconds:.0f} s"
+            print(f"{run.smoother.name}: {at}: {described(run)}", file=sys.stderr, flush=True)
+            self._due = monotonic() + EVERY
+
+    def close(self) -> None:
+        pass

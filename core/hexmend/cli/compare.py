@@ -1,0 +1,68 @@
+"""`hexmend compare`: several methods on one mesh, as the thesis's table."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+
+class Compare:
+    """Methods side by side."""
+
+    name = "compare"
+    help = "Run several methods on a mesh and write their figures as CSV, Markdown, LaTeX and JSON."
+
+    def arguments(self, parser: argparse.ArgumentParser) -> None:
+        from hexmend.cli.command.limits import add_limits
+
+        parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+        parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the tables")
+        parser.add_argument("--methods", metavar="A,B,...", help="see `hexmend methods` (default: all of them)")
+        parser.add_argument(
+            "--set",
+            metavar="[METHOD.]KEY=VALUE",
+            action="append",
+            default=[],
+            help="a parameter of the one method, or of every method that has it",
+        )
+        add_limits(parser)
+        parser.add_argument("--write-meshes", action="store_true", help="write each method's mesh into the folder too")
+
+    def run(self, args: argparse.Namespace) -> int:
+        from hexmend.cli.command import settings
+        from hexmend.cli.command.limits import limits
+        from hexmend.cli.command.printed import print_table
+        from hexmend.cli.command.progress import Progress
+        from hexmend.io import read, write, writer_for
+        from hexmend.report import made_folder, table_of, write_documents
+        from hexmend.smoothers import METHODS
+        from hexmend.study.chosen import chosen
+        from hexmend.study.compare import compare
+
+        names = [name.strip() for name in args.methods.split(",")] if args.methods else list(METHODS)
+        smoothers, stop = chosen(names, settings(args.set)), limits(args)
+        mesh = read(args.mesh)
+        folder = made_folder(args.output)
+        suffix = Path(args.mesh).suffix
+        if args.write_meshes:
+            writer_for(folder / f"mesh{suffix}")
+        with Progress() as progress:
+            comparison = compare(mesh, smoothers, stop, watch=progress.show)
+        record = comparison.record()
+        table = table_of(record)
+        rows = [{"method": "initial"} | record["initial"], *record["rows"]]
+        paths = write_documents(folder, "comparison", table, rows, record)
+        for row in comparison.rows if args.write_meshes else ():
+            if row.mesh is not None:
+                paths.append(folder / f"{mesh.name}-{row.method}{suffix}")
+                write(paths[-1], row.mesh)
+        print_table(table)
+        print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
+        if comparison.interrupted:
+            print("Interrupted: the table holds what was done so far.", file=sys.stderr)
+            return 130
+        return 0
+
+
+command = Compare()

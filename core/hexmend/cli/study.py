@@ -1,0 +1,56 @@
+"""`hexmend study`: the thesis's experiments, done again."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hexmend.study.measured import Measured
+
+
+class Study:
+    """Chapter 4 on the gallery's meshes."""
+
+    name = "study"
+    help = "Do the thesis's experiments again: tables, figures and claims, ours beside the published."
+
+    def arguments(self, parser: argparse.ArgumentParser) -> None:
+        parser.add_argument("study", metavar="NAME", choices=["thesis"], help="thesis: the tables of Chapter 4")
+        parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the report")
+        parser.add_argument(
+            "--quick", action="store_true", help="small meshes and a few seconds a run: minutes in place of hours"
+        )
+        parser.add_argument(
+            "--only", metavar="TABLE", action="append", default=[], help="one of the tables, as 4.1; may be repeated"
+        )
+
+    def run(self, args: argparse.Namespace) -> int:
+        from hexmend.cli.command.progress import Progress
+        from hexmend.report import made_folder, write_experiment, write_study
+        from hexmend.report.thesis import VERDICTS
+        from hexmend.study.bench import machine
+        from hexmend.study.experiments import load
+        from hexmend.study.thesis import chosen_tables, run_experiments
+
+        thesis = chosen_tables(load(), args.only) if args.only else load()
+        folder = made_folder(args.output)
+
+        def done(measured: Measured) -> None:
+            paths = write_experiment(folder, measured.record())
+            print(f"Table {measured.experiment.table}, {measured.experiment.thesis_mesh}: {paths[1].name}", flush=True)
+
+        with Progress() as progress:
+            study = run_experiments(thesis, quick=args.quick, watch=progress.show, done=done)
+        record = {"machine": machine()} | study.record()
+        for claim in record["claims"]:
+            print(f"\n{claim['claim']} {VERDICTS[claim['reproduced']]} {claim['figures']}")
+        if study.interrupted:
+            print("Interrupted: the report holds what was done so far.", file=sys.stderr)
+        write_study(folder, record)
+        print(f"\nWritten to {folder / 'study.md'}.")
+        return 130 if study.interrupted else 0
+
+
+command = Study()

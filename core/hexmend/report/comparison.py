@@ -1,0 +1,89 @@
+"""The thesis's table of methods (Table 4.1), from the record of a comparison."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from hexmend.report.tables import Figure, Table, count, micro, milli, objective, of, quality, significant
+
+#: How a run ended, where the record's own word is not the clearest.
+_ENDED = {
+    "max-iterations": "iteration limit",
+    "max-seconds": "time limit",
+    "no-improvement": "converged",
+    "no-descent": "no descent",
+    "nothing-free": "nothing free",
+}
+
+#: The lines of the table: those of the thesis, and what tells how far they can be believed.
+FIGURES = (
+    Figure("inverted", "inverted", count),
+    Figure("q_min", "q min", quality),
+    Figure("q_mean", "q mean", quality),
+    Figure("q_std", "q std", quality),
+    Figure("q_max", "q max", quality),
+    Figure("q_norm", "q norm", quality),
+    Figure("objective", "objective Σ η²", objective),
+    Figure("seconds", "time, s", significant),
+    Figure("iterations", "iterations", count),
+    Figure("seconds_per_iteration", "ms per iteration", milli),
+    Figure("seconds_per_iteration_and_node", "µs per iteration, node", micro),
+    Figure("outcome", "ended", lambda key: _ENDED.get(key, key)),
+)
+
+#: The thesis's widest table has this many columns of figures; a wider one is turned on its side.
+_WIDEST = 6
+
+
+def comparison_table(
+    title: str,
+    columns: Mapping[str, Mapping[str, Any]],
+    published: Mapping[str, Mapping[str, Any]] | None = None,
+    notes: Sequence[str] = (),
+) -> Table:
+    """Methods in columns and figures in lines, or the other way round where there are many methods.
+
+    Parameters
+    ----------
+    title : str
+    columns : mapping
+        Records by the heads of their columns, the initial mesh's first.
+    published : mapping, optional
+        The thesis's figures by column; they get a line below ours each.
+    notes : sequence of str
+    """
+    rows = []
+    for figure in FIGURES:
+        rows.append([figure.label, *(of(record, figure) for record in columns.values())])
+        theirs = [(published or {}).get(head, {}) for head in columns]
+        if any(record.get(figure.key) is not None for record in theirs):
+            rows.append(["– thesis", *(of(record, figure) for record in theirs)])
+    table = Table(title, ["", *columns], rows, [*notes, *_explained(columns.values())])
+    return table if len(columns) <= _WIDEST or published else table.transposed
+
+
+def table_of(comparison: Mapping[str, Any]) -> Table:
+    """The table of `hexmend.study.compare.Comparison.record`."""
+    initial = comparison["initial"]
+    columns = {"initial": initial} | {row["method"]: row for row in comparison["rows"]}
+    title = f"{comparison['mesh']}: {initial['hexes']:,} hexes, {initial['free_nodes']:,} free nodes"
+    notes = []
+    if initial["locked_inverted"]:
+        notes.append(f"{initial['locked_inverted']:,} of the inverted hexes are locked: fixed nodes alone invert them.")
+    if comparison["interrupted"]:
+        notes.append("The comparison was interrupted: the last method is incomplete, and those after it are missing.")
+    return comparison_table(title, columns, notes=notes)
+
+
+def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:
+    """What a reader must know of runs that did not end by themselves."""
+    ended = {record.get("outcome") for record in records}
+    sentences = {
+        "max-seconds": "Time limit: stopped at the time limit before it converged.",
+        "max-iterations": "Iteration limit: stopped at the iteration limit before it converged.",
+        "no-descent": "No descent: along the search direction no step lowers the objective, however short.",
+        "stopped": "Stopped: ended by the user before it converged.",
+    }
+    failed = [f"{record['method']}: {record['message']}" for record in records if record.get("outcome") == "failed"]
+    return [sentence for key, sentence in sentences.items() if key in ended] + failed

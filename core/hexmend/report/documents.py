@@ -1,0 +1,81 @@
+"""One table as four files: CSV, Markdown, LaTeX and JSON."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from hexmend.errors import FileError
+from hexmend.io.atomic import replacing
+from hexmend.report.latex import latex
+from hexmend.report.markdown import markdown
+from hexmend.report.records import write_json
+from hexmend.report.tables import Table
+
+
+def made_folder(path: str | Path) -> Path:
+    """The folder, made where it is missing, with those above it.
+
+    Raises
+    ------
+    FileError
+        Where it cannot be made or is a file.
+    """
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        problem = "is a file" if isinstance(error, FileExistsError) else f"cannot be made: {error.strerror or error}"
+        raise FileError(folder, problem, "Name another folder.") from None
+    return folder
+
+
+def write_documents(
+    folder: Path, stem: str, table: Table, rows: Sequence[Mapping[str, Any]], data: Mapping[str, Any]
+) -> list[Path]:
+    """Write the table to read, its rows for spreadsheets, and everything for programs.
+
+    Parameters
+    ----------
+    folder : Path
+    stem : str
+        Of the four files' names.
+    table : Table
+    rows : sequence of mapping
+        The CSV's; its columns are the keys of all of them, without those that hold lists.
+    data : mapping
+        The JSON.
+
+    Returns
+    -------
+    list of Path
+        CSV, Markdown, LaTeX, JSON.
+    """
+    paths = [folder / f"{stem}.{suffix}" for suffix in ("csv", "md", "tex", "json")]
+    write_csv(paths[0], rows)
+    write_text(paths[1], markdown(table))
+    write_text(paths[2], latex(table))
+    write_json(paths[3], data)
+    return paths
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text file as a whole or not at all."""
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def write_csv(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write rows; an empty field is a figure that there is not, and a mapping becomes `key=value` words."""
+    flat = [{key: _cell(value) for key, value in row.items() if not isinstance(value, list)} for row in rows]
+    columns = list(dict.fromkeys(key for row in flat for key in row))
+    with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns)
+        writer.writeheader()
+        writer.writerows(flat)
+
+
+def _cell(value: Any) -> Any:
+    return " ".join(f"{key}={one}" for key, one in value.items()) if isinstance(value, Mapping) else value

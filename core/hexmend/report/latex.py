@@ -1,0 +1,68 @@
+"""Tables as LaTeX: a plain tabular that needs no package."""
+
+from __future__ import annotations
+
+from hexmend.report.tables import Table
+
+#: What LaTeX reads as commands, and letters that it does not have without packages.
+_ESCAPES = {
+    "\\": r"\textbackslash{}",
+    "{": r"\{",
+    "}": r"\}",
+    "$": r"\$",
+    "&": r"\&",
+    "%": r"\%",
+    "#": r"\#",
+    "_": r"\_",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "<": r"$<$",
+    ">": r"$>$",
+    "|": r"$|$",
+    "–": "--",
+    "×": r"$\times$",
+    "µ": r"$\mu$",
+    "δ": r"$\delta$",
+    "η": r"$\eta$",
+    "Σ": r"$\sum$",
+    "²": r"\textsuperscript{2}",
+}
+
+
+def latex(table: Table) -> str:
+    """The table as a floating `table` with caption; `\\input` it into a document.
+
+    >>> print(latex(Table("Cube", ["", "local-sd"], [["q min", "1.0000"]])), end="")
+    \\begin{table}[htbp]
+    \\centering\\footnotesize\\setlength{\\tabcolsep}{3pt}
+    \\begin{tabular}{l|r}
+     & local-sd \\\\
+    \\hline
+    q min & 1.0000 \\\\
+    \\end{tabular}
+    \\caption{Cube}
+    \\end{table}
+    """
+    head, *rows = (" & ".join(escaped(cell) for cell in line) + r" \\" for line in [table.head, *table.rows])
+    caption = " ".join(escaped(sentence) for sentence in (table.title, *table.notes))
+    lines = [
+        r"\begin{table}[htbp]",
+        r"\centering\footnotesize\setlength{\tabcolsep}{3pt}",
+        r"\begin{tabular}{l|" + "r" * (len(table.head) - 1) + "}",
+        head,
+        r"\hline",
+        *rows,
+        r"\end{tabular}",
+        rf"\caption{{{caption}}}",
+        r"\end{table}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def escaped(text: str) -> str:
+    """Text in which LaTeX finds no command.
+
+    >>> escaped("50 % of mesh_1 & more")
+    '50 \\\\% of mesh\\\\_1 \\\\& more'
+    """
+    return "".join(_ESCAPES.get(letter, letter) for letter in text)

@@ -1,0 +1,29 @@
+"""Tables as Markdown."""
+
+from __future__ import annotations
+
+import re
+
+from hexmend.report.tables import Table
+
+
+def markdown(table: Table) -> str:
+    """The table in pipes, labels to the left and figures to the right, its title bold above it.
+
+    >>> print(markdown(Table("Cube", ["", "a|b"], [["q min", "1.0000"]])), end="")
+    **Cube**
+    <BLANKLINE>
+    |  | a\\|b |
+    |:---|---:|
+    | q min | 1.0000 |
+    """
+    lines = [table.head, *table.rows]
+    drawn = ["| " + " | ".join(escaped(cell) for cell in line) + " |" for line in lines]
+    drawn.insert(1, "|:---" + "|---:" * (len(table.head) - 1) + "|")
+    notes = "".join(f"\n{escaped(note)}\n" for note in table.notes)
+    return f"**{escaped(table.title)}**\n\n" + "\n".join(drawn) + "\n" + notes
+
+
+def escaped(text: str) -> str:
+    """Text in which nothing is markup: file names and messages may hold anything."""
+    return re.sub(r"([\\`*_{}\[\]<>#|])", r"\\\1", " ".join(text.split()))

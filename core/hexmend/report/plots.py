@@ -1,0 +1,99 @@
+"""Figures of a study, drawn by matplotlib: SVG for print, PNG for the screen."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hexmend.errors import HexmendError
+from hexmend.io.atomic import replacing
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Okabe and Ito's colours, which colour-blind readers can tell apart too.
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+_MARKERS = "osD^vPX"
+
+
+def scaling(
+    stem: Path,
+    ours: Mapping[str, Sequence[tuple[int, float]]],
+    thesis: Mapping[str, Sequence[tuple[int, float]]],
+) -> list[Path]:
+    """Figure 4.4: seconds per iteration against free nodes.
+
+    Parameters
+    ----------
+    stem : Path
+        Of the files, without suffix.
+    ours, thesis : mapping
+        (free nodes, seconds) by method; the thesis's are drawn pale and dashed.
+
+    Raises
+    ------
+    HexmendError
+        Where matplotlib is missing.
+    """
+    figure, axes = _figure()
+    for k, (method, points) in enumerate(ours.items()):
+        colour, marker = _COLOURS[k % len(_COLOURS)], _MARKERS[k % len(_MARKERS)]
+        axes.plot(*zip(*sorted(points), strict=True), color=colour, marker=marker, markersize=5, label=method)
+        if thesis.get(method):
+            pale = {"color": colour, "marker": marker, "markersize": 3, "linestyle": "--", "alpha": 0.45}
+            axes.plot(*zip(*sorted(thesis[method]), strict=True), **pale)
+    axes.set(xscale="log", yscale="log", xlabel="free nodes", ylabel="seconds per iteration")
+    axes.set_title("five-side: ours solid, the thesis's program dashed")
+    axes.grid(which="major", alpha=0.3)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    return _saved(figure, stem)
+
+
+def distributions(stem: Path, counts: Mapping[str, Sequence[int]], title: str) -> list[Path]:
+    """Figure 4.9: how q(H) is distributed.
+
+    Parameters
+    ----------
+    stem : Path
+        Of the files, without suffix.
+    counts : mapping
+        Numbers of hexes in bins of equal width from 0 to 1, by what the curve is called.
+    title : str
+
+    Raises
+    ------
+    HexmendError
+        Where matplotlib is missing.
+    """
+    figure, axes = _figure()
+    for k, (label, numbers) in enumerate(counts.items()):
+        edges = [bin / len(numbers) for bin in range(len(numbers) + 1)]
+        axes.stairs(numbers, edges, color=_COLOURS[k % len(_COLOURS)], linewidth=1.6, label=label)
+    axes.set(xlim=(0, 1), xlabel="q(H)", ylabel="hexes", title=title)
+    axes.grid(alpha=0.3)
+    axes.legend(loc="upper left", frameon=False)
+    return _saved(figure, stem)
+
+
+def _figure() -> tuple[Figure, Axes]:
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise HexmendError(
+            "figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'"
+        ) from None
+    figure = Figure(figsize=(7.5, 4.5), layout="constrained")
+    return figure, figure.subplots()
+
+
+def _saved(figure: Figure, stem: Path) -> list[Path]:
+    from matplotlib import rc_context
+
+    paths = [stem.with_name(f"{stem.name}{suffix}") for suffix in (".svg", ".png")]
+    for path in paths:
+        # With names that are not drawn by lot, and without a date, equal figures make equal files.
+        with replacing(path) as temporary, rc_context({"svg.hashsalt": "hexmend"}):
+            figure.savefig(temporary, dpi=160, metadata={"Date": None} if path.suffix == ".svg" else None)
+    return paths

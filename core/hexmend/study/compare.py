@@ -1,0 +1,87 @@
+"""Several methods on one mesh, one after another: the thesis's tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from hexmend.mesh import Mesh
+from hexmend.quality import Summary, summarise
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS, Smoother
+from hexmend.study.row import Row, Watch, distribution, run_one
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Methods side by side.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        As given.
+    initial : Summary
+    stop : Stop
+    rows : tuple of Row
+        A row a method, in the order of running; methods that an interruption left out have none.
+    interrupted : bool
+        Whether the user ended it before the last method was done.
+    """
+
+    mesh: Mesh
+    initial: Summary
+    stop: Stop
+    rows: tuple[Row, ...]
+    interrupted: bool = False
+
+    def record(self) -> dict[str, Any]:
+        """The comparison for other programs: what `hexmend.report` makes tables of."""
+        return {
+            "mesh": self.mesh.name,
+            "stop": self.stop.values(),
+            "interrupted": self.interrupted,
+            "initial": self.initial.to_dict() | {"distribution": distribution(self.mesh)},
+            "rows": [row.record() for row in self.rows],
+        }
+
+
+def compare(
+    mesh: Mesh,
+    methods: Iterable[Smoother | str] = METHODS,
+    stop: Stop | None = None,
+    *,
+    watch: Watch | None = None,
+) -> Comparison:
+    """Run methods on a mesh, each from the mesh as given.
+
+    A method that fails has its row, and the others go on. KeyboardInterrupt, or `watch` returning False, ends the
+    method at work as stopped and leaves out those after it.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    methods : iterable of Smoother or str
+        Names stand for methods with their defaults; `hexmend.study.chosen` takes settings in words. All that are
+        registered if not given.
+    stop : Stop, optional
+        Limits of each run.
+    watch : callable, optional
+        See `Watch`.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> answer = compare(make("bridge-sharp", size=500), ["laplacian", "local-sd"])
+    >>> [row.after.inverted > 0 for row in answer.rows]
+    [True, False]
+    """
+    stop = stop or Stop()
+    smoothers = [METHODS[one]() if isinstance(one, str) else one for one in methods]
+    rows: list[Row] = []
+    for smoother in smoothers:
+        row, go_on = run_one(mesh, smoother, stop, watch)
+        rows.append(row)
+        if not go_on:
+            return Comparison(mesh, summarise(mesh), stop, tuple(rows), interrupted=True)
+    return Comparison(mesh, summarise(mesh), stop, tuple(rows))

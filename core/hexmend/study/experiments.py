@@ -1,0 +1,101 @@
+"""Experiments as data: which methods run on which mesh, from which start, and what was published of it."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+from hexmend.gallery import make
+from hexmend.mesh import Mesh
+from hexmend.parameters import declared
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS, Smoother
+
+#: The start that is no method's.
+INITIAL = "initial"
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """One of the thesis's tables, or the half of one that is about one mesh; `thesis.toml` explains the fields."""
+
+    table: str
+    thesis_mesh: str
+    mesh: str
+    size: int
+    quick: int
+    hexes: int
+    free_nodes: int
+    inverted: int
+    start: str
+    columns: tuple[str, ...]
+    published: Mapping[str, Mapping[str, float | int]]
+    delta: float | None = None
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """The columns that are runs from the start."""
+        return self.columns[1:]
+
+    def build(self, quick: bool) -> Mesh:
+        """The mesh before its start."""
+        return make(self.mesh, size=self.quick if quick else self.size)
+
+    def smoother(self, name: str) -> Smoother:
+        """A method with this experiment's delta, where it has one."""
+        cls = METHODS[name]
+        takes = self.delta is not None and "delta" in {one.name for one in declared(cls)}
+        return cls(delta=self.delta) if takes else cls()
+
+
+@dataclass(frozen=True)
+class Experiments:
+    """Experiments with the limits of their runs.
+
+    Parameters
+    ----------
+    experiments : tuple of Experiment
+    iterations : mapping
+        Most iterations by method.
+    seconds : mapping
+        Most seconds of a run, of the "full" and the "quick" study.
+    """
+
+    experiments: tuple[Experiment, ...]
+    iterations: Mapping[str, int]
+    seconds: Mapping[str, float]
+
+    def stop(self, method: str, quick: bool) -> Stop:
+        """The limits of a run."""
+        limit = self.iterations.get(method, Stop().max_iterations)
+        return Stop(max_iterations=limit, max_seconds=self.seconds["quick" if quick else "full"])
+
+
+def load(source: Path | Traversable | None = None) -> Experiments:
+    """Experiments from a TOML file; the thesis's Chapter 4 if none is named.
+
+    Examples
+    --------
+    >>> thesis = load()
+    >>> thesis.experiments[0].published["local-sd"]["q_mean"]
+    0.8831
+    """
+    source = source or files("hexmend.study") / "thesis.toml"
+    data = tomllib.loads(source.read_text(encoding="utf-8"))
+    return Experiments(tuple(_experiment(entry) for entry in data["experiment"]), data["iterations"], data["seconds"])
+
+
+def _experiment(entry: Mapping[str, Any]) -> Experiment:
+    columns = tuple(entry["columns"])
+    published: dict[str, dict[str, float | int]] = {column: {} for column in columns}
+    for figure, values in entry["published"].items():
+        for column, value in zip(columns, values, strict=True):
+            if not math.isnan(value):
+                published[column][figure] = value
+    return Experiment(**{**entry, "columns": columns, "published": published})

@@ -1,0 +1,131 @@
+"""One method on one mesh: a row of the thesis's tables."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.optimise import Outcome, Result
+from hexmend.quality import Summary, measure, summarise
+from hexmend.run import Run, Stop, iterate
+from hexmend.smoothers import Smoother
+
+log = logging.getLogger(__name__)
+
+#: Bins of a distribution of q(H), of equal width from 0 to 1.
+BINS = 50
+
+#: Called with the run after each of its iterations; False ends it, and what was to come after it.
+Watch = Callable[[Run], Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """What one method made of a mesh.
+
+    Parameters
+    ----------
+    method : str
+    parameters : mapping
+    outcome : str
+        The key of an `Outcome`, or "failed".
+    message : str
+        The outcome with its figures, in sentences; where the method failed, why.
+    mesh : Mesh or None
+        The smoothed mesh; None where the method failed, as is what follows from it.
+    after : Summary or None
+    iterations : int
+    seconds, setup_seconds : float
+        As in `Result`.
+    """
+
+    method: str
+    parameters: Mapping[str, Any]
+    outcome: str
+    message: str
+    mesh: Mesh | None = field(default=None, repr=False)
+    after: Summary | None = None
+    iterations: int = 0
+    seconds: float = 0.0
+    setup_seconds: float = 0.0
+
+    @property
+    def seconds_per_iteration(self) -> float | None:
+        """Mean over all iterations; None where there was none."""
+        return self.seconds / self.iterations if self.iterations else None
+
+    @property
+    def seconds_per_iteration_and_node(self) -> float | None:
+        """The same over the number of free nodes."""
+        per_iteration, nodes = self.seconds_per_iteration, self.after.free_nodes if self.after else 0
+        return per_iteration / nodes if per_iteration is not None and nodes else None
+
+    def record(self) -> dict[str, Any]:
+        """The row for other programs: the method, its run, and the figures of `Summary` at its end."""
+        figures = self.after.to_dict() if self.after else dict.fromkeys(Summary.__dataclass_fields__)
+        return {
+            "method": self.method,
+            "parameters": dict(self.parameters),
+            "outcome": self.outcome,
+            "message": self.message,
+            **figures,
+            "iterations": self.iterations,
+            "seconds": self.seconds,
+            "setup_seconds": self.setup_seconds,
+            "seconds_per_iteration": self.seconds_per_iteration,
+            "seconds_per_iteration_and_node": self.seconds_per_iteration_and_node,
+            "distribution": distribution(self.mesh) if self.mesh else None,
+        }
+
+
+def run_one(mesh: Mesh, smoother: Smoother, stop: Stop, watch: Watch | None = None) -> tuple[Row, bool]:
+    """Run one method to its end.
+
+    Returns
+    -------
+    row : Row
+    go_on : bool
+        False where the user ended it.
+    """
+    run, go_on = None, True
+    try:
+        run = iterate(mesh, smoother, stop)
+        for _ in run:
+            if watch is not None and watch(run) is False:
+                go_on = False
+                run.close()
+    except KeyboardInterrupt:
+        go_on = False
+        if run is None:  # while it was compiled or prepared
+            words = "Stopped by the user before its first iteration."
+            return Row(smoother.name, smoother.values(), Outcome.STOPPED.key, words, mesh, summarise(mesh)), go_on
+        run.close()
+    except Exception as error:  # whatever it is, the other methods' rows are worth having
+        log.info("%s failed", smoother.name, exc_info=True)
+        return Row(smoother.name, smoother.values(), "failed", f"Failed: {error or type(error).__name__}"), True
+    return _row(run.result()), go_on
+
+
+def _row(result: Result) -> Row:
+    return Row(
+        method=result.method,
+        parameters=result.parameters,
+        outcome=result.outcome.key,
+        message=result.message,
+        mesh=result.mesh,
+        after=result.after,
+        iterations=result.iterations,
+        seconds=result.seconds,
+        setup_seconds=result.setup_seconds,
+    )
+
+
+def distribution(mesh: Mesh) -> list[int]:
+    """Numbers of hexes in `BINS` bins of q(H), from 0 to 1."""
+    q = measure(mesh.points, mesh.hexes).q
+    return np.histogram(q, BINS, (0.0, 1.0))[0].tolist()

@@ -1,0 +1,138 @@
+"""`hexmend study thesis`: the experiments of Chapter 4, each run done once however many tables show it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from hexmend.errors import ParameterError
+from hexmend.mesh import Mesh
+from hexmend.quality import Summary, summarise
+from hexmend.study.claims import CLAIMS
+from hexmend.study.experiments import INITIAL, Experiment, Experiments
+from hexmend.study.measured import Measured
+from hexmend.study.row import Row, Watch, run_one
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What was measured.
+
+    Parameters
+    ----------
+    measured : tuple of Measured
+        In the order of the tables; the last may lack columns where the study was interrupted.
+    quick : bool
+        Whether the meshes were the small ones.
+    seconds : float
+        Most seconds of a run.
+    interrupted : bool
+    """
+
+    measured: tuple[Measured, ...]
+    quick: bool
+    seconds: float
+    interrupted: bool
+
+    def record(self) -> dict[str, Any]:
+        """The study for other programs: what `hexmend.report` writes its tables from."""
+        return {
+            "quick": self.quick,
+            "max_seconds": self.seconds,
+            "interrupted": self.interrupted,
+            "experiments": [one.record() for one in self.measured],
+            "claims": [claim(self.measured).record() for claim in CLAIMS],
+        }
+
+
+def chosen_tables(thesis: Experiments, tables: Sequence[str]) -> Experiments:
+    """The experiments of some tables only.
+
+    Raises
+    ------
+    ParameterError
+        For a table that there is not.
+    """
+    known = list(dict.fromkeys(one.table for one in thesis.experiments))
+    for table in tables:
+        if table not in known:
+            raise ParameterError(f"there is no table {table!r}: expected one of {', '.join(known)}")
+    some = tuple(one for one in thesis.experiments if one.table in tables)
+    return Experiments(some, thesis.iterations, thesis.seconds)
+
+
+def run_experiments(
+    thesis: Experiments,
+    *,
+    quick: bool = False,
+    watch: Watch | None = None,
+    done: Callable[[Measured], Any] | None = None,
+) -> Study:
+    """Run experiments one after another.
+
+    KeyboardInterrupt, or `watch` returning False, ends the study with what was measured so far.
+
+    Parameters
+    ----------
+    thesis : Experiments
+    quick : bool
+        Small meshes, and seconds in place of hours.
+    watch : callable, optional
+        As in `compare`.
+    done : callable, optional
+        Called with the figures of each experiment when its last run has ended.
+    """
+    laboratory = _Laboratory(thesis, quick, watch)
+    measured = []
+    for experiment in thesis.experiments:
+        measured.append(laboratory.measure(experiment))
+        if done is not None:
+            done(measured[-1])
+        if laboratory.interrupted:
+            break
+    return Study(tuple(measured), quick, thesis.seconds["quick" if quick else "full"], laboratory.interrupted)
+
+
+class _Laboratory:
+    """Runs what has not run yet, and remembers."""
+
+    def __init__(self, thesis: Experiments, quick: bool, watch: Watch | None):
+        self._thesis, self._quick, self._watch = thesis, quick, watch
+        self._meshes: dict[tuple[str, int], tuple[Mesh, Summary]] = {}
+        self._rows: dict[tuple[object, ...], Row] = {}
+        self.interrupted = False
+
+    def measure(self, experiment: Experiment) -> Measured:
+        mesh, initial = self._mesh(experiment)
+        rows = {}
+        start = mesh
+        if experiment.start != INITIAL:
+            rows[experiment.start] = self._row(experiment, INITIAL, mesh, experiment.start)
+            start = rows[experiment.start].mesh
+        for method in experiment.methods:
+            if self.interrupted:
+                break
+            rows[method] = self._row(experiment, experiment.start, start, method)
+        return Measured(experiment, mesh, initial, rows)
+
+    def _mesh(self, experiment: Experiment) -> tuple[Mesh, Summary]:
+        key = (experiment.mesh, experiment.size)
+        if key not in self._meshes:
+            mesh = experiment.build(self._quick)
+            self._meshes[key] = mesh, summarise(mesh)
+        return self._meshes[key]
+
+    def _row(self, experiment: Experiment, start: str, mesh: Mesh | None, method: str) -> Row:
+        if mesh is None:
+            return Row(method, {}, "failed", f"Failed: {start} left no mesh to start from.")
+        try:
+            smoother = experiment.smoother(method)
+        except ParameterError as error:  # the other columns are worth having
+            return Row(method, {}, "failed", f"Failed: {error}")
+        key = (experiment.mesh, experiment.size, start, smoother)
+        if key not in self._rows:
+            stop = self._thesis.stop(method, self._quick)
+            self._rows[key], go_on = run_one(mesh, smoother, stop, self._watch)
+            self.interrupted = self.interrupted or not go_on
+        return self._rows[key]

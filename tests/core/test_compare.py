@@ -1,0 +1,164 @@
+"""Comparisons: every method from the same mesh, none lost, and the tables say what the runs did."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+from hexmend import gallery, io
+from hexmend.cli.main import main
+from hexmend.errors import ParameterError
+from hexmend.quality import Summary, summarise
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS
+from hexmend.study import row as one_row
+from hexmend.study.chosen import chosen
+from hexmend.study.compare import compare
+from hexmend.study.row import BINS
+
+#: Of each row in comparison.json, beside the figures of a summary.
+RUN = {
+    "method", "parameters", "outcome", "message", "iterations", "seconds", "setup_seconds", "seconds_per_iteration",
+    "seconds_per_iteration_and_node",
+}  # fmt: skip
+FEW = Stop(max_iterations=3, tolerance=0)
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return gallery.make("bridge-sharp", size=500, scramble=0.2)
+
+
+@pytest.fixture(scope="module")
+def two(mesh):
+    return compare(mesh, ["laplacian", "local-sd"], FEW)
+
+
+@pytest.fixture
+def file(mesh, tmp_path):
+    path = tmp_path / "bridge.vtu"
+    io.write(path, mesh)
+    return path
+
+
+def test_each_row_is_what_the_method_alone_gives(mesh, two):
+    for row in two.rows:
+        alone = smooth(mesh, row.method, FEW)
+        assert row.after == alone.after
+        np.testing.assert_array_equal(row.mesh.points, alone.mesh.points)
+        assert row.iterations == alone.iterations
+    assert two.initial == summarise(mesh)
+
+
+def test_the_record_has_the_agreed_keys_and_its_times_agree(mesh, two):
+    record = two.record()
+    assert [row["method"] for row in record["rows"]] == ["laplacian", "local-sd"]
+    for row in record["rows"]:
+        assert set(row) == RUN | set(Summary.__dataclass_fields__) | {"distribution"}
+        assert row["seconds_per_iteration"] * row["iterations"] == pytest.approx(row["seconds"])
+        assert row["seconds_per_iteration_and_node"] * row["free_nodes"] == pytest.approx(row["seconds_per_iteration"])
+        assert len(row["distribution"]) == BINS
+        assert sum(row["distribution"]) == mesh.n_hexes
+
+
+def test_all_registered_methods_are_the_default(mesh):
+    assert [row.method for row in compare(mesh, stop=Stop(max_iterations=0)).rows] == list(METHODS)
+
+
+@pytest.mark.parametrize("after", [1, 2])
+def test_a_watch_that_says_no_keeps_what_was_done(mesh, after):
+    seen = []
+    answer = compare(mesh, METHODS, FEW, watch=lambda run: seen.append(run.smoother.name) or len(seen) < after)
+    assert answer.interrupted
+    assert [(row.method, row.outcome, row.iterations) for row in answer.rows] == [
+        (next(iter(METHODS)), "stopped", after)
+    ]
+
+
+def test_an_interrupt_while_a_method_is_prepared_keeps_the_others(mesh, monkeypatch):
+    def iterate(mesh, smoother, stop):
+        if smoother.name == "local-sd":
+            raise KeyboardInterrupt
+        return real(mesh, smoother, stop)
+
+    real = one_row.iterate
+    monkeypatch.setattr(one_row, "iterate", iterate)
+    answer = compare(mesh, ["laplacian", "local-sd", "smart-laplacian"], FEW)
+    assert answer.interrupted
+    assert [(row.method, row.outcome) for row in answer.rows] == [
+        ("laplacian", "max-iterations"),
+        ("local-sd", "stopped"),
+    ]
+    assert answer.rows[1].after == answer.initial
+
+
+def test_a_method_that_fails_has_its_row_and_the_others_go_on(mesh, monkeypatch):
+    def steps(self, mesh):
+        raise np.linalg.LinAlgError("singular matrix")
+        yield
+
+    monkeypatch.setattr(METHODS["smart-laplacian"], "steps", steps)
+    # With a parameter that no other test uses, so that the method is not known to be warm.
+    failing = METHODS["smart-laplacian"](guard="quality")
+    answer = compare(mesh, ["laplacian", failing, "local-sd"], FEW)
+    assert [row.outcome for row in answer.rows] == ["max-iterations", "failed", "max-iterations"]
+    assert answer.rows[1].message == "Failed: singular matrix"
+    assert answer.record()["rows"][1]["q_mean"] is None
+
+
+def test_settings_reach_the_methods_that_declare_them():
+    laplacian, descent, newton = chosen(
+        ["laplacian", "local-sd", "local-nr", "local-sd"], {"local-nr.delta": "0.2", "delta": "0.1", "max-cuts": "7"}
+    )
+    assert (laplacian.name, descent.name, newton.name) == ("laplacian", "local-sd", "local-nr")
+    assert (descent.delta, newton.delta) == (0.1, 0.2)
+    assert (descent.max_cuts, newton.max_cuts) == (7, 7)
+
+
+@pytest.mark.parametrize(("names", "settings", "message"), [
+    (["laplacian", "local-sd"], {"deltta": "1"}, "has a parameter 'deltta': did you mean delta"),
+    (["laplacian"], {"delta": "1"}, "none of the methods laplacian has a parameter 'delta'"),
+    (["laplacian"], {"local-sd.delta": "1"}, "'local-sd' is not among the methods compared: laplacian"),
+    (["laplacian", "local-sd"], {"laplacian.delta": "1"}, "laplacian has no parameter 'delta'"),
+    (["lapalcian"], {}, "did you mean laplacian"),
+    (["local-sd"], {"p": "0.5"}, "p = 0.5 is out of range"),
+])  # fmt: skip
+def test_wrong_settings_are_said(names, settings, message):
+    with pytest.raises(ParameterError, match=message):
+        chosen(names, settings)
+
+
+def test_the_command_writes_tables_that_agree_and_the_meshes(file, tmp_path, capsys):
+    folder = tmp_path / "deep" / "tables"
+    words = ["compare", file, "-o", folder, "--methods", "laplacian,local-sd", "--write-meshes", "--set", "p=3"]
+    assert main([*map(str, words), "--max-iterations", "5"]) == 0
+    record = json.loads((folder / "comparison.json").read_text())
+    assert record["stop"]["max_iterations"] == 5
+    assert record["rows"][1]["parameters"]["p"] == 3
+    with open(folder / "comparison.csv", newline="", encoding="utf-8") as table:
+        rows = {row["method"]: row for row in csv.DictReader(table)}
+    assert list(rows) == ["initial", "laplacian", "local-sd"]
+    for row in record["rows"]:
+        written = summarise(io.read(folder / f"bridge-{row['method']}.vtu"))
+        assert written.to_dict() == {key: row[key] for key in written.to_dict()}
+        assert float(rows[row["method"]]["q_mean"]) == row["q_mean"]
+        assert int(rows[row["method"]]["iterations"]) == row["iterations"]
+    said = capsys.readouterr().out
+    for text in (said, (folder / "comparison.md").read_text(), (folder / "comparison.tex").read_text()):
+        assert f"{record['rows'][1]['q_mean']:.4f}" in text
+
+
+@pytest.mark.parametrize(("words", "status", "message"), [
+    (["{file}", "-o", "{folder}", "--methods", "laplacian,nothing"], 2, "there is no method 'nothing'"),
+    (["{file}", "-o", "{folder}", "--methods", "laplacian", "--set", "p=3"], 2, "has a parameter 'p'"),
+    (["{file}", "-o", "{folder}", "--max-iterations", "few"], 2, "max_iterations = 'few' is not a whole number"),
+    (["missing.vtu", "-o", "{folder}"], 3, "missing.vtu: there is no such file"),
+    (["{file}", "-o", "{file}"], 3, "bridge.vtu: is a file"),
+])  # fmt: skip
+def test_what_is_wrong_is_said_before_the_work(words, status, message, file, tmp_path, capsys):
+    words = [word.format(file=file, folder=tmp_path / "tables") for word in words]
+    assert main(["compare", *words]) == status
+    (line,) = capsys.readouterr().err.splitlines()
+    assert message in line
+    assert not (tmp_path / "tables").exists()

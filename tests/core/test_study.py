@@ -1,0 +1,286 @@
+"""The study: published figures as they are printed, each run done once, and claims that follow the figures."""
+
+import csv
+import itertools
+import json
+
+import pytest
+
+from hexmend.cli.main import main
+from hexmend.errors import HexmendError, ParameterError
+from hexmend.gallery import GALLERY
+from hexmend.quality import Summary
+from hexmend.report import plots, write_experiment, write_study
+from hexmend.smoothers import METHODS
+from hexmend.study.claims import CLAIMS, cost_constant, getme_between, laplacian_inverts, same_optimum
+from hexmend.study.experiments import INITIAL, load
+from hexmend.study.measured import Measured
+from hexmend.study.row import Row
+from hexmend.study.thesis import chosen_tables, run_experiments
+
+THESIS = load()
+
+#: Two tables of two meshes through the same engine, in a second.
+TINY = """
+[iterations]
+laplacian = 50
+local-sd = 100
+global-nr = 30
+[seconds]
+full = 60
+quick = 60
+[[experiment]]
+table = "1"
+thesis_mesh = "Bridge, Laplace"
+mesh = "bridge-sharp"
+size = 1000
+quick = 256
+hexes = 1000
+free_nodes = 1
+inverted = 0
+start = "laplacian"
+delta = 0.05
+columns = ["laplacian", "local-sd", "laplace-sd"]
+[experiment.published]
+q_min = [0.125, nan, 0.5]
+[[experiment]]
+table = "2"
+thesis_mesh = "Five"
+mesh = "five-side"
+size = 1000
+quick = 60
+hexes = 1000
+free_nodes = 1
+inverted = 0
+start = "initial"
+columns = ["initial", "local-sd", "global-nr"]
+[experiment.published]
+q_mean = [0.5, 0.625, 0.75]
+[[experiment]]
+table = "4.14"
+thesis_mesh = "Five"
+mesh = "five-side"
+size = 1000
+quick = 60
+hexes = 1000
+free_nodes = 1
+inverted = 0
+start = "initial"
+columns = ["initial", "laplacian", "local-sd"]
+[experiment.published]
+q_mean = [0.5, 0.625, 0.75]
+"""
+
+
+@pytest.fixture(scope="module")
+def tiny(tmp_path_factory):
+    path = tmp_path_factory.mktemp("study") / "tiny.toml"
+    path.write_text(TINY)
+    return load(path)
+
+
+@pytest.fixture(scope="module")
+def seen():
+    return []
+
+
+@pytest.fixture(scope="module")
+def study(tiny, seen):
+    def watch(run):
+        if run.last.number == 1:
+            seen.append((run.mesh.n_hexes, run.smoother.name))
+
+    return run_experiments(tiny, quick=True, watch=watch)
+
+
+def published():
+    """Every published column: its experiment, its name, its figures."""
+    return [(one, column, one.published[column]) for one in THESIS.experiments for column in one.columns]
+
+
+def test_the_thesis_is_whole():
+    assert list(dict.fromkeys(one.table for one in THESIS.experiments)) == [f"4.{k}" for k in range(1, 16)]
+    for one in THESIS.experiments:
+        assert one.mesh in GALLERY
+        assert set(one.methods) <= set(METHODS)
+        assert one.start == one.columns[0]
+        assert one.start == INITIAL or one.start in METHODS
+        assert set(one.columns) - {INITIAL} <= set(THESIS.iterations)
+        assert one.quick < one.size <= 1.01 * one.hexes
+
+
+def test_published_times_agree_with_themselves():
+    """Time over iterations is time per iteration, and that over free nodes is the last line: no figure slipped."""
+    checked = 0
+    for one, column, figures in published():
+        if "seconds_per_iteration" in figures:
+            assert figures["seconds"] / figures["iterations"] == pytest.approx(
+                figures["seconds_per_iteration"], rel=2e-3
+            ), (one.table, column)
+            checked += 1
+        if "seconds_per_iteration_and_node" in figures:
+            assert figures["seconds_per_iteration"] / one.free_nodes == pytest.approx(
+                figures["seconds_per_iteration_and_node"], rel=2e-3
+            ), (one.table, column)
+    assert checked > 70
+
+
+def test_published_qualities_are_possible():
+    for one, column, figures in published():
+        ordered = [figures[key] for key in ("q_min", "q_norm", "q_mean", "q_max") if key in figures]
+        if figures.get("q_norm") == 0:  # some q is 0
+            ordered.remove(0)
+        assert ordered == sorted(ordered), (one.table, column)
+        assert all(0 <= value <= 1 for value in ordered)
+
+
+def test_one_mesh_has_one_initial_state_in_all_tables():
+    known = {}
+    for one in THESIS.experiments:
+        if figures := one.published.get(INITIAL):
+            first = known.setdefault(one.thesis_mesh, figures)
+            for key in figures.keys() & first.keys():
+                assert figures[key] == first[key], (one.table, key)
+
+
+def test_tables_are_chosen_by_their_numbers():
+    assert [one.table for one in chosen_tables(THESIS, ["4.15", "4.1"]).experiments] == ["4.1", "4.15", "4.15"]
+    with pytest.raises(ParameterError, match=r"no table '5\.1'"):
+        chosen_tables(THESIS, ["4.1", "5.1"])
+
+
+def test_runs_that_tables_share_run_once(study, seen):
+    five = study.measured[1].mesh.n_hexes
+    assert seen.count((five, "local-sd")) == 1
+    assert len(seen) == len(set(seen)) == 5
+    assert study.measured[1].rows["local-sd"] is study.measured[2].rows["local-sd"]
+
+
+def test_methods_begin_where_the_start_left_off_and_get_its_delta(study):
+    bridge = study.measured[0]
+    start, descent = bridge.rows["laplacian"], bridge.rows["local-sd"]
+    assert bridge.start == start.after != bridge.initial
+    assert descent.parameters["delta"] == 0.05
+    assert "delta" not in start.parameters
+    assert study.record()["experiments"][0]["inverted"] == start.after.inverted > bridge.initial.inverted
+
+
+def test_a_method_that_is_not_there_loses_only_its_own_column(study):
+    row = study.measured[0].rows["laplace-sd"]
+    assert row.outcome == "failed"
+    assert "there is no method 'laplace-sd'" in row.message
+    assert study.measured[0].rows["local-sd"].after.inverted == 0
+
+
+def test_the_report_is_written_with_ours_beside_theirs(study, tmp_path):
+    record = study.record()
+    for experiment in record["experiments"]:
+        write_experiment(tmp_path, experiment)
+    write_study(tmp_path, record)
+    with open(tmp_path / "table-1-bridge-laplace.csv", newline="", encoding="utf-8") as file:
+        rows = {row["method"]: row for row in csv.DictReader(file)}
+    assert [row["thesis_q_min"] for row in rows.values()] == ["0.125", "", "0.5"]
+    ours = study.measured[0].rows["local-sd"].after
+    assert float(rows["local-sd"]["q_min"]) == ours.q_min
+    index = (tmp_path / "study.md").read_text(encoding="utf-8")
+    for text in (f"{ours.q_min:.4f}", "0.1250", "The mesh is ours", "## Claims", "figure-4.4-scaling.png"):
+        assert text in index
+    back = json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))
+    assert back == record
+    assert len(back["claims"]) == len(CLAIMS)
+    for name in ("figure-4.4-scaling", "figure-4.9-distributions"):
+        assert (tmp_path / f"{name}.svg").read_text(encoding="utf-8").startswith("<?xml")
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_without_matplotlib_the_tables_are_written_and_the_remedy_is_said(study, tmp_path, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "matplotlib.figure", None)
+    with pytest.raises(HexmendError, match=r"pip install 'hexmend\[report\]'"):
+        write_study(tmp_path, study.record())
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["study.json", "study.md"]
+    assert "## Figures" not in (tmp_path / "study.md").read_text(encoding="utf-8")
+
+
+def test_equal_figures_make_equal_drawings(tmp_path):
+    counts = {"initial": [1, 2, 3], "laplacian": [3, 2, 1]}
+    first, second = (plots.distributions(tmp_path / name, counts, "t")[0] for name in "ab")
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_a_study_that_is_interrupted_keeps_its_columns(tiny):
+    left = itertools.count()
+    study = run_experiments(tiny, quick=True, watch=lambda run: run.smoother.name != "local-sd" or next(left) < 2)
+    assert study.interrupted
+    assert [list(one.rows) for one in study.measured] == [["laplacian", "local-sd"]]
+    assert study.measured[0].rows["local-sd"].outcome == "stopped"
+    json.dumps(study.record(), allow_nan=False)
+
+
+def test_the_command_runs_a_table(tmp_path, capsys):
+    assert main(["study", "thesis", "--quick", "--only", "4.11", "-o", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "Written to" in said
+    for mesh in ("fiveside4", "fiveside5"):
+        assert {path.suffix for path in tmp_path.glob(f"table-4.11-{mesh}.*")} == {".csv", ".md", ".tex", ".json"}
+
+
+def test_an_unknown_table_is_wrong_usage(tmp_path, capsys):
+    assert main(["study", "thesis", "--only", "9", "-o", str(tmp_path / "x")]) == 2
+    assert "there is no table '9'" in capsys.readouterr().err
+    assert not (tmp_path / "x").exists()
+
+
+def summary(**figures):
+    values = dict.fromkeys(Summary.__dataclass_fields__, 0) | {"free_nodes": 100, "objective": 1.0}
+    return Summary(**values | figures)
+
+
+def measured(study, table, rows, **initial):
+    """Figures as if measured: rows are (summary's figures, seconds, iterations) by method."""
+    experiment = next(one for one in THESIS.experiments if one.table == table)
+    mesh = study.measured[1].mesh
+    made = {
+        name: Row(name, {}, "converged", "", mesh, summary(**figures), iterations, seconds)
+        for name, (figures, seconds, iterations) in rows.items()
+    }
+    return Measured(experiment, mesh, summary(**initial), made)
+
+
+@pytest.mark.parametrize(("claim", "table", "yes", "no"), [
+    (
+        same_optimum, "4.1",
+        {"local-sd": ({"objective": 1.0}, 1, 1), "global-nr": ({"objective": 1.0001}, 1, 1)},
+        {"local-sd": ({"objective": 1.0}, 1, 1), "global-nr": ({"objective": 1.01}, 1, 1)},
+    ),
+    (
+        getme_between, "4.14",
+        {"laplacian": ({"q_mean": 0.6}, 1, 1), "getme": ({"q_mean": 0.7}, 1, 1), "local-sd": ({"q_mean": 0.8}, 9, 1)},
+        {"laplacian": ({"q_mean": 0.6}, 1, 1), "getme": ({"q_mean": 0.7}, 1, 1), "local-sd": ({"q_mean": 0.8}, 2, 1)},
+    ),
+])  # fmt: skip
+def test_a_claim_follows_the_figures(study, claim, table, yes, no):
+    assert claim([measured(study, table, yes)]).reproduced is True
+    assert claim([measured(study, table, no)]).reproduced is False
+    assert claim([]).reproduced is None
+
+
+def test_laplacian_must_invert_on_both_meshes(study):
+    bad, good = ({"laplacian": ({"inverted": n}, 1, 1)} for n in (5, 0))
+    pair = [measured(study, "4.3", bad), measured(study, "4.14", bad, inverted=2)]
+    assert laplacian_inverts(pair).reproduced is True
+    assert laplacian_inverts([pair[0], measured(study, "4.14", good, inverted=2)]).reproduced is False
+    assert laplacian_inverts(pair[:1]).reproduced is None
+
+
+@pytest.mark.parametrize(("seconds", "reproduced"), [(10, True), (100, False)])
+def test_cost_is_judged_per_node(study, seconds, reproduced):
+    small = measured(study, "4.5", {"local-sd": ({}, 1, 1)}, free_nodes=100)
+    large = measured(study, "4.6", {"local-sd": ({"free_nodes": 1000}, seconds, 1)}, free_nodes=1000)
+    assert cost_constant([small, large]).reproduced is reproduced
+
+
+@pytest.mark.parametrize("claim", CLAIMS)
+def test_every_claim_can_do_without_figures(claim):
+    answer = claim([])
+    assert answer.reproduced is None
+    assert answer.figures
