@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from time import perf_counter
 from typing import Any
 
 import numpy as np
+from threadpoolctl import ThreadpoolController
 
 from hexmend.gallery import make
 from hexmend.mesh import Mesh
@@ -72,7 +74,8 @@ class Run(Iterator[Iteration]):
         warm_up(smoother)
         began = perf_counter()
         self._steps = smoother.steps(mesh)
-        first = next(self._steps)
+        with _one_blas_thread():
+            first = next(self._steps)
         self._unit = mesh.mean_edge_length or 1.0
         self.setup_seconds = perf_counter() - began
         self.start = self.last = Iteration(0, read_only(first.points), measure(first.points, mesh.hexes), 0.0, 0.0)
@@ -88,7 +91,8 @@ class Run(Iterator[Iteration]):
             raise StopIteration
         began = perf_counter()
         try:
-            step = next(self._steps)
+            with _one_blas_thread():
+                step = next(self._steps)
         except StopIteration as end:
             self._end(end.value or Outcome.FINISHED)
             raise StopIteration from None
@@ -210,6 +214,20 @@ def smooth(
         if watch is not None and watch(iteration) is False:
             run.close()
     return run.result()
+
+
+@cache
+def _threads() -> ThreadpoolController:
+    return ThreadpoolController()
+
+
+def _one_blas_thread() -> AbstractContextManager[object]:
+    """While a method steps, the cores are the kernels'.
+
+    BLAS shares out vectors of 10,000 numbers already. Its threads and the kernels' wait by spinning: side by side they
+    make a Newton step six times slower.
+    """
+    return _threads().limit(limits=1, user_api="blas")
 
 
 @lru_cache(maxsize=64)

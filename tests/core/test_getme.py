@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from hexmend.gallery import make
 from hexmend.hexahedron import EDGES, UNIT_CUBE
-from hexmend.kernels.getme import element_steps
+from hexmend.kernels.element_step import element_step, element_steps
 from hexmend.kernels.worst_first import replay, tournament
 from hexmend.optimise import Outcome
 from hexmend.quality import measure
@@ -49,6 +49,17 @@ hexes = st.integers(0, 2**32 - 1).map(lambda seed: UNIT_CUBE + np.random.default
 @given(hexes, st.floats(0.1, 3), st.floats(0.01, 1))
 def test_the_element_step_is_its_definition_on_any_hex(x, s, rho):
     np.testing.assert_allclose(stepped(x, s, rho), by_definition(x, s, rho), atol=1e-9)
+
+
+@pytest.mark.parametrize("count", [1, 63, 65, 300])
+def test_a_block_of_hexes_takes_the_steps_of_each(count):
+    mesh = scrambled(grid(7), 0.6, count)
+    hexes = mesh.hexes[:count]
+    places, one, f = np.full((count, 8, 3), np.nan), np.empty((8, 3)), np.empty((6, 3))
+    element_steps(mesh.points, hexes, 1.5, 0.6, places)
+    for h in range(count):
+        element_step(mesh.points[hexes[h]], 1.5, 0.6, f, one)
+        np.testing.assert_allclose(places[h], one, atol=1e-12)
 
 
 @given(st.floats(1e-3, 1e3), st.integers(0, 2**32 - 1), st.floats(0.1, 3))

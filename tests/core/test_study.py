@@ -3,7 +3,9 @@
 import csv
 import itertools
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from hexmend.cli.main import main
@@ -12,7 +14,15 @@ from hexmend.gallery import GALLERY
 from hexmend.quality import Summary
 from hexmend.report import plots, write_experiment, write_study
 from hexmend.smoothers import METHODS
-from hexmend.study.claims import CLAIMS, cost_constant, getme_between, laplacian_inverts, same_optimum
+from hexmend.study.claims import (
+    CLAIMS,
+    cost_constant,
+    getme_between,
+    laplacian_inverts,
+    large_delta_moves,
+    same_optimum,
+    small_delta_harms,
+)
 from hexmend.study.experiments import INITIAL, load
 from hexmend.study.measured import Measured
 from hexmend.study.row import Row
@@ -106,7 +116,8 @@ def test_the_thesis_is_whole():
         assert one.start == one.columns[0]
         assert one.start == INITIAL or one.start in METHODS
         assert set(one.columns) - {INITIAL} <= set(THESIS.iterations)
-        assert one.quick < one.size <= 1.01 * one.hexes
+        assert one.quick <= one.size <= 1.01 * one.hexes
+    assert set(THESIS.quick_seconds) <= set(METHODS)
 
 
 def test_published_times_agree_with_themselves():
@@ -235,12 +246,12 @@ def summary(**figures):
     return Summary(**values | figures)
 
 
-def measured(study, table, rows, **initial):
-    """Figures as if measured: rows are (summary's figures, seconds, iterations) by method."""
+def measured(study, table, rows, after=None, **initial):
+    """Figures as if measured: rows are (summary's figures, seconds, iterations) by method, `after` is their mesh."""
     experiment = next(one for one in THESIS.experiments if one.table == table)
     mesh = study.measured[1].mesh
     made = {
-        name: Row(name, {}, "converged", "", mesh, summary(**figures), iterations, seconds)
+        name: Row(name, {}, "converged", "", after or mesh, summary(**figures), iterations, seconds)
         for name, (figures, seconds, iterations) in rows.items()
     }
     return Measured(experiment, mesh, summary(**initial), made)
@@ -264,12 +275,44 @@ def test_a_claim_follows_the_figures(study, claim, table, yes, no):
     assert claim([]).reproduced is None
 
 
-def test_laplacian_must_invert_on_both_meshes(study):
-    bad, good = ({"laplacian": ({"inverted": n}, 1, 1)} for n in (5, 0))
-    pair = [measured(study, "4.3", bad), measured(study, "4.14", bad, inverted=2)]
-    assert laplacian_inverts(pair).reproduced is True
-    assert laplacian_inverts([pair[0], measured(study, "4.14", good, inverted=2)]).reproduced is False
-    assert laplacian_inverts(pair[:1]).reproduced is None
+def test_laplacian_must_invert_sound_hexes_on_both_meshes(study):
+    mesh = study.measured[1].mesh
+    tangled = mesh.with_points(np.where(mesh.free[:, None], mesh.points[::-1], mesh.points))
+    row = {"laplacian": ({}, 1, 1)}
+    bridge = measured(study, "4.3", row, tangled, hexes=8)
+    claim = laplacian_inverts([bridge, measured(study, "4.14", row, tangled, hexes=8)])
+    assert claim.reproduced is True
+    assert "bridge-sharp, 8 hexes: " in claim.figures
+    untouched = [measured(study, "4.14", row, hexes=8), measured(study, "4.15", row, tangled, hexes=4)]
+    assert laplacian_inverts([bridge, *untouched]).reproduced is False  # the larger plane decides
+    assert laplacian_inverts([bridge]).reproduced is None
+
+
+def by_delta(study, small, large):
+    """bridge-sharp after Laplacian smoothing with two deltas: how a run ended, and its inverted hexes, by method."""
+    pair = []
+    for table, ends in (("4.3", small), ("4.4", large)):
+        one = measured(study, table, {name: ({"inverted": count}, 1, 1) for name, (_, count) in ends.items()})
+        rows = {name: replace(row, outcome=ends[name][0]) for name, row in one.rows.items()}
+        pair.append(replace(one, rows=rows))
+    return pair
+
+
+def test_a_small_delta_harms_where_only_the_large_one_converges(study):
+    ends = {"yes": ("converged", 0), "no": ("max-seconds", 3)}
+    for small, large, expected in (("no", "yes", True), ("yes", "yes", False), ("no", "no", False)):
+        pair = by_delta(study, {"global-nr": ends[small]}, {"global-nr": ends[large]})
+        assert small_delta_harms(pair).reproduced is expected
+
+
+def test_a_large_delta_moves_the_optimum_where_a_converged_run_leaves_hexes_inverted(study):
+    small = {"local-sd": ("converged", 0), "global-nr": ("max-seconds", 3)}
+    for large, expected in (
+        ({"local-sd": ("converged", 0), "global-nr": ("converged", 2)}, True),
+        ({"local-sd": ("converged", 0), "global-nr": ("max-seconds", 2)}, False),
+        ({"local-sd": ("max-iterations", 1), "global-nr": ("max-seconds", 2)}, None),
+    ):
+        assert large_delta_moves(by_delta(study, small, large)).reproduced is expected
 
 
 @pytest.mark.parametrize(("seconds", "reproduced"), [(10, True), (100, False)])

@@ -1,4 +1,4 @@
-"""GETMe: each hex takes a regularising step of its own; nodes go to means of the places their hexes give them.
+"""GETMe: nodes go to means of the places that their hexes give them.
 
 Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2.
 """
@@ -8,77 +8,11 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.hexahedron import EDGES, FACES, UNIT_CUBE
-from hexmend.kernels import CHUNK, parallel, serial
+from hexmend.kernels import parallel, serial
 from hexmend.kernels.elements import load, quality
 
 #: Halvings of a node's step before it is given up: 1, 1/2, 1/4, 1/8, 0.
 HALVINGS = 4
-
-
-def _corner_faces() -> np.ndarray:
-    side = UNIT_CUBE.astype(np.int64)
-    faces = side + [0, 2, 4]  # FACES is x-, x+, y-, y+, z-, z+
-    mirrored = side.sum(axis=1) % 2 == 0
-    faces[mirrored, 1:] = faces[mirrored, :0:-1]
-    return faces
-
-
-#: The three faces (i, j, k) that meet at each corner, (8, 3): the normal of their centroids' triangle points outward.
-CORNER_FACES = _corner_faces()
-
-
-@serial
-def _mean_edge(x):
-    total = 0.0
-    for e in range(12):
-        a, b = EDGES[e, 0], EDGES[e, 1]
-        dx, dy, dz = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2]
-        total += np.sqrt(dx * dx + dy * dy + dz * dz)
-    return total / 12
-
-
-@serial
-def element_step(x, s, rho, f, y):
-    """The hex x (8, 3) after one step towards the cube; writes y (8, 3), uses f (6, 3).
-
-    Corner k goes to c_k + s n_k/sqrt(|n_k|), centroid and normal of a triangle of the dual octahedron; the hex is
-    scaled about its centroid to its old mean edge length and blended with the old one by rho.
-    """
-    for i in range(6):
-        for k in range(3):
-            f[i, k] = (x[FACES[i, 0], k] + x[FACES[i, 1], k] + x[FACES[i, 2], k] + x[FACES[i, 3], k]) / 4
-    mx, my, mz = 0.0, 0.0, 0.0
-    for c in range(8):
-        i, j, k = CORNER_FACES[c, 0], CORNER_FACES[c, 1], CORNER_FACES[c, 2]
-        ux, uy, uz = f[j, 0] - f[i, 0], f[j, 1] - f[i, 1], f[j, 2] - f[i, 2]
-        vx, vy, vz = f[k, 0] - f[i, 0], f[k, 1] - f[i, 1], f[k, 2] - f[i, 2]
-        nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-        root = np.sqrt(np.sqrt(nx * nx + ny * ny + nz * nz))
-        along = s / root if root > 0 else 0.0
-        y[c, 0] = (f[i, 0] + f[j, 0] + f[k, 0]) / 3 + along * nx
-        y[c, 1] = (f[i, 1] + f[j, 1] + f[k, 1]) / 3 + along * ny
-        y[c, 2] = (f[i, 2] + f[j, 2] + f[k, 2]) / 3 + along * nz
-        mx += y[c, 0] / 8
-        my += y[c, 1] / 8
-        mz += y[c, 2] / 8
-    length = _mean_edge(y)
-    zeta = _mean_edge(x) / length if length > 0 else 0.0
-    for c in range(8):
-        y[c, 0] = x[c, 0] + rho * (mx + zeta * (y[c, 0] - mx) - x[c, 0])
-        y[c, 1] = x[c, 1] + rho * (my + zeta * (y[c, 1] - my) - x[c, 1])
-        y[c, 2] = x[c, 2] + rho * (mz + zeta * (y[c, 2] - mz) - x[c, 2])
-
-
-@parallel
-def element_steps(points, hexes, s, rho, places):
-    """`element_step` of every hex; writes places (m, 8, 3)."""
-    m = hexes.shape[0]
-    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
-        x, f = np.empty((8, 3)), np.empty((6, 3))
-        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
-            load(points, hexes, h, x)
-            element_step(x, s, rho, f, places[h])
 
 
 @parallel

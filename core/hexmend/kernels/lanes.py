@@ -50,6 +50,13 @@ def load(values, rows, first, count, x):
 
 
 @serial
+def copy(x, row, w, to):
+    """Copy the row of x that begins at `row` to the one of w that begins at `to`."""
+    for lane in range(ALL):
+        w[to + lane] = x[row + lane]
+
+
+@serial
 def edges(x, t, w, to):
     """Differences along the edges of corner tetrahedron t, u, v and w, into nine rows of w from `to` on."""
     a = CORNER_TETRAHEDRA[t, 0]

@@ -104,14 +104,16 @@ def index(study: Mapping[str, Any], pictures: Sequence[str]) -> str:
 
 
 def _preface(study: Mapping[str, Any]) -> str:
+    own = "".join(f", of {method} {seconds:g} s" for method, seconds in study["max_seconds_of"].items())
     sentences = [
         "T. J. Wilson, *Simultaneous Untangling and Smoothing of Hexahedral Meshes*.",
         "The meshes are ours: the thesis's are not published, and these have their structure and size,"
         " so that qualities are to be compared in kind and not in digits."
         if not study["quick"]
         else "The meshes are ours, of the structure of the thesis's, which are not published, and in this quick study"
-        " much smaller: qualities and times are to be compared in kind and not in digits.",
-        f"A run ends with the iteration in which it passes {study['max_seconds']:g} s; the tables say where one did.",
+        " mostly much smaller: qualities and times are to be compared in kind and not in digits.",
+        f"A run ends with the iteration in which it passes {study['max_seconds']:g} s{own}; the tables say where one"
+        " did.",
     ]
     if study["interrupted"]:
         sentences.append("**The study was interrupted: what is below is what was measured until then.**")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.kernels import getme as kernels
+from hexmend.kernels.element_step import element_steps
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import parameter
@@ -49,7 +50,7 @@ class GETMe(Smoother):
         idle = 0
         yield Step(points)
         while idle < self.patience:
-            kernels.element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
+            element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
             moved = points.copy()
             kernels.weighted_means(places, self._weights(figures.q), attached.start, attached.items, nodes, moved)
             points, figures, relaxed = _without_harm(mesh, points, figures, moved)

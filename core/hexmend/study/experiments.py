@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -43,9 +43,13 @@ class Experiment:
         """The columns that are runs from the start."""
         return self.columns[1:]
 
+    def asked(self, quick: bool) -> int:
+        """The number of hexes asked of the gallery."""
+        return self.quick if quick else self.size
+
     def build(self, quick: bool) -> Mesh:
         """The mesh before its start."""
-        return make(self.mesh, size=self.quick if quick else self.size)
+        return make(self.mesh, size=self.asked(quick))
 
     def smoother(self, name: str) -> Smoother:
         """A method with this experiment's delta, where it has one."""
@@ -65,16 +69,20 @@ class Experiments:
         Most iterations by method.
     seconds : mapping
         Most seconds of a run, of the "full" and the "quick" study.
+    quick_seconds : mapping
+        Most seconds of a run in the quick study, of methods for which it is another.
     """
 
     experiments: tuple[Experiment, ...]
     iterations: Mapping[str, int]
     seconds: Mapping[str, float]
+    quick_seconds: Mapping[str, float] = field(default_factory=dict)
 
     def stop(self, method: str, quick: bool) -> Stop:
         """The limits of a run."""
         limit = self.iterations.get(method, Stop().max_iterations)
-        return Stop(max_iterations=limit, max_seconds=self.seconds["quick" if quick else "full"])
+        seconds = self.quick_seconds.get(method, self.seconds["quick"]) if quick else self.seconds["full"]
+        return Stop(max_iterations=limit, max_seconds=seconds)
 
 
 def load(source: Path | Traversable | None = None) -> Experiments:
@@ -88,7 +96,8 @@ def load(source: Path | Traversable | None = None) -> Experiments:
     """
     source = source or files("hexmend.study") / "thesis.toml"
     data = tomllib.loads(source.read_text(encoding="utf-8"))
-    return Experiments(tuple(_experiment(entry) for entry in data["experiment"]), data["iterations"], data["seconds"])
+    experiments = tuple(_experiment(entry) for entry in data["experiment"])
+    return Experiments(experiments, data["iterations"], data["seconds"], data.get("quick_seconds", {}))
 
 
 def _experiment(entry: Mapping[str, Any]) -> Experiment:

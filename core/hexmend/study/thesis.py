@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from hexmend.errors import ParameterError
@@ -27,12 +27,15 @@ class Study:
         Whether the meshes were the small ones.
     seconds : float
         Most seconds of a run.
+    own_seconds : mapping
+        The same of methods for which it is another.
     interrupted : bool
     """
 
     measured: tuple[Measured, ...]
     quick: bool
     seconds: float
+    own_seconds: Mapping[str, float]
     interrupted: bool
 
     def record(self) -> dict[str, Any]:
@@ -40,6 +43,7 @@ class Study:
         return {
             "quick": self.quick,
             "max_seconds": self.seconds,
+            "max_seconds_of": dict(self.own_seconds),
             "interrupted": self.interrupted,
             "experiments": [one.record() for one in self.measured],
             "claims": [claim(self.measured).record() for claim in CLAIMS],
@@ -59,7 +63,7 @@ def chosen_tables(thesis: Experiments, tables: Sequence[str]) -> Experiments:
         if table not in known:
             raise ParameterError(f"there is no table {table!r}: expected one of {', '.join(known)}")
     some = tuple(one for one in thesis.experiments if one.table in tables)
-    return Experiments(some, thesis.iterations, thesis.seconds)
+    return replace(thesis, experiments=some)
 
 
 def run_experiments(
@@ -91,7 +95,8 @@ def run_experiments(
             done(measured[-1])
         if laboratory.interrupted:
             break
-    return Study(tuple(measured), quick, thesis.seconds["quick" if quick else "full"], laboratory.interrupted)
+    seconds, own = (thesis.seconds["quick"], thesis.quick_seconds) if quick else (thesis.seconds["full"], {})
+    return Study(tuple(measured), quick, seconds, own, laboratory.interrupted)
 
 
 class _Laboratory:
@@ -117,7 +122,7 @@ class _Laboratory:
         return Measured(experiment, mesh, initial, rows)
 
     def _mesh(self, experiment: Experiment) -> tuple[Mesh, Summary]:
-        key = (experiment.mesh, experiment.size)
+        key = (experiment.mesh, experiment.asked(self._quick))
         if key not in self._meshes:
             mesh = experiment.build(self._quick)
             self._meshes[key] = mesh, summarise(mesh)
@@ -130,7 +135,7 @@ class _Laboratory:
             smoother = experiment.smoother(method)
         except ParameterError as error:  # the other columns are worth having
             return Row(method, {}, "failed", f"Failed: {error}")
-        key = (experiment.mesh, experiment.size, start, smoother)
+        key = (experiment.mesh, experiment.asked(self._quick), start, smoother)
         if key not in self._rows:
             stop = self._thesis.stop(method, self._quick)
             self._rows[key], go_on = run_one(mesh, smoother, stop, self._watch)
