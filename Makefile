@@ -5,13 +5,14 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 MESH   ?=
 
-.PHONY: help run test lint format bench pins clean
+.PHONY: help run test lint format bench study pins clean
 
 help:
 	@echo "make run [MESH=path]   open the viewer (on the demo mesh, or on yours)"
 	@echo "make test              run the tests, on a virtual screen"
 	@echo "make lint              check the style;  make format  mends it"
 	@echo "make bench             measure speed and memory"
+	@echo "make study             do the thesis's experiments again, in small: build/study/"
 	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
 	@echo "Add PYTHON=/path/to/python3 (3.11 to 3.13) to choose the Python of a new environment."
@@ -35,6 +36,9 @@ format: $(VENV)/.test
 bench: $(VENV)/.app
 	@scripts/debian-packages
 	@scripts/on-screen $(BIN)/hexmend bench
+
+study: $(VENV)/.app
+	@$(BIN)/hexmend study thesis --quick -o build/study
 
 pins:
 	@scripts/pins "$(PYTHON)"
