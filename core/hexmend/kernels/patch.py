@@ -169,10 +169,9 @@ def value_and_gradient(table, rest, size, delta, p, lane):
     total, gx, gy, gz = 0.0, 0.0, 0.0, 0.0
     for s in range(size):
         energy, ex, ey, ez = hex_gradient(table, rest, s, delta, eta)
-        if not energy > 0:  # a perfect hex; softened by delta, one better than perfect counts as perfect
-            energy = 0.0
-        total += energy * energy if p == 2 else energy**p
         first, _ = weights(energy, p)
+        energy = max(energy, 0.0)  # softened by delta, a hex better than perfect counts as perfect
+        total += energy * energy if p == 2 else energy**p
         gx += first * ex
         gy += first * ey
         gz += first * ez
