@@ -44,7 +44,8 @@ def latex(table: Table) -> str:
     \\end{table}
     """
     head, *rows = (" & ".join(escaped(cell) for cell in line) + r" \\" for line in [table.head, *table.rows])
-    caption = " ".join(escaped(sentence) for sentence in (table.title, *table.notes))
+    title = f"{table.title}." if table.notes else table.title
+    caption = " ".join(escaped(sentence) for sentence in (title, *table.notes))
     lines = [
         r"\begin{table}[htbp]",
         r"\centering\footnotesize\setlength{\tabcolsep}{3pt}",
