@@ -58,7 +58,7 @@ def corners(draw):
 def test_gradient_of_a_hex_is_that_of_complex_steps(case):
     x, delta = case
     gradient, expected = np.empty((8, 3)), complex_gradient(x, delta)
-    assert hexahedron.gradient(x, delta, gradient) == pytest.approx(eta_of(x, delta), rel=1e-10)
+    assert hexahedron.gradient(x, delta, 0, gradient) == pytest.approx(eta_of(x, delta), rel=1e-10)
     np.testing.assert_allclose(gradient, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
 
 
@@ -69,7 +69,7 @@ def test_hessian_of_a_hex_is_that_of_differences_of_complex_gradients(case, seed
     assume(energy > 1e-2)  # softened by delta it may be below zero, where it counts as zero
     v = np.random.default_rng(seed).normal(size=(8, 3))
     gradient, product = np.empty((8, 3)), np.empty((8, 3))
-    hexahedron.product(x, v, delta, p, gradient, product)
+    hexahedron.product(x, v, delta, p, 0, gradient, product)
 
     def of_power(y):
         return p * eta_of(y, delta) ** (p - 1) * complex_gradient(y, delta)
@@ -84,8 +84,8 @@ def test_hessian_of_a_hex_is_that_of_differences_of_complex_gradients(case, seed
 def test_what_softened_energy_falls_below_zero_counts_as_zero(seed):
     x = UNIT_CUBE + 0.01 * np.random.default_rng(seed).uniform(-1, 1, (8, 3))
     gradient, product = np.empty((8, 3)), np.empty((8, 3))
-    assert hexahedron.gradient(x, 0.5, gradient) < 0
-    hexahedron.product(x, np.ones((8, 3)), 0.5, 2.0, gradient, product)
+    assert hexahedron.gradient(x, 0.5, 0, gradient) < 0
+    hexahedron.product(x, np.ones((8, 3)), 0.5, 2.0, 0, gradient, product)
     assert (product == 0).all()
 
 
@@ -131,9 +131,9 @@ def test_a_mesh_is_assembled_in_batches_of_any_size(monkeypatch):
 def test_a_translation_is_no_change():
     mesh = Mesh(UNIT_CUBE + 0.2 * np.random.default_rng(0).uniform(-1, 1, (8, 3)), [range(8)])
     gradient, product = np.empty((8, 3)), np.empty((8, 3))
-    hexahedron.gradient(mesh.points, 0.0, gradient)
+    hexahedron.gradient(mesh.points, 0.0, 0, gradient)
     np.testing.assert_allclose(gradient.sum(axis=0), 0, atol=1e-13)
-    hexahedron.product(mesh.points, np.ones((8, 3)), 0.0, 2.0, gradient, product)
+    hexahedron.product(mesh.points, np.ones((8, 3)), 0.0, 2.0, 0, gradient, product)
     np.testing.assert_allclose(product, 0, atol=1e-12)
 
 

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, energies
+from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import hexahedron, objective
 from hexmend.quality.measure import read_only
 from tests.core.grids import grid, scrambled
@@ -25,36 +26,43 @@ cases = {
     "case": st.sampled_from([(0.15, 0.0), (0.15, 0.1), (0.9, 0.02), (3.0, 0.5)]),
     "p": st.sampled_from([1.0, 2.0, 3.5]),
     "seed": st.integers(0, 2**32 - 1),
+    "share": st.sampled_from([0.0, 0.02, 0.5]),
 }
 
 
+def some_left_out(count, share, seed):
+    """A bit for each tetrahedron of each hex, set for about this share of them."""
+    bits = np.random.default_rng(seed + 1).uniform(size=(count, 8)) < share
+    return np.packbits(bits, axis=1, bitorder="little")[:, 0]
+
+
 @given(**cases)
-def test_energy_and_gradient_are_those_of_the_plain_loop(count, case, p, seed):
+def test_energy_and_gradient_are_those_of_the_plain_loop(count, case, p, seed, share):
     points, hexes = some(count, case[0], seed)
-    delta = case[1]
+    delta, left_out = case[1], some_left_out(count, share, seed)
     blocks, g = np.full((count, 8, 3), np.nan), np.empty((8, 3))
-    objective.gradient(points, hexes, delta, p, blocks)
-    eta = energies(points, hexes, delta)
+    objective.gradient(points, hexes, delta, p, left_out, blocks)
+    eta = energies(points, hexes, delta, left_out)
     for h in range(count):
-        energy = hexahedron.gradient(points[hexes[h]], delta, g)
+        energy = hexahedron.gradient(points[hexes[h]], delta, left_out[h], g)
         expected = hexahedron.weights(energy, p)[0] * g
         assert eta[h] == pytest.approx(max(energy, 0), rel=1e-12, abs=1e-14)
         np.testing.assert_allclose(blocks[h], expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
 
 
 @given(**cases)
-def test_the_product_is_that_of_the_plain_loop(count, case, p, seed):
+def test_the_product_is_that_of_the_plain_loop(count, case, p, seed, share):
     points, hexes = some(count, case[0], seed)
-    delta = case[1]
+    delta, left_out = case[1], some_left_out(count, share, seed)
     random = np.random.default_rng(seed)
     values = random.normal(size=(len(points) // 2, 3))
     slots = np.where(hexes % 2 == 0, hexes // 2, -1).astype(np.int32)  # odd nodes are fixed
     slots[slots >= len(values)] = -1
     blocks, g, hv = np.full((count, 8, 3), np.nan), np.empty((8, 3)), np.empty((8, 3))
-    objective.hessian_product(points, hexes, slots, values, delta, p, blocks)
+    objective.hessian_product(points, hexes, slots, values, delta, p, left_out, blocks)
     for h in range(count):
         v = np.where(slots[h][:, None] >= 0, values[slots[h]], 0.0)
-        hexahedron.product(points[hexes[h]], v, delta, p, g, hv)
+        hexahedron.product(points[hexes[h]], v, delta, p, left_out[h], g, hv)
         np.testing.assert_allclose(blocks[h], hv, rtol=1e-10, atol=1e-11 * max(np.abs(hv).max(), 1e-300))
 
 
@@ -79,3 +87,55 @@ def test_flat_and_inverted_hexes_have_infinite_energy_and_no_other_has():
 def test_a_batch_of_no_hexes_is_none():
     energy = MeshEnergy(grid(2))
     assert energies(energy.mesh.points, np.empty((0, 8), np.int32)).shape == (0,)
+
+
+@given(**cases)
+def test_diagonal_blocks_are_those_of_the_product(count, case, p, seed, share):
+    points, hexes = some(count, case[0], seed)
+    delta, left_out = case[1], some_left_out(count, share, seed)
+    own, g, hv = np.full((count, 8, 6), np.nan), np.empty((8, 3)), np.empty((8, 3))
+    objective.diagonal_blocks(points, hexes, delta, p, left_out, own)
+    for h in range(0, count, 17):
+        for corner in range(8):
+            full = np.empty((3, 3))
+            for k in range(3):
+                v = np.zeros((8, 3))
+                v[corner, k] = 1.0
+                hexahedron.product(points[hexes[h]], v, delta, p, left_out[h], g, hv)
+                full[k] = hv[corner]
+            size = max(np.abs(full).max(), 1e-300)
+            np.testing.assert_allclose(own[h, corner], full[np.triu_indices(3)], rtol=1e-9, atol=1e-10 * size)
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.05]))
+def test_what_is_left_out_counts_as_perfect_and_moves_nothing(seed, delta):
+    points, hexes = some(40, 0.2, seed)
+    whole = np.full(40, 0xFF, np.uint8)
+    blocks = np.full((40, 8, 3), np.nan)
+    assert (energies(points, hexes, delta, whole) == 0).all()
+    objective.gradient(points, hexes, delta, 2.0, whole, blocks)
+    assert (blocks == 0).all()
+    one = np.full(40, 0b100, np.uint8)
+    edges = points[hexes[:, [1, 6, 3]]] - points[hexes[:, [2]]]  # tetrahedron 2 is that of corner 2
+    sigma = np.linalg.det(edges)
+    h = (sigma + np.sqrt(sigma**2 + 4 * delta**2)) / 2
+    alone = (edges**2).sum(axis=(1, 2)) / (3 * h ** (2 / 3))
+    full, rest = energies(points, hexes, delta), energies(points, hexes, delta, one)
+    positive = (full > 0) & (rest > 0)  # below zero, where delta may take it, energy counts as zero
+    assert positive.sum() > 20
+    np.testing.assert_allclose((full - rest)[positive], ((alone - 1) / 8)[positive], atol=1e-9)
+
+
+def test_an_inverted_tetrahedron_that_is_left_out_makes_no_energy_infinite():
+    mesh = scrambled(grid(5), 1.0)
+    sigma = np.linalg.det(
+        mesh.points[mesh.hexes[:, CORNER_TETRAHEDRA[:, 1:]]] - mesh.points[mesh.hexes[:, CORNER_TETRAHEDRA[:, :1]]]
+    )
+    left_out = np.packbits(sigma <= 0, axis=1, bitorder="little")[:, 0]
+    assert 0 < np.count_nonzero(left_out) < mesh.n_hexes
+    energy = MeshEnergy(mesh, 2.0, left_out)
+    x = energy.scaled(mesh.points)
+    assert np.isfinite(energy.value(x))
+    assert np.isfinite(energy.gradient(x)).all()
+    assert np.isfinite(energy.hessian(x) @ np.ones(3 * energy.nodes.size)).all()
+    assert np.isfinite(energy.hessian(x).diagonal_blocks()).all()

@@ -8,7 +8,9 @@ from hexmend.kernels import objective as kernels
 from hexmend.quality.measure import read_only
 
 
-def energies(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0) -> np.ndarray:
+def energies(
+    points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, left_out: np.ndarray | None = None
+) -> np.ndarray:
     """Energy of every hex: mean of eta(T) over its corners minus 1.
 
     Parameters
@@ -17,6 +19,8 @@ def energies(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0) -> np.nd
     hexes : (m, 8) int32
     delta : float
         In the unit of sigma, the cube of the points' unit of length.
+    left_out : (m,) uint8, optional
+        Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
 
     Returns
     -------
@@ -30,7 +34,8 @@ def energies(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0) -> np.nd
     array([0.])
     """
     eta = np.empty(len(hexes))
-    kernels.energies(read_only(points), read_only(hexes), float(delta), eta)
+    out = np.zeros(len(hexes), np.uint8) if left_out is None else left_out
+    kernels.energies(read_only(points), read_only(hexes), float(delta), out, eta)
     return eta
 
 

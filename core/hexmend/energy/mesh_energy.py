@@ -27,6 +27,8 @@ class MeshEnergy:
     mesh : Mesh
     p : float
         At least 1.
+    left_out : (m,) uint8, optional
+        Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
 
     Attributes
     ----------
@@ -45,9 +47,10 @@ class MeshEnergy:
     (0.0, (8, 3))
     """
 
-    def __init__(self, mesh: Mesh, p: float = 2.0):
+    def __init__(self, mesh: Mesh, p: float = 2.0, left_out: np.ndarray | None = None):
         self.mesh = mesh
         self.p = p
+        self.left_out = np.zeros(mesh.n_hexes, np.uint8) if left_out is None else left_out
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
         self._blocks = np.empty((mesh.n_hexes, 8, 3))
@@ -77,12 +80,12 @@ class MeshEnergy:
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Sum of eta(H)^p at points x (n, 3); +inf at delta = 0 while any hex is inverted."""
-        eta = energies(x, self.mesh.hexes, delta)
+        eta = energies(x, self.mesh.hexes, delta, self.left_out)
         return float((np.square(eta) if self.p == 2 else np.power(eta, self.p)).sum())
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Derivative of `value` by the free nodes, (k, 3): (B.3), (B.21), (C.2)."""
-        kernels.gradient(read_only(x), self.mesh.hexes, delta, self.p, self._blocks)
+        kernels.gradient(read_only(x), self.mesh.hexes, delta, self.p, self.left_out, self._blocks)
         return self._gathered(self._blocks)
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
@@ -121,6 +124,7 @@ class Hessian(scipy.sparse.linalg.LinearOperator):
             v,
             self.delta,
             energy.p,
+            energy.left_out,
             energy._blocks,
         )
         product = energy._gathered(energy._blocks)
@@ -135,7 +139,7 @@ class Hessian(scipy.sparse.linalg.LinearOperator):
         """The 3 x 3 blocks that couple a node with itself, (k, 3, 3)."""
         energy = self.energy
         blocks = np.empty((energy.mesh.n_hexes, 8, 6))
-        kernels.diagonal_blocks(self.x, energy.mesh.hexes, self.delta, energy.p, blocks)
+        kernels.diagonal_blocks(self.x, energy.mesh.hexes, self.delta, energy.p, energy.left_out, blocks)
         own = energy._gathered(blocks)[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)
         return own + self.shift * np.eye(3)
 
@@ -145,7 +149,7 @@ class Hessian(scipy.sparse.linalg.LinearOperator):
         for first in range(0, energy.mesh.n_hexes, _BATCH):
             slots = energy.slots[first : first + _BATCH]
             blocks = np.empty((len(slots), 24, 24))
-            kernels.hex_hessians(self.x, energy.mesh.hexes, self.delta, energy.p, first, blocks)
+            kernels.hex_hessians(self.x, energy.mesh.hexes, self.delta, energy.p, energy.left_out, first, blocks)
             unknown = np.where(slots[:, :, None] < 0, -1, 3 * slots[:, :, None] + np.arange(3)).reshape(-1, 24)
             row, column = np.broadcast_arrays(unknown[:, :, None], unknown[:, None, :])
             free = (row >= 0) & (column >= 0)

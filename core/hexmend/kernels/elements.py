@@ -5,21 +5,10 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import CHUNK, lanes, parallel, serial
+from hexmend.kernels.hexahedron import corner_edges
 from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, SUM, WORK, S
 from hexmend.kernels.shape import determinant, power_minus_two_thirds
-
-
-@serial
-def corner_edges(x, t):
-    """The columns of S at corner tetrahedron t: edges from its apex; x is (8, 3)."""
-    a, b, c, d = CORNER_TETRAHEDRA[t, 0], CORNER_TETRAHEDRA[t, 1], CORNER_TETRAHEDRA[t, 2], CORNER_TETRAHEDRA[t, 3]
-    return (
-        x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2],
-        x[c, 0] - x[a, 0], x[c, 1] - x[a, 1], x[c, 2] - x[a, 2],
-        x[d, 0] - x[a, 0], x[d, 1] - x[a, 1], x[d, 2] - x[a, 2],
-    )  # fmt: skip
 
 
 @serial

@@ -7,7 +7,17 @@ from __future__ import annotations
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import serial, tetrahedron
-from hexmend.kernels.elements import corner_edges
+
+
+@serial
+def corner_edges(x, t):
+    """The columns of S at corner tetrahedron t: edges from its apex; x is (8, 3)."""
+    a, b, c, d = CORNER_TETRAHEDRA[t, 0], CORNER_TETRAHEDRA[t, 1], CORNER_TETRAHEDRA[t, 2], CORNER_TETRAHEDRA[t, 3]
+    return (
+        x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2],
+        x[c, 0] - x[a, 0], x[c, 1] - x[a, 1], x[c, 2] - x[a, 2],
+        x[d, 0] - x[a, 0], x[d, 1] - x[a, 1], x[d, 2] - x[a, 2],
+    )  # fmt: skip
 
 
 @serial
@@ -23,6 +33,21 @@ def weights(energy, p):
         return 0.0, 0.0
     first = p * energy ** (p - 1)
     return first, (p - 1) * first / energy
+
+
+@serial
+def kept(left_out, t):
+    """1 for a corner tetrahedron that counts, 0 for one whose bit is set in `left_out`."""
+    return 1.0 - ((left_out >> t) & 1)
+
+
+@serial
+def left_out_count(left_out):
+    """How many bits are set: as many tetrahedra count as perfect."""
+    total = 0.0
+    for t in range(8):
+        total += (left_out >> t) & 1
+    return total
 
 
 @serial
@@ -44,21 +69,23 @@ def scatter(t, ux, uy, uz, vx, vy, vz, wx, wy, wz, to):
 
 
 @serial
-def gradient(x, delta, g):
+def gradient(x, delta, left_out, g):
     """eta(H) before it is clamped at 0, and its gradient by the corners: (B.3), (B.20), (B.21).
 
     Parameters
     ----------
     x : (8, 3) float64
     delta : float
+    left_out : int
+        Bit t set: tetrahedron t counts as perfect.
     g : (8, 3) float64, written
     """
     g[:] = 0.0
-    total = 0.0
+    total = left_out_count(left_out)
     for t in range(8):
         ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
         eta, gux, guy, guz, gvx, gvy, gvz, gwx, gwy, gwz = tetrahedron.gradient(
-            ux, uy, uz, vx, vy, vz, wx, wy, wz, delta
+            ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, kept(left_out, t)
         )
         total += eta
         scatter(t, gux, guy, guz, gvx, gvy, gvz, gwx, gwy, gwz, g)
@@ -66,7 +93,7 @@ def gradient(x, delta, g):
 
 
 @serial
-def product(x, v, delta, p, g, hv):
+def product(x, v, delta, p, left_out, g, hv):
     """Hessian of max(eta(H), 0)^p times a displacement of the corners: (B.19) mended, (B.22), (C.1).
 
     Parameters
@@ -74,13 +101,15 @@ def product(x, v, delta, p, g, hv):
     x, v : (8, 3) float64
         Corners and their displacements.
     delta, p : float
+    left_out : int
+        Bit t set: tetrahedron t counts as perfect.
     g : (8, 3) float64, written
         Gradient of eta(H).
     hv : (8, 3) float64, written
     """
     g[:] = 0.0
     hv[:] = 0.0
-    total, slope = 0.0, 0.0
+    total, slope = left_out_count(left_out), 0.0
     for t in range(8):
         ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
         aux, auy, auz, avx, avy, avz, awx, awy, awz = corner_edges(v, t)
@@ -89,7 +118,7 @@ def product(x, v, delta, p, g, hv):
             gux, guy, guz, gvx, gvy, gvz, gwx, gwy, gwz,
             hux, huy, huz, hvx, hvy, hvz, hwx, hwy, hwz,
         ) = tetrahedron.product(
-            ux, uy, uz, vx, vy, vz, wx, wy, wz, aux, auy, auz, avx, avy, avz, awx, awy, awz, delta
+            ux, uy, uz, vx, vy, vz, wx, wy, wz, aux, auy, auz, avx, avy, avz, awx, awy, awz, delta, kept(left_out, t)
         )  # fmt: skip
         total += eta
         slope += along
@@ -102,21 +131,25 @@ def product(x, v, delta, p, g, hv):
 
 
 @serial
-def own_blocks(x, delta, p, g, own):
+def own_blocks(x, delta, p, left_out, g, own):
     """Second derivatives of max(eta(H), 0)^p by each corner alone; writes own (8, 6): xx xy xz yy yz zz.
 
     Parameters
     ----------
     x : (8, 3) float64
     delta, p : float
+    left_out : int
+        Bit t set: tetrahedron t counts as perfect.
     g : (8, 3) float64, written
         Gradient of eta(H).
     """
-    first, second = weights(gradient(x, delta, g), p)
+    first, second = weights(gradient(x, delta, left_out, g), p)
     own[:] = 0.0
     for t in range(8):
         ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
-        f, square, sigma, r = tetrahedron.energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta)
+        if not kept(left_out, t) > 0:
+            continue
+        f, square, sigma, r = tetrahedron.energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, 1.0)
         cux, cuy, cuz, cvx, cvy, cvz, cwx, cwy, cwz = tetrahedron.cofactors(ux, uy, uz, vx, vy, vz, wx, wy, wz)
         a, b, c, d = CORNER_TETRAHEDRA[t, 0], CORNER_TETRAHEDRA[t, 1], CORNER_TETRAHEDRA[t, 2], CORNER_TETRAHEDRA[t, 3]
         add_own(own[b], f, square, sigma, r, 1.0, ux, uy, uz, cux, cuy, cuz)

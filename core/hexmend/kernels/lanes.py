@@ -14,6 +14,7 @@ import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import serial
+from hexmend.kernels.hexahedron import kept, left_out_count
 
 #: Hexes in a block.
 LANES = 64
@@ -22,13 +23,13 @@ LANES = 64
 ALL = np.uint64(LANES)
 
 #: Rows of an array of work, by where they begin: nine of S, nine of a direction of it, nine of a derivative, nine of
-#: another, two of sums.
-ROW = tuple(np.uint64(k * LANES) for k in range(38))
+#: another, two of sums, one that says which tetrahedra count.
+ROW = tuple(np.uint64(k * LANES) for k in range(39))
 S, A, G, H = ROW[0], ROW[9], ROW[18], ROW[27]
-SUM, SLOPE = ROW[36], ROW[37]
+SUM, SLOPE, KEEP = ROW[36], ROW[37], ROW[38]
 
 #: Length of an array of work, and of one that holds a vector at eight corners.
-WORK, CORNERS = 38 * LANES, 24 * LANES
+WORK, CORNERS = 39 * LANES, 24 * LANES
 
 
 @serial
@@ -47,6 +48,35 @@ def load(values, rows, first, count, x):
             i = rows[h, c]
             for k in range(3):
                 x[(3 * c + k) * LANES + lane] = values[i, k] if i >= 0 else 0.0
+
+
+@serial
+def start_sums(left_out, first, count, w):
+    """Set the sums of a block: tetrahedra that are left out count as perfect. Returns whether there are any.
+
+    Parameters
+    ----------
+    left_out : (m,) uint8
+        Bit t set: tetrahedron t of the hex is left out.
+    """
+    some = False
+    for lane in range(ALL):
+        w[SUM + lane] = 0.0
+        w[SLOPE + lane] = 0.0
+        w[KEEP + lane] = 1.0
+    for lane in range(count):
+        bits = left_out[first + lane]
+        if bits:
+            some = True
+            w[SUM + np.uint64(lane)] = left_out_count(bits)
+    return some
+
+
+@serial
+def select(left_out, first, count, t, w):
+    """Set the row that says of which hexes tetrahedron t counts."""
+    for lane in range(count):
+        w[KEEP + np.uint64(lane)] = kept(left_out[first + lane], t)
 
 
 @serial

@@ -12,7 +12,25 @@ import numpy as np
 from hexmend.kernels import CHUNK, hexahedron, parallel, serial, tetrahedron
 from hexmend.kernels.elements import load as load_hex
 from hexmend.kernels.hexahedron import weights
-from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, SLOPE, SUM, WORK, A, G, H, S, edges, load, scatter
+from hexmend.kernels.lanes import (
+    ALL,
+    CORNERS,
+    KEEP,
+    LANES,
+    ROW,
+    SLOPE,
+    SUM,
+    WORK,
+    A,
+    G,
+    H,
+    S,
+    edges,
+    load,
+    scatter,
+    select,
+    start_sums,
+)
 
 
 @serial
@@ -22,7 +40,7 @@ def _add_energies(w, delta):
         f, square, _, _ = tetrahedron.energy(
             w[ROW[0] + i], w[ROW[1] + i], w[ROW[2] + i],
             w[ROW[3] + i], w[ROW[4] + i], w[ROW[5] + i],
-            w[ROW[6] + i], w[ROW[7] + i], w[ROW[8] + i], delta,
+            w[ROW[6] + i], w[ROW[7] + i], w[ROW[8] + i], delta, w[KEEP + i],
         )  # fmt: skip
         w[SUM + i] += f * square
 
@@ -34,7 +52,7 @@ def _gradients(w, delta):
         eta, gux, guy, guz, gvx, gvy, gvz, gwx, gwy, gwz = tetrahedron.gradient(
             w[ROW[0] + i], w[ROW[1] + i], w[ROW[2] + i],
             w[ROW[3] + i], w[ROW[4] + i], w[ROW[5] + i],
-            w[ROW[6] + i], w[ROW[7] + i], w[ROW[8] + i], delta,
+            w[ROW[6] + i], w[ROW[7] + i], w[ROW[8] + i], delta, w[KEEP + i],
         )  # fmt: skip
         w[SUM + i] += eta
         w[ROW[18] + i], w[ROW[19] + i], w[ROW[20] + i] = gux, guy, guz
@@ -56,7 +74,7 @@ def _products(w, delta):
             w[ROW[6] + i], w[ROW[7] + i], w[ROW[8] + i],
             w[ROW[9] + i], w[ROW[10] + i], w[ROW[11] + i],
             w[ROW[12] + i], w[ROW[13] + i], w[ROW[14] + i],
-            w[ROW[15] + i], w[ROW[16] + i], w[ROW[17] + i], delta,
+            w[ROW[15] + i], w[ROW[16] + i], w[ROW[17] + i], delta, w[KEEP + i],
         )  # fmt: skip
         w[SUM + i] += eta
         w[SLOPE + i] += along
@@ -69,7 +87,7 @@ def _products(w, delta):
 
 
 @parallel
-def energies(points, hexes, delta, eta):
+def energies(points, hexes, delta, left_out, eta):
     """eta(H) of every hex with the barrier of (3.2) softened by delta, in the unit of sigma; writes eta (m,)."""
     m = hexes.shape[0]
     for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
@@ -78,8 +96,10 @@ def energies(points, hexes, delta, eta):
         for begin in range(chunk * CHUNK, end, LANES):
             count = min(LANES, end - begin)
             load(points, hexes, begin, count, x)
-            w[SUM:] = 0.0
+            some = start_sums(left_out, begin, count, w)
             for t in range(8):
+                if some:
+                    select(left_out, begin, count, t, w)
                 edges(x, t, w, S)
                 _add_energies(w, delta)
             for i in range(count):
@@ -87,7 +107,7 @@ def energies(points, hexes, delta, eta):
 
 
 @parallel
-def gradient(points, hexes, delta, p, blocks):
+def gradient(points, hexes, delta, p, left_out, blocks):
     """Gradient of sum eta(H)^p by the corners of every hex; writes blocks (m, 8, 3).
 
     Parameters
@@ -95,6 +115,8 @@ def gradient(points, hexes, delta, p, blocks):
     points : (n, 3) float64
     hexes : (m, 8) int32
     delta, p : float
+    left_out : (m,) uint8
+        Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
     """
     m = hexes.shape[0]
     for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
@@ -103,9 +125,11 @@ def gradient(points, hexes, delta, p, blocks):
         for begin in range(chunk * CHUNK, end, LANES):
             count = min(LANES, end - begin)
             load(points, hexes, begin, count, x)
-            w[SUM:] = 0.0
+            some = start_sums(left_out, begin, count, w)
             g[:] = 0.0
             for t in range(8):
+                if some:
+                    select(left_out, begin, count, t, w)
                 edges(x, t, w, S)
                 _gradients(w, delta)
                 scatter(w, G, t, g)
@@ -117,7 +141,7 @@ def gradient(points, hexes, delta, p, blocks):
 
 
 @parallel
-def hessian_product(points, hexes, slots, values, delta, p, blocks):
+def hessian_product(points, hexes, slots, values, delta, p, left_out, blocks):
     """Hessian of sum eta(H)^p times a displacement of the free nodes; writes blocks (m, 8, 3).
 
     Parameters
@@ -128,6 +152,8 @@ def hessian_product(points, hexes, slots, values, delta, p, blocks):
         Number of each corner among the free nodes, -1 if it is fixed.
     values : (free nodes, 3) float64
     delta, p : float
+    left_out : (m,) uint8
+        Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
     """
     m = hexes.shape[0]
     for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
@@ -138,10 +164,12 @@ def hessian_product(points, hexes, slots, values, delta, p, blocks):
             count = min(LANES, end - begin)
             load(points, hexes, begin, count, x)
             load(values, slots, begin, count, a)
-            w[SUM:] = 0.0
+            some = start_sums(left_out, begin, count, w)
             g[:] = 0.0
             hv[:] = 0.0
             for t in range(8):
+                if some:
+                    select(left_out, begin, count, t, w)
                 edges(x, t, w, S)
                 edges(a, t, w, A)
                 _products(w, delta)
@@ -157,28 +185,28 @@ def hessian_product(points, hexes, slots, values, delta, p, blocks):
 
 
 @parallel
-def hex_hessians(points, hexes, delta, p, first, blocks):
+def hex_hessians(points, hexes, delta, p, left_out, first, blocks):
     """Hessian of eta(H)^p of the hexes first, first + 1, ... by their corners; writes blocks (count, 24, 24)."""
     for k in numba.prange(blocks.shape[0]):
         x, v, g, hv = np.empty((8, 3)), np.zeros((8, 3)), np.empty((8, 3)), np.empty((8, 3))
         load_hex(points, hexes, first + k, x)
         for j in range(24):
             v[j // 3, j % 3] = 1.0
-            hexahedron.product(x, v, delta, p, g, hv)
+            hexahedron.product(x, v, delta, p, left_out[first + k], g, hv)
             v[j // 3, j % 3] = 0.0
             for i in range(24):
                 blocks[k, i, j] = hv[i // 3, i % 3]
 
 
 @parallel
-def diagonal_blocks(points, hexes, delta, p, blocks):
+def diagonal_blocks(points, hexes, delta, p, left_out, blocks):
     """The 3 x 3 blocks of the Hessian that couple a corner with itself; writes blocks (m, 8, 6): xx xy xz yy yz zz."""
     m = hexes.shape[0]
     for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
         x, g = np.empty((8, 3)), np.empty((8, 3))
         for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
             load_hex(points, hexes, h, x)
-            hexahedron.own_blocks(x, delta, p, g, blocks[h])
+            hexahedron.own_blocks(x, delta, p, left_out[h], g, blocks[h])
 
 
 @parallel

@@ -15,8 +15,7 @@ import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES
 from hexmend.kernels import serial
-from hexmend.kernels.elements import corner_edges
-from hexmend.kernels.hexahedron import add_own, weights
+from hexmend.kernels.hexahedron import add_own, corner_edges, weights
 from hexmend.kernels.shape import TINY, barrier, determinant, power_minus_two_thirds
 
 #: Columns of a patch table.

@@ -28,20 +28,24 @@ def cofactors(ux, uy, uz, vx, vy, vz, wx, wy, wz):
 
 
 @formula
-def energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta):
-    """f, |S|^2, sigma and r; eta(T) is the product of the first two, (3.1)."""
+def energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep):
+    """f, |S|^2, sigma and r; eta(T) is the product of the first two, (3.1).
+
+    Where `keep` is 0 the tetrahedron is left out: f, to which all energies and derivatives are in proportion, is 0.
+    """
     sigma = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
     h, r = barrier(sigma, delta)
     square = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
-    return power_minus_two_thirds(h) * (1.0 / 3.0), square, sigma, r
+    f = power_minus_two_thirds(h) * (1.0 / 3.0)
+    return f if keep > 0 else 0.0, square, sigma, r
 
 
 @formula
-def gradient(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta):
+def gradient(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep):
     """eta(T), and an eighth of its derivative by the nine entries of S: (B.3), the mean of eight being eta(H)."""
-    f, square, _, r = energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta)
+    f, square, _, r = energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep)
     cux, cuy, cuz, cvx, cvy, cvz, cwx, cwy, cwz = cofactors(ux, uy, uz, vx, vy, vz, wx, wy, wz)
-    k, c = f / 4, f * square / (12 * r)
+    k, c = f / 4, f * square / (12 * r) if keep > 0 else 0.0
     return (
         f * square,
         k * ux - c * cux, k * uy - c * cuy, k * uz - c * cuz,
@@ -51,7 +55,7 @@ def gradient(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta):
 
 
 @formula
-def product(ux, uy, uz, vx, vy, vz, wx, wy, wz, aux, auy, auz, avx, avy, avz, awx, awy, awz, delta):
+def product(ux, uy, uz, vx, vy, vz, wx, wy, wz, aux, auy, auz, avx, avy, avz, awx, awy, awz, delta, keep):
     """Along the direction A = [au, av, aw]: (B.3) and (B.19).
 
     Returns
@@ -65,12 +69,12 @@ def product(ux, uy, uz, vx, vy, vz, wx, wy, wz, aux, auy, auz, avx, avy, avz, aw
     nine floats
         d2 eta(A, .)/8 by the entries of S.
     """
-    f, square, sigma, r = energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta)
+    f, square, sigma, r = energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep)
     cux, cuy, cuz, cvx, cvy, cvz, cwx, cwy, cwz = cofactors(ux, uy, uz, vx, vy, vz, wx, wy, wz)
     along_s = aux * ux + auy * uy + auz * uz + avx * vx + avy * vy + avz * vz + awx * wx + awy * wy + awz * wz
     along_c = aux * cux + auy * cuy + auz * cuz + avx * cvx + avy * cvy + avz * cvz
     along_c += awx * cwx + awy * cwy + awz * cwz  # d sigma(A)
-    over_r = 1 / r
+    over_r = 1 / r if keep > 0 else 0.0
     k, c = f / 4, f * square * over_r / 12
     # What multiplies S and C in the second derivative; A itself comes with k, dC with -c.
     mixed = -2.0 / 3.0 * k * over_r
