@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from hexmend.energy import Hessian
-from hexmend.optimise.linear import LinearSolver
+from hexmend.optimise.linear import ConjugateGradients, LinearSolver
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,29 @@ class Newton:
 
 
 @dataclass(frozen=True)
+class TruncatedNewton:
+    """Newton's direction, only as good as the distance from the optimum deserves (Dembo and Steihaug 1983).
+
+    The residual need not be smaller than `loosest` times the gradient while that is large, and falls with it, so that
+    the last steps converge faster than linearly.
+
+    Parameters
+    ----------
+    loosest : float
+        Tolerance of the residual far from the optimum, in (0, 1).
+    iterations : int
+        Most products with the Hessian.
+    """
+
+    loosest: float = 0.1
+    iterations: int = 200
+
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+        tolerance = min(self.loosest, float(np.sqrt(np.linalg.norm(gradient) / max(value, np.finfo(float).tiny))))
+        return Newton(ConjugateGradients(tolerance, self.iterations))(value, gradient, hessian)
+
+
+@dataclass(frozen=True)
 class ModifiedNewton:
     """Algorithm A.4: the same after the least eigenvalue is raised to a thousandth of the greatest."""
 
@@ -65,6 +88,11 @@ class ModifiedNewton:
         if least < 0.001 * greatest:
             hessian = hessian.shifted(0.001 * greatest - least)
         return Newton(self.solver)(value, gradient, hessian)
+
+
+def full(blocks: np.ndarray) -> np.ndarray:
+    """Symmetric blocks (k, 6) as matrices (k, 3, 3)."""
+    return blocks[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)
 
 
 def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
@@ -83,6 +111,6 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
 
     greatest = top(hessian)
     if greatest is None:
-        return 0.0, float(np.linalg.eigvalsh(hessian.diagonal_blocks()).max())
+        return 0.0, float(np.linalg.eigvalsh(full(hessian.diagonal_blocks())).max())
     distance = top(LinearOperator(hessian.shape, matvec=lambda v: greatest * v - hessian @ v, dtype=np.float64))
     return (0.0 if distance is None else greatest - distance), greatest

@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse.linalg
 
 from hexmend.energy import Hessian
+from hexmend.kernels import precondition as kernels
 
 Vector = np.ndarray
 
@@ -59,7 +60,9 @@ class ConjugateGradients:
 
     Parameters
     ----------
-    tolerance, iterations
+    tolerance : float
+        Of the residual, relative to the right-hand side, both in the norm of the preconditioner.
+    iterations : int
         As for `Minres`.
     """
 
@@ -71,7 +74,7 @@ class ConjugateGradients:
         x, r = np.zeros_like(right), right.copy()
         z = precondition(r)
         d, rz = z.copy(), float(r @ z)
-        goal = self.tolerance * float(np.linalg.norm(right))
+        goal = self.tolerance**2 * rz
         for count in range(1, self.iterations + 1):
             hd = hessian @ d
             curvature = float(d @ hd)
@@ -80,24 +83,23 @@ class ConjugateGradients:
             alpha = rz / curvature
             x += alpha * d
             r -= alpha * hd
-            if float(np.linalg.norm(r)) <= goal:
-                return x, count
             z = precondition(r)
             rz, before = float(r @ z), rz
+            if rz <= goal:
+                return x, count
             d *= rz / before
             d += z
         return x, self.iterations
 
 
 def block_jacobi(blocks: np.ndarray) -> Callable[[Vector], Vector]:
-    """Preconditioner from the 3 x 3 diagonal blocks (k, 3, 3), each made positive definite as Algorithm A.4 does."""
-    values, vectors = np.linalg.eigh(blocks)
-    top = np.abs(values).max(axis=1)
-    top[top == 0] = 1.0
-    shift = np.maximum(1e-3 * top - values[:, 0], 0.0)
-    inverse = np.einsum("kia,ka,kja->kij", vectors, 1 / (values + shift[:, None]), vectors)
+    """Preconditioner from the diagonal blocks (k, 6), each made positive definite as Algorithm A.4 does."""
+    inverse = np.empty_like(blocks)
+    kernels.invert_blocks(blocks, inverse)
 
     def apply(r: Vector) -> Vector:
-        return np.einsum("kij,kj->ki", inverse, r.reshape(-1, 3)).ravel()
+        z = np.empty_like(r)
+        kernels.apply_blocks(inverse, r.reshape(-1, 3), z.reshape(-1, 3))
+        return z
 
     return apply

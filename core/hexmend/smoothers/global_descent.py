@@ -5,12 +5,11 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-import numpy as np
-
 from hexmend.energy import POLICIES, MeshEnergy
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
-from hexmend.optimise.direction import Direction, Found, steepest_descent
+from hexmend.optimise.descent import descend
+from hexmend.optimise.direction import Direction
 from hexmend.optimise.line_search import BackLineSearch
 from hexmend.parameters import parameter
 from hexmend.quality import measure
@@ -55,36 +54,11 @@ class GlobalDescent(Smoother):
         yield Step(points)
         while True:
             delta = policy.at(measure(points, mesh.hexes), energy.unit)  # zero in the feasible region, 3.2.4
-            value = energy.value(x, delta)
-            if not np.isfinite(value):  # inverted, and delta is zero
+            taken = descend(energy, x, delta, find, search)
+            if taken is None:  # inverted, and delta is zero
                 return Outcome.NO_DESCENT
-            gradient = energy.gradient(x, delta)
-            if perfect(value, mesh.n_hexes):
-                found, alpha, cuts = Found(np.zeros_like(gradient)), 0.0, 0
-            else:
-                found = find(value, gradient, energy.hessian(x, delta))  # A.2, A.3, A.4
-                if not np.vdot(found.p, gradient) < 0:
-                    found = steepest_descent(value, gradient, energy.hessian(x, delta))
-                alpha, cuts = search(
-                    lambda alpha, x=x, p=found.p, delta=delta: energy.value(energy.moved(x, alpha * p), delta),
-                    value,
-                    float(np.vdot(found.p, gradient)),
-                )  # A.5
-                if alpha == 0:
-                    return Outcome.NO_DESCENT
-            x = energy.moved(x, alpha * found.p)
+            if taken.alpha == 0 and taken.slope < 0:
+                return Outcome.NO_DESCENT
+            x = taken.x
             points = energy.placed(x)
-            notes = {
-                "delta": delta,
-                "gradient_norm": float(np.linalg.norm(gradient)),
-                "step_length": alpha,
-                "cuts": cuts,
-                "solver_iterations": found.solver_iterations,
-                "shift": found.shift,
-            }
-            yield Step(points, notes)
-
-
-def perfect(value: float, hexes: int) -> bool:
-    """Whether every hex is a cube but for rounding, so that gradient and Hessian are nothing but noise."""
-    return value <= hexes * np.finfo(float).eps ** 2
+            yield Step(points, taken.notes(delta))

@@ -1,0 +1,92 @@
+"""One step of all free nodes down an energy: a direction, and as far along it as it descends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.optimise.direction import Direction, Found, steepest_descent
+from hexmend.optimise.line_search import BackLineSearch
+
+
+@dataclass(frozen=True, eq=False)
+class Descent:
+    """A step that was taken.
+
+    Parameters
+    ----------
+    x : (n, 3) float64
+        Where it led, in mean edge lengths.
+    value, slope : float
+        Energy before the step, and its slope along the direction.
+    gradient_norm : float
+        Before the step.
+    found : Found
+        The direction.
+    alpha : float
+        Step length; 0 where none descends, and x is where it was.
+    cuts : int
+        Of the line search.
+    """
+
+    x: np.ndarray
+    value: float
+    slope: float
+    gradient_norm: float
+    found: Found
+    alpha: float
+    cuts: int
+
+    def notes(self, delta: float) -> dict[str, float | int]:
+        """What a `Step` tells of it."""
+        return {
+            "delta": delta,
+            "gradient_norm": self.gradient_norm,
+            "step_length": self.alpha,
+            "cuts": self.cuts,
+            "solver_iterations": self.found.solver_iterations,
+            "shift": self.found.shift,
+        }
+
+
+def descend(
+    energy: MeshEnergy,
+    x: np.ndarray,
+    delta: float,
+    find: Direction,
+    search: BackLineSearch,
+    furthest: float = np.inf,
+) -> Descent | None:
+    """Take one step from x (n, 3); None where the energy is infinite.
+
+    A direction that does not descend is replaced by steepest descent.
+
+    Parameters
+    ----------
+    furthest : float
+        How far the first trial may move a node, in mean edge lengths.
+    """
+    value = energy.value(x, delta)
+    if not np.isfinite(value):
+        return None
+    gradient = energy.gradient(x, delta)
+    norm = float(np.linalg.norm(gradient))
+    if perfect(value, energy.mesh.n_hexes):
+        return Descent(x, value, 0.0, norm, Found(np.zeros_like(gradient)), 0.0, 0)
+    hessian = energy.hessian(x, delta)
+    found = find(value, gradient, hessian)  # A.2, A.3, A.4
+    if not np.vdot(found.p, gradient) < 0:
+        found = steepest_descent(value, gradient, hessian)
+    slope = float(np.vdot(found.p, gradient))
+    if np.isfinite(furthest):
+        longest = float(np.sqrt(np.square(found.p).sum(axis=1).max()))
+        search = replace(search, first=min(search.first, furthest / longest))
+    alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, alpha * found.p), delta), value, slope)  # A.5
+    return Descent(energy.moved(x, alpha * found.p), value, slope, norm, found, alpha, cuts)
+
+
+def perfect(value: float, hexes: int) -> bool:
+    """Whether every hex is a cube but for rounding, so that gradient and Hessian are nothing but noise."""
+    return value <= hexes * np.finfo(float).eps ** 2
