@@ -56,6 +56,10 @@ class Run(Iterator[Iteration]):
     ----------
     start : Iteration
         Number 0: the mesh as given, made ready by the method.
+    last : Iteration
+        The newest.
+    reached : Iteration
+        The one that is the run's result: the last, or, if the method ranks them, the best so far.
     history : list of dict
         `Iteration.row` of every iteration so far, number 0 first.
     outcome : Outcome or None
@@ -78,7 +82,9 @@ class Run(Iterator[Iteration]):
             first = next(self._steps)
         self._unit = mesh.mean_edge_length or 1.0
         self.setup_seconds = perf_counter() - began
-        self.start = self.last = Iteration(0, read_only(first.points), measure(first.points, mesh.hexes), 0.0, 0.0)
+        self.start = self.last = self.reached = Iteration(
+            0, read_only(first.points), measure(first.points, mesh.hexes), 0.0, 0.0
+        )
         self.history = [self.start.row()]
         self.decisions: list[str] = []
         if not mesh.free.any():
@@ -102,6 +108,8 @@ class Run(Iterator[Iteration]):
         figures = step.figures if step.figures is not None else measure(points, self.mesh.hexes)
         self.last = Iteration(self.last.number + 1, points, figures, seconds, move, step.notes)
         self.history.append(self.last.row())
+        if self._rank(self.last) <= self._rank(self.reached):
+            self.reached = self.last
         if step.decision:
             self.decisions.append(step.decision)
         if move < self.stop.tolerance and not step.more and not self._falling():  # Algorithm A.1
@@ -111,6 +119,9 @@ class Run(Iterator[Iteration]):
         elif 0 < self.stop.max_seconds <= seconds:
             self._end(Outcome.MAX_SECONDS)
         return self.last
+
+    def _rank(self, iteration: Iteration) -> tuple[float, ...]:
+        return self.smoother.rank(self.start.figures, iteration.figures) or ()
 
     def _falling(self) -> bool:
         """Whether an optimiser's objective still falls: beside the barrier steps are short, however much they gain."""
@@ -131,20 +142,25 @@ class Run(Iterator[Iteration]):
     @property
     def message(self) -> str:
         """What has been reached and why the run ended, in sentences."""
-        at, inverted = self.last, self.last.figures.n_inverted
+        at, inverted = self.last, self.reached.figures.n_inverted
         said = self.outcome.value if self.outcome is not None else "Running."
         count = f"{at.number} iteration{'s' * (at.number != 1)}"
         left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
-        return " ".join([said, f"{count} in {at.seconds:.3g} s; {move}{left}.", *self.decisions])
+        kept = (
+            ""
+            if self.reached is self.last
+            else f"Kept is iteration {self.reached.number}, better than what came after."
+        )
+        return " ".join(filter(None, [said, f"{count} in {at.seconds:.3g} s; {move}{left}.", *self.decisions, kept]))
 
     def result(self) -> Result:
         """The record of the run as far as it went."""
-        mesh = self.mesh.with_points(self.last.points)
+        mesh = self.mesh.with_points(self.reached.points)
         return Result(
             mesh=mesh,
             before=summarise(self.mesh, self.start.figures),
-            after=summarise(mesh, self.last.figures),
+            after=summarise(mesh, self.reached.figures),
             method=self.smoother.name,
             parameters=self.smoother.values(),
             outcome=self.outcome or Outcome.STOPPED,

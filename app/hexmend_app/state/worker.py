@@ -103,15 +103,20 @@ class Worker(QThread):
             while self._may_go_on(run):
                 iteration = next(run, None)
                 if iteration is not None:
-                    moved = mesh.with_points(iteration.points)
-                    self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)))
-                    self.mailbox.put(self.last)
+                    self._report(iteration)
             run.close()
+            if run.reached is not run.last:
+                self._report(run.reached)
             self.result = run.result()
         except Exception as error:  # whatever it is, the window has to say it
             self.error = error
         finally:
             self.prepared.set()
+
+    def _report(self, iteration: Iteration) -> None:
+        moved = self._order[0].with_points(iteration.points)
+        self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)))
+        self.mailbox.put(self.last)
 
     def _may_go_on(self, run: Run) -> bool:
         with self._gate:

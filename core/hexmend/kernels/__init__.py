@@ -67,5 +67,6 @@ parallel = _compiled(parallel=True, fastmath={"contract"})
 #: A formula that its callers take in whole, as a loop over lanes needs it to be.
 formula = _compiled(fastmath={"contract"}, forceinline=True)
 
-#: The same, every operation rounded on its own: its result is the same to the last bit wherever it stands.
-exact = _compiled(forceinline=True)
+#: The same, every operation rounded on its own: its result is the same to the last bit wherever it stands. (What is not
+#: said is inherited from the caller.)
+exact = _compiled(fastmath=False, forceinline=True)

@@ -34,10 +34,17 @@ def energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep):
     Where `keep` is 0 the tetrahedron is left out: f, to which all energies and derivatives are in proportion, is 0.
     """
     sigma = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+    f, square, r = _energy(sigma, ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep)
+    return f, square, sigma, r
+
+
+@formula
+def _energy(sigma, ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep):
+    """f, |S|^2 and r where sigma is known."""
     h, r = barrier(sigma, delta)
     square = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
     f = power_minus_two_thirds(h) * (1.0 / 3.0)
-    return f if keep > 0 else 0.0, square, sigma, r
+    return f if keep > 0 else 0.0, square, r
 
 
 @formula
@@ -69,8 +76,9 @@ def product(ux, uy, uz, vx, vy, vz, wx, wy, wz, aux, auy, auz, avx, avy, avz, aw
     nine floats
         d2 eta(A, .)/8 by the entries of S.
     """
-    f, square, sigma, r = energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep)
     cux, cuy, cuz, cvx, cvy, cvz, cwx, cwy, cwz = cofactors(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+    sigma = ux * cux + uy * cuy + uz * cuz  # not to the last bit the determinant, but at hand
+    f, square, r = _energy(sigma, ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep)
     along_s = aux * ux + auy * uy + auz * uz + avx * vx + avy * vy + avz * vz + awx * wx + awy * wy + awz * wz
     along_c = aux * cux + auy * cuy + auz * cuz + avx * cvx + avy * cvy + avz * cvz
     along_c += awx * cwx + awy * cwy + awz * cwz  # d sigma(A)

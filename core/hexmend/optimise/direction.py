@@ -58,22 +58,24 @@ class Newton:
 class TruncatedNewton:
     """Newton's direction, only as good as the distance from the optimum deserves (Dembo and Steihaug 1983).
 
-    The residual need not be smaller than `loosest` times the gradient while that is large, and falls with it, so that
-    the last steps converge faster than linearly.
+    The tolerance of the residual follows the gradient between two bounds: products with the Hessian that would make the
+    direction better than the quadratic model is good are saved.
 
     Parameters
     ----------
-    loosest : float
-        Tolerance of the residual far from the optimum, in (0, 1).
+    loosest, tightest : float
+        Tolerance far from the optimum and near it, in (0, 1).
     iterations : int
         Most products with the Hessian.
     """
 
-    loosest: float = 0.1
+    loosest: float = 0.2
+    tightest: float = 0.05
     iterations: int = 200
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
-        tolerance = min(self.loosest, float(np.sqrt(np.linalg.norm(gradient) / max(value, np.finfo(float).tiny))))
+        share = np.sqrt(np.linalg.norm(gradient) / max(value, np.finfo(float).tiny))
+        tolerance = float(np.clip(share, self.tightest, self.loosest))
         return Newton(ConjugateGradients(tolerance, self.iterations))(value, gradient, hessian)
 
 

@@ -1,6 +1,6 @@
 """Quality of hexes and of meshes: one metric a file, and the summary."""
 
-from hexmend.quality.measure import ElementQuality, locked, measure
+from hexmend.quality.measure import ElementQuality, corner_determinants, locked, measure
 from hexmend.quality.metric import METRICS, Metric
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
 from hexmend.quality.shape import Q
@@ -13,6 +13,7 @@ __all__ = [
     "Metric",
     "Q",
     "Summary",
+    "corner_determinants",
     "locked",
     "measure",
     "objective",

@@ -79,13 +79,27 @@ def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: n
     (m,) bool
     """
     where = np.flatnonzero(inverted)
-    corners = hexes[where][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
-    x = points[corners]
-    held = fixed[corners].all(axis=2)
-    edges = x[:, :, 1:] - x[:, :, :1]
+    held = fixed[hexes[where][:, CORNER_TETRAHEDRA]].all(axis=2)
     answer = np.zeros(len(hexes), dtype=bool)
-    answer[where] = (held & ~(np.linalg.det(edges) > 0)).any(axis=1)
+    answer[where] = (held & ~(corner_determinants(points, hexes[where]) > 0)).any(axis=1)
     return answer
+
+
+def corner_determinants(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """sigma of the eight corner tetrahedra of every hex, (m, 8), (2.9): to the last bit what `measure` judges by.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int
+    """
+    x = points[hexes[:, CORNER_TETRAHEDRA]]
+    u, v, w = np.moveaxis(x[:, :, 1:] - x[:, :, :1], (2, 3), (0, 1))
+    return (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        + u[1] * (v[2] * w[0] - v[0] * w[2])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )  # fmt: skip
 
 
 def read_only(array: np.ndarray) -> np.ndarray:

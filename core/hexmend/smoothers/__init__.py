@@ -12,6 +12,6 @@ for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
 #: The method that is used where none is named.
-DEFAULT_METHOD = "local-sd"
+DEFAULT_METHOD = "mend"
 
 __all__ = ["DEFAULT_METHOD", "METHODS", "Smoother"]

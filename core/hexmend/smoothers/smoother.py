@@ -10,6 +10,7 @@ from typing import Any, ClassVar, TypeAlias, TypeVar
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import Parametrised, declared
+from hexmend.quality import ElementQuality
 from hexmend.registry import Registry
 
 #: What a smoother's `steps` gives.
@@ -40,6 +41,10 @@ class Smoother(Parametrised, ABC):
         The generator goes on until nobody asks for more, or returns the outcome where the method has no further step.
         Yielded arrays are never changed afterwards; rows of fixed nodes stay as they are to the last bit.
         """
+
+    def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...] | None:
+        """What an iterate is kept for, the lower the better; None for a method whose last iterate is its result."""
+        return None
 
     @classmethod
     def to_json(cls) -> dict[str, Any]:

@@ -1,0 +1,166 @@
+"""Mend: untangle by a decreasing sequence of delta, then the optimum behind the barrier."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh import Mesh
+from hexmend.optimise import Outcome, Step
+from hexmend.optimise.descent import Descent, descend
+from hexmend.optimise.direction import TruncatedNewton
+from hexmend.optimise.line_search import BackLineSearch
+from hexmend.parameters import parameter
+from hexmend.quality import ElementQuality, corner_determinants, measure
+from hexmend.smoothers.smoother import Smoother, Steps, method
+
+#: Newton steps on one delta; the energy is not worth minimising before delta is what it is to be.
+STEPS = 3
+#: By what factor e of delta^2 = e (e - worst) falls from one delta to the next, and where nothing more can be expected.
+FALL, LEAST = 0.7, 1e-9
+#: The largest delta: beyond it, the energy of a flat hex is that of a cube.
+LARGEST = 0.5
+#: Deltas in a row without a hex more mended after which the rest is given up.
+PATIENCE = 14
+#: How far, in mean edge lengths, a first trial step may take a node.
+FURTHEST = 3.0
+#: A raise of p is complete when a step moves no node further than this, in mean edge lengths.
+SETTLED = 1e-3
+
+SEARCH = BackLineSearch(shrink=0.5)
+
+
+@method
+@dataclass(frozen=True)
+class Mend(Smoother):
+    """Every free node at once by truncated Newton steps, on a barrier that hardens until no hex is inverted."""
+
+    name = "mend"
+    title = "Mend"
+    help = "Untangles whatever its fixed nodes allow, then goes to the optimum. Never ends worse than it began."
+    source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
+    optimises = True
+
+    p: float = parameter(
+        2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
+    )
+    highest_p: float = parameter(
+        1.0, low=1, high=32, help="If higher than p: at the optimum p is doubled until it is this, for the worst hexes."
+    )
+    softness: float = parameter(
+        0.03,
+        low=1e-6,
+        high=1,
+        unit="mean edge length³",
+        help="e of the first delta, δ² = e (e − worst determinant); it falls until no hex is inverted.",
+    )
+    guard: bool = parameter(
+        False, help="Keep the best iterate that lowers neither the least q(H) nor the least scaled Jacobian."
+    )
+    solver_iterations: int = parameter(
+        200, low=1, high=10**6, help="Most iterations of conjugate gradients for a Newton step."
+    )
+
+    def steps(self, mesh: Mesh) -> Steps:
+        yield Step(mesh.points)
+        locked = _locked_corners(mesh)
+        points, left_out = yield from self._untangled(mesh, locked)
+        return (yield from self._optimum(mesh, points, left_out))
+
+    def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
+        """Inverted hexes first, then whether a guarded figure is lower than at the start, then whether the objective of
+        the sound hexes is higher; of equals the last is kept.
+        """
+        fallen = now.q.min() < start.q.min() or now.scaled_jacobian.min() < start.scaled_jacobian.min()
+        before, after = (np.power(figures.eta[~figures.inverted], self.p).sum() for figures in (start, now))
+        return now.n_inverted, self.guard and fallen, after > before
+
+    def _direction(self) -> TruncatedNewton:
+        return TruncatedNewton(iterations=self.solver_iterations)
+
+    def _untangled(self, mesh: Mesh, locked: np.ndarray) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
+        """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
+        energy = MeshEnergy(mesh, self.p, locked)
+        points, x, e = mesh.points, energy.scaled(mesh.points), self.softness
+        tangled, worst = _tangled(points, mesh.hexes, locked)
+        least, idle, count = tangled, 0, 0
+        while tangled and idle < PATIENCE and e > LEAST:
+            delta = min(LARGEST, float(np.sqrt(e * (e - min(worst / energy.unit**3, 0.0)))))
+            for _ in range(STEPS):
+                taken = descend(energy, x, delta, self._direction(), SEARCH, FURTHEST)
+                if taken is None or taken.alpha == 0:
+                    break
+                x, points, count = taken.x, energy.placed(taken.x), count + 1
+                figures = measure(points, mesh.hexes)
+                yield Step(points, taken.notes(delta), more=True, figures=figures)
+                tangled, worst = _tangled(points, mesh.hexes, locked, figures)
+                if not tangled:
+                    break
+            idle = 0 if tangled < least else idle + 1
+            least = min(least, tangled)
+            e *= FALL
+        if tangled or locked.any():
+            words = _what_is_left(tangled, int(np.count_nonzero(locked)))
+            yield Step(points, decision=words, more=True)
+        return points, _inverted_corners(points, mesh.hexes) | locked
+
+    def _optimum(self, mesh: Mesh, points: np.ndarray, left_out: np.ndarray) -> Steps:
+        """Behind the barrier to the optimum, then, where it is asked for, with higher and higher p."""
+        p = self.p
+        while True:
+            energy = MeshEnergy(mesh, p, left_out)
+            x, rises = energy.scaled(points), p < self.highest_p
+            while True:
+                taken = descend(energy, x, 0.0, self._direction(), SEARCH, FURTHEST)
+                if taken is None or (taken.alpha == 0 and taken.slope < 0):
+                    break
+                move = float(np.sqrt(np.square(taken.x - x).sum(axis=1).max()))
+                x, points = taken.x, energy.placed(taken.x)
+                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises)
+                if rises and move < SETTLED:
+                    break
+            if not rises:
+                return _end(taken)
+            p = min(2 * p, self.highest_p)
+
+
+def _end(taken: Descent | None) -> Outcome:
+    """How it ended where no step descended: at the optimum what a step would gain is less than rounding."""
+    at_rounding = taken is not None and -taken.slope < 1e-10 * taken.value
+    return Outcome.CONVERGED if at_rounding else Outcome.NO_DESCENT
+
+
+def _what_is_left(tangled: int, locked: int) -> str:
+    held = f"{locked:,} hex{'es have' if locked != 1 else ' has'} corners that fixed nodes lock in inversion"
+    rest = f"{tangled:,} more resist{'s' * (tangled == 1)}"
+    return f"Left out of the energy: {'; '.join(filter(None, [held * bool(locked), rest * bool(tangled)]))}."
+
+
+def _inverted_corners(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """A bit for each corner tetrahedron with sigma <= 0, (m,) uint8."""
+    bits = np.zeros(len(hexes), np.uint8)
+    where = np.flatnonzero(measure(points, hexes).inverted)
+    inverted = ~(corner_determinants(points, hexes[where]) > 0)
+    bits[where] = np.packbits(inverted, axis=1, bitorder="little")[:, 0]
+    return bits
+
+
+def _locked_corners(mesh: Mesh) -> np.ndarray:
+    """A bit for each corner tetrahedron that fixed nodes lock in inversion, (m,) uint8."""
+    held = np.packbits(mesh.fixed[mesh.hexes[:, CORNER_TETRAHEDRA]].all(axis=2), axis=1, bitorder="little")[:, 0]
+    return _inverted_corners(mesh.points, mesh.hexes) & held
+
+
+def _tangled(
+    points: np.ndarray, hexes: np.ndarray, left_out: np.ndarray, figures: ElementQuality | None = None
+) -> tuple[int, float]:
+    """How many hexes have an inverted corner that is not left out, and the least determinant of those corners."""
+    where = np.flatnonzero((figures or measure(points, hexes)).inverted)
+    counts = np.unpackbits(left_out[where, None], axis=1, bitorder="little") == 0
+    sigma = np.where(counts, corner_determinants(points, hexes[where]), np.inf)
+    inverted = ~(sigma > 0)
+    return int(np.count_nonzero(inverted.any(axis=1))), float(sigma.min(initial=0.0))

@@ -1,0 +1,137 @@
+"""The default method: it untangles what can be untangled, and never makes a mesh worse."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.gallery import make
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.optimise import Outcome
+from hexmend.quality import corner_determinants, measure, summarise
+from hexmend.run import Stop, iterate, smooth
+from hexmend.smoothers import DEFAULT_METHOD, METHODS
+from tests.core.grids import grid, scrambled
+
+Mend = METHODS["mend"]
+
+
+def with_locked_corner(mesh):
+    """The mesh with its first node pushed so far in that the corner tetrahedron there, all fixed, is inverted."""
+    points = mesh.points.copy()
+    points[0] += 0.7 * (points[mesh.hexes[0, 6]] - points[0])
+    return mesh.with_points(points)
+
+
+def test_it_is_the_default():
+    assert DEFAULT_METHOD == "mend"
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_corner_determinants_are_those_that_measure_judges_by(seed):
+    mesh = scrambled(grid(3), 0.9, seed)
+    points = mesh.points.round(1)  # some corners exactly flat
+    np.testing.assert_array_equal(
+        corner_determinants(points, mesh.hexes).min(axis=1), measure(points, mesh.hexes).sigma
+    )
+
+
+@pytest.mark.parametrize(("name", "size"), [("cube", 512), ("five-side", 920), ("bridge-sharp", 500), ("plane", 2500)])
+@pytest.mark.parametrize("scramble", [0.6, 1.5, 5.0])
+def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scramble):
+    sound = smooth(make(name, size=size), "mend")
+    tangled = make(name, size=size, scramble=scramble, seed=7)
+    assert measure(tangled.points, tangled.hexes).n_inverted > 20
+    result = smooth(tangled, "mend", Stop(max_iterations=1000))
+    assert result.outcome is Outcome.CONVERGED
+    assert result.after.inverted == 0
+    assert result.after.objective == pytest.approx(sound.after.objective, rel=1e-5, abs=1e-9)
+
+
+@settings(max_examples=25)
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    amplitude=st.floats(0.05, 4),
+    iterations=st.integers(0, 12),
+    p=st.sampled_from([1.0, 2.0, 4.0]),
+    guard=st.booleans(),
+)
+def test_wherever_it_is_stopped_the_mesh_is_no_worse(seed, amplitude, iterations, p, guard):
+    mesh = scrambled(grid(4), amplitude, seed)
+    result = smooth(mesh, Mend(p=p, guard=guard), Stop(max_iterations=iterations))
+    before, after = (measure(one.points, mesh.hexes) for one in (mesh, result.mesh))
+    assert after.n_inverted <= before.n_inverted
+    assert result.after.inverted == after.n_inverted
+    if after.n_inverted == before.n_inverted == 0:
+        assert (after.eta**p).sum() <= (before.eta**p).sum()
+    if guard and after.n_inverted == before.n_inverted:
+        assert after.q.min() >= before.q.min()
+        assert after.scaled_jacobian.min() >= before.scaled_jacobian.min()
+
+
+@pytest.mark.parametrize("scramble", [0.0, 1.5])
+def test_what_fixed_nodes_lock_is_left_out_and_said_and_spoils_nothing_else(scramble):
+    mesh = make("five-side", size=300, scramble=scramble, seed=3)
+    rest = smooth(mesh, "mend").after
+    locked = with_locked_corner(mesh)
+    assert summarise(locked).locked_inverted == 1
+    result = smooth(locked, "mend")
+    assert result.after.inverted == result.after.locked_inverted == 1
+    assert "Left out of the energy: 1 hex has corners that fixed nodes lock in inversion." in result.message
+    q = measure(result.mesh.points, mesh.hexes).q
+    assert np.sort(q)[10] > rest.q_min  # all but the hexes around it are as good as without
+
+
+def test_steps_of_untangling_soften_the_barrier_less_and_less():
+    mesh = make("cube", size=512, scramble=1.5, seed=2)
+    deltas = [it.notes["delta"] for it in iterate(mesh, "mend")]
+    assert deltas[0] > 0.05
+    assert deltas[-1] == 0
+    hard = deltas.index(0)
+    assert hard > 1
+    assert all(delta > 0 for delta in deltas[:hard])
+    assert all(delta == 0 for delta in deltas[hard:])
+
+
+def test_higher_p_lifts_the_worst_hex():
+    mesh = make("bridge-sharp", size=500)
+    plain, raised = (smooth(mesh, Mend(highest_p=p), Stop(max_iterations=500)) for p in (1.0, 16.0))
+    assert raised.outcome is Outcome.CONVERGED
+    assert raised.after.q_min > plain.after.q_min + 0.01
+    assert raised.after.q_mean < plain.after.q_mean
+
+
+def test_a_mesh_at_its_optimum_stays_there():
+    best = smooth(make("five-side", size=300), "mend", Stop(tolerance=1e-8)).mesh
+    again = smooth(best, "mend")
+    assert again.outcome is Outcome.CONVERGED
+    assert again.iterations <= 2
+    np.testing.assert_allclose(again.mesh.points, best.points, atol=1e-5)
+
+
+def test_a_hex_with_all_nodes_fixed_is_left_as_it_is():
+    mesh = with_locked_corner(grid(1))
+    result = smooth(mesh, "mend")
+    assert result.outcome is Outcome.NOTHING_FREE
+    np.testing.assert_array_equal(result.mesh.points, mesh.points)
+
+
+@pytest.mark.parametrize("name", ["hex_5_tangled.vtk", "pave3.e.vtk", "CAD4Per.vtk", "bunny.vtk"])
+def test_real_meshes_end_at_the_lower_bound(name, real_mesh):
+    from hexmend.io import read
+
+    result = smooth(read(real_mesh(name)), "mend")
+    assert result.after.inverted == result.after.locked_inverted
+
+
+def test_which_tetrahedra_are_held_is_what_the_bits_say():
+    from hexmend.smoothers.mend import _locked_corners
+
+    mesh = with_locked_corner(grid(2))
+    bits = _locked_corners(mesh)
+    assert np.flatnonzero(bits).tolist() == [0]
+    (tetrahedron,) = np.flatnonzero(np.unpackbits(bits[:1], bitorder="little"))
+    assert set(mesh.hexes[0, CORNER_TETRAHEDRA[tetrahedron]]) == {0, 1, 3, 9}
+    assert list(itertools.islice(bits, 1, None)) == [0] * 7
