@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from hexmend.energy import MeshEnergy
+from hexmend.kernels.reach import shorten
 from hexmend.optimise.direction import Direction, Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
+from hexmend.quality.measure import read_only
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +59,7 @@ def descend(
     delta: float,
     find: Direction,
     search: BackLineSearch,
-    furthest: float = np.inf,
+    reach: float = np.inf,
 ) -> Descent | None:
     """Take one step from x (n, 3); None where the energy is infinite.
 
@@ -65,8 +67,9 @@ def descend(
 
     Parameters
     ----------
-    furthest : float
-        How far the first trial may move a node, in mean edge lengths.
+    reach : float
+        How far a node may go, in mean lengths of its edges: the few that a direction throws far off do not cut the step
+        of all others.
     """
     value = energy.value(x, delta)
     if not np.isfinite(value):
@@ -77,12 +80,12 @@ def descend(
         return Descent(x, value, 0.0, norm, Found(np.zeros_like(gradient)), 0.0, 0)
     hessian = energy.hessian(x, delta)
     found = find(value, gradient, hessian)  # A.2, A.3, A.4
+    if np.isfinite(reach):
+        ring = energy.mesh.topology.rings
+        shorten(found.p, read_only(x), ring.start, ring.items, energy.nodes, reach)
     if not np.vdot(found.p, gradient) < 0:
         found = steepest_descent(value, gradient, hessian)
     slope = float(np.vdot(found.p, gradient))
-    if np.isfinite(furthest):
-        longest = float(np.sqrt(np.square(found.p).sum(axis=1).max()))
-        search = replace(search, first=min(search.first, furthest / longest))
     alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, alpha * found.p), delta), value, slope)  # A.5
     return Descent(energy.moved(x, alpha * found.p), value, slope, norm, found, alpha, cuts)
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.energy import MeshEnergy
+from hexmend.energy import MeshEnergy, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.optimise.descent import Descent, descend
@@ -26,8 +27,11 @@ FALL, LEAST = 0.7, 1e-9
 LARGEST = 0.5
 #: Deltas in a row without a hex more mended after which the rest is given up.
 PATIENCE = 14
-#: How far, in mean edge lengths, a first trial step may take a node.
-FURTHEST = 3.0
+#: How far a step may take a node, in mean lengths of its edges.
+REACH = 1.5
+#: Sweeps of local steepest descent around the hexes that a Newton step has left inverted, and, at the optimum's side of
+#: the barrier, around those whose energy eta is higher than `POOR`: a few of them would cut the step of all nodes.
+SWEEPS, POOR_SWEEPS, POOR = 10, 5, 3.0
 #: A raise of p is complete when a step moves no node further than this, in mean edge lengths.
 SETTLED = 1e-3
 
@@ -44,6 +48,7 @@ class Mend(Smoother):
     help = "Untangles whatever its fixed nodes allow, then goes to the optimum. Never ends worse than it began."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     optimises = True
+    uses = ("local-sd",)
 
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
@@ -87,19 +92,25 @@ class Mend(Smoother):
         energy = MeshEnergy(mesh, self.p, locked)
         points, x, e = mesh.points, energy.scaled(mesh.points), self.softness
         tangled, worst = _tangled(points, mesh.hexes, locked)
-        least, idle, count = tangled, 0, 0
+        least, idle = tangled, 0
         while tangled and idle < PATIENCE and e > LEAST:
             delta = min(LARGEST, float(np.sqrt(e * (e - min(worst / energy.unit**3, 0.0)))))
             for _ in range(STEPS):
-                taken = descend(energy, x, delta, self._direction(), SEARCH, FURTHEST)
+                taken = descend(energy, x, delta, self._direction(), SEARCH, REACH)
                 if taken is None or taken.alpha == 0:
                     break
-                x, points, count = taken.x, energy.placed(taken.x), count + 1
+                x, points = taken.x, energy.placed(taken.x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, taken.notes(delta), more=True, figures=figures)
                 tangled, worst = _tangled(points, mesh.hexes, locked, figures)
                 if not tangled:
                     break
+            if tangled:
+                inverted = measure(points, mesh.hexes).inverted
+                x = _swept(mesh, x, inverted, locked, delta, self.p, SWEEPS)
+                points = energy.placed(x)
+                yield Step(points, {"delta": delta, "sweeps": SWEEPS}, more=True)
+                tangled, worst = _tangled(points, mesh.hexes, locked)
             idle = 0 if tangled < least else idle + 1
             least = min(least, tangled)
             e *= FALL
@@ -114,18 +125,43 @@ class Mend(Smoother):
         while True:
             energy = MeshEnergy(mesh, p, left_out)
             x, rises = energy.scaled(points), p < self.highest_p
+            whole = False  # whether the last step was taken whole: then no hex is in the way
             while True:
-                taken = descend(energy, x, 0.0, self._direction(), SEARCH, FURTHEST)
+                poor = energies(x, mesh.hexes, 0.0, left_out) > POOR
+                if poor.any() and not whole:
+                    x = _swept(mesh, x, poor, left_out, 0.0, p, POOR_SWEEPS)
+                taken = descend(energy, x, 0.0, self._direction(), SEARCH, REACH)
                 if taken is None or (taken.alpha == 0 and taken.slope < 0):
                     break
-                move = float(np.sqrt(np.square(taken.x - x).sum(axis=1).max()))
-                x, points = taken.x, energy.placed(taken.x)
+                move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))
+                x, points, whole = taken.x, energy.placed(taken.x), taken.cuts == 0
                 yield Step(points, taken.notes(0.0) | {"p": p}, more=rises)
                 if rises and move < SETTLED:
                     break
             if not rises:
                 return _end(taken)
             p = min(2 * p, self.highest_p)
+
+
+def _swept(
+    mesh: Mesh, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, p: float, sweeps: int
+) -> np.ndarray:
+    """Sweeps of local steepest descent over the nodes of some hexes and of their neighbours.
+
+    Nodes at hexes of which corners are left out stay: a local energy would count these corners.
+    """
+    near = np.zeros(mesh.n_nodes, dtype=bool)
+    near[mesh.hexes[around]] = True
+    near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
+    near[mesh.hexes[left_out != 0]] = False
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & mesh.free)
+    swept = x.copy()
+    for _ in range(sweeps):
+        local.sweep(
+            swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
+            local.STEEPEST_DESCENT, delta, p, 1.0, 0.7, 1e-4, 60,
+        )  # fmt: skip
+    return swept
 
 
 def _end(taken: Descent | None) -> Outcome:
