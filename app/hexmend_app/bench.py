@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.errors import HexmendError
 from hexmend.gallery import make
-from hexmend.study.bench import Section
+from hexmend.study.section import Section
 
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh

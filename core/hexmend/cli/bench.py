@@ -13,7 +13,11 @@ class Bench:
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
-            "--only", metavar="PART", action="append", default=[], help="iterations, scaling or viewer; may be repeated"
+            "--only",
+            metavar="PART",
+            action="append",
+            default=[],
+            help="iterations, optima, tangled, scaling or viewer; may be repeated",
         )
         parser.add_argument("--json", metavar="FILE", help="write the figures")
 

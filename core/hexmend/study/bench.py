@@ -8,8 +8,6 @@ import os
 import platform
 import subprocess
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass
 from importlib.metadata import entry_points
 from statistics import median
 from typing import Any
@@ -19,6 +17,8 @@ import numba
 from hexmend.gallery import make
 from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
+from hexmend.study.mending import OPTIMA, TANGLED
+from hexmend.study.section import Section
 
 #: Seconds per iteration and node in the thesis's tables for BridgeSharp: 4.1 for the optimisers, 4.3 for Laplacian.
 THESIS_SECONDS_PER_NODE = {
@@ -31,28 +31,9 @@ THESIS_SECONDS_PER_NODE = {
 }
 
 
-@dataclass(frozen=True)
-class Section:
-    """A part of the benchmark.
-
-    Parameters
-    ----------
-    name, title : str
-    measure : callable
-        Returns figures that JSON can hold.
-    lines : callable
-        The figures as lines to read.
-    """
-
-    name: str
-    title: str
-    measure: Callable[[], dict[str, Any]]
-    lines: Callable[[dict[str, Any]], list[str]]
-
-
 def sections() -> dict[str, Section]:
     """Every section by name; the viewer's joins through the entry-point group `hexmend.benchmarks`."""
-    found = {section.name: section for section in (ITERATIONS, SCALING)}
+    found = {section.name: section for section in (ITERATIONS, OPTIMA, TANGLED, SCALING)}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:
             found[entry.name] = entry.load()
