@@ -92,6 +92,8 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
 
 
 def test_run_pause_step_stop_reset_by_mouse(window, qtbot):
+    window.smoothing_panel.set_method("local-sd")
+    window.smoothing_panel.stop_form.set_values({"tolerance": 0.0})  # it shall not end before it is paused
     start = window.document.now
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=60000)
