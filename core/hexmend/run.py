@@ -85,6 +85,7 @@ class Run(Iterator[Iteration]):
         self.start = self.last = self.reached = Iteration(
             0, read_only(first.points), measure(first.points, mesh.hexes), 0.0, 0.0
         )
+        self._reached_rank = self._rank(self.start)
         self.history = [self.start.row()]
         self.decisions: list[str] = []
         if not mesh.free.any():
@@ -108,8 +109,9 @@ class Run(Iterator[Iteration]):
         figures = step.figures if step.figures is not None else measure(points, self.mesh.hexes)
         self.last = Iteration(self.last.number + 1, points, figures, seconds, move, step.notes)
         self.history.append(self.last.row())
-        if self._rank(self.last) <= self._rank(self.reached):
-            self.reached = self.last
+        rank = self._rank(self.last)
+        if rank <= self._reached_rank:
+            self.reached, self._reached_rank = self.last, rank
         if step.decision:
             self.decisions.append(step.decision)
         if move < self.stop.tolerance and not step.more and not self._falling():  # Algorithm A.1
@@ -147,12 +149,10 @@ class Run(Iterator[Iteration]):
         count = f"{at.number} iteration{'s' * (at.number != 1)}"
         left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
-        kept = (
-            ""
-            if self.reached is self.last
-            else f"Kept is iteration {self.reached.number}, better than what came after."
-        )
-        return " ".join(filter(None, [said, f"{count} in {at.seconds:.3g} s; {move}{left}.", *self.decisions, kept]))
+        words = [said, f"{count} in {at.seconds:.3g} s; {move}{left}.", *self.decisions]
+        if self.reached is not self.last:
+            words.append(f"Kept is iteration {self.reached.number}, better than what came after.")
+        return " ".join(words)
 
     def result(self) -> Result:
         """The record of the run as far as it went."""
