@@ -12,7 +12,6 @@ from hexmend.energy import MeshEnergy
 from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.kernels import hexahedron
 from hexmend.mesh import Mesh
-from hexmend.optimise.direction import full
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 
@@ -105,28 +104,6 @@ def test_derivatives_of_a_mesh_are_those_of_differences(seed, p, delta):
     assert np.vdot(gradient, v) == pytest.approx(difference(energy.value), rel=1e-5, abs=1e-6)
     expected = difference(energy.gradient).ravel()
     np.testing.assert_allclose(hessian @ v.ravel(), expected, rtol=1e-4, atol=1e-5 * np.abs(expected).max())
-
-
-@given(seeds, exponents)
-def test_the_assembled_hessian_is_the_product_and_symmetric(seed, p):
-    mesh = scrambled(grid(4, 3, 3), 0.8, seed)
-    energy = MeshEnergy(mesh, p)
-    hessian = energy.hessian(energy.scaled(mesh.points), 0.05).shifted(0.25)
-    matrix = hessian.matrix().toarray()
-    size = np.abs(matrix).max()
-    np.testing.assert_allclose(hessian @ np.eye(len(matrix)), matrix, atol=1e-12 * size)
-    np.testing.assert_allclose(matrix, matrix.T, atol=1e-12 * size)
-    blocks = np.array([matrix[3 * k : 3 * k + 3, 3 * k : 3 * k + 3] for k in range(len(matrix) // 3)])
-    np.testing.assert_allclose(full(hessian.diagonal_blocks()), blocks, atol=1e-12 * size)
-
-
-def test_a_mesh_is_assembled_in_batches_of_any_size(monkeypatch):
-    mesh = scrambled(grid(4), 0.3)
-    energy = MeshEnergy(mesh)
-    hessian = energy.hessian(energy.scaled(mesh.points), 0.05)
-    whole = hessian.matrix()
-    monkeypatch.setattr("hexmend.energy.mesh_energy._BATCH", 7)
-    assert abs(hessian.matrix() - whole).max() < 1e-12 * abs(whole).max()
 
 
 def test_a_translation_is_no_change():

@@ -89,24 +89,6 @@ def test_a_batch_of_no_hexes_is_none():
     assert energies(energy.mesh.points, np.empty((0, 8), np.int32)).shape == (0,)
 
 
-@given(**cases)
-def test_diagonal_blocks_are_those_of_the_product(count, case, p, seed, share):
-    points, hexes = some(count, case[0], seed)
-    delta, left_out = case[1], some_left_out(count, share, seed)
-    own, g, hv = np.full((count, 8, 6), np.nan), np.empty((8, 3)), np.empty((8, 3))
-    objective.diagonal_blocks(points, hexes, delta, p, left_out, own)
-    for h in range(0, count, 17):
-        for corner in range(8):
-            full = np.empty((3, 3))
-            for k in range(3):
-                v = np.zeros((8, 3))
-                v[corner, k] = 1.0
-                hexahedron.product(points[hexes[h]], v, delta, p, left_out[h], g, hv)
-                full[k] = hv[corner]
-            size = max(np.abs(full).max(), 1e-300)
-            np.testing.assert_allclose(own[h, corner], full[np.triu_indices(3)], rtol=1e-9, atol=1e-10 * size)
-
-
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.05]))
 def test_what_is_left_out_counts_as_perfect_and_moves_nothing(seed, delta):
     points, hexes = some(40, 0.2, seed)
@@ -138,4 +120,4 @@ def test_an_inverted_tetrahedron_that_is_left_out_makes_no_energy_infinite():
     assert np.isfinite(energy.value(x))
     assert np.isfinite(energy.gradient(x)).all()
     assert np.isfinite(energy.hessian(x) @ np.ones(3 * energy.nodes.size)).all()
-    assert np.isfinite(energy.hessian(x).diagonal_blocks()).all()
+    assert np.isfinite(energy.hessian(x).assembled().off).all()

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import copy
 from functools import cached_property
 
+import numba
 import numpy as np
-import scipy.sparse
 import scipy.sparse.linalg
 
+from hexmend.energy.assembled import Assembled
+from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import energies
+from hexmend.kernels import assembly
 from hexmend.kernels import objective as kernels
 from hexmend.mesh import Mesh
 from hexmend.quality.measure import read_only
-
-#: Hexes whose 24 x 24 Hessians are held at once while a matrix is assembled.
-_BATCH = 4096
 
 
 class MeshEnergy:
@@ -61,6 +62,17 @@ class MeshEnergy:
         slot = np.full(self.mesh.n_nodes, -1, np.int32)
         slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
         return slot[self.mesh.hexes]
+
+    @cached_property
+    def couplings(self) -> Couplings:
+        """Which free nodes share a hex."""
+        return Couplings(self.mesh)
+
+    def but(self, p: float, left_out: np.ndarray) -> MeshEnergy:
+        """The energy with another p and other corners left out; what depends on the mesh alone is shared."""
+        other = copy.copy(self)
+        other.p, other.left_out = p, left_out
+        return other
 
     def scaled(self, points: np.ndarray) -> np.ndarray:
         """Points in mean edge lengths, (n, 3)."""
@@ -135,22 +147,28 @@ class Hessian(scipy.sparse.linalg.LinearOperator):
     def _adjoint(self) -> Hessian:
         return self
 
-    def diagonal_blocks(self) -> np.ndarray:
-        """The 3 x 3 blocks that couple a node with itself, (k, 6): xx xy xz yy yz zz."""
-        energy = self.energy
-        blocks = np.empty((energy.mesh.n_hexes, 8, 6))
-        kernels.diagonal_blocks(self.x, energy.mesh.hexes, self.delta, energy.p, energy.left_out, blocks)
-        return energy._gathered(blocks) + self.shift * np.array([1.0, 0, 0, 1, 0, 1])
+    def assembled(self, dtype: type = np.float32) -> Assembled:
+        """The same matrix, assembled: many products, and a system to be solved.
 
-    def matrix(self) -> scipy.sparse.csr_array:
-        """The assembled sparse matrix, (3 k, 3 k), some 243 entries a free node."""
-        energy, total = self.energy, self.shift * scipy.sparse.eye_array(self.shape[0], format="csr")
-        for first in range(0, energy.mesh.n_hexes, _BATCH):
-            slots = energy.slots[first : first + _BATCH]
-            blocks = np.empty((len(slots), 24, 24))
-            kernels.hex_hessians(self.x, energy.mesh.hexes, self.delta, energy.p, energy.left_out, first, blocks)
-            unknown = np.where(slots[:, :, None] < 0, -1, 3 * slots[:, :, None] + np.arange(3)).reshape(-1, 24)
-            row, column = np.broadcast_arrays(unknown[:, :, None], unknown[:, None, :])
-            free = (row >= 0) & (column >= 0)
-            total = total + scipy.sparse.coo_array((blocks[free], (row[free], column[free])), shape=self.shape).tocsr()
-        return total
+        Parameters
+        ----------
+        dtype : numpy.float32 or numpy.float64
+            Of the blocks.
+        """
+        energy, couplings = self.energy, self.energy.couplings
+        off = np.empty((couplings.blocks, 9), dtype)
+        diagonal = np.empty((couplings.nodes.size, 6), dtype)
+        assembly.assemble(
+            self.x,
+            energy.mesh.hexes,
+            self.delta,
+            energy.p,
+            energy.left_out,
+            couplings.slots,
+            couplings.target,
+            *couplings.shares(numba.get_num_threads()),
+            off,
+            diagonal,
+        )
+        diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], dtype)
+        return Assembled(couplings, off, diagonal)

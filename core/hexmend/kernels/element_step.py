@@ -12,7 +12,7 @@ import numpy as np
 
 from hexmend.hexahedron import EDGES, FACES, UNIT_CUBE
 from hexmend.kernels import CHUNK, formula, lanes, parallel, serial
-from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, WORK
+from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, STRIDE, WORK
 
 
 def _corner_faces() -> np.ndarray:
@@ -80,7 +80,7 @@ _NEW, _CENTROID, _BEFORE, _AFTER = 9, 12, ROW[15], ROW[16]
 @formula
 def _row(c, k):
     """Where the coordinate k of corner (or face) c begins."""
-    return np.uint64((3 * c + k) * LANES)
+    return np.uint64((3 * c + k) * STRIDE)
 
 
 @serial
@@ -124,7 +124,7 @@ def _triangle(w, s):
 def _blend(x, w, rho, y):
     """Scale the new hexes y and blend them with the old ones."""
     for k in range(3):
-        centre = np.uint64((_CENTROID + k) * LANES)
+        centre = np.uint64((_CENTROID + k) * STRIDE)
         for c in range(8):
             row = _row(c, k)
             for lane in range(ALL):
@@ -140,7 +140,7 @@ def element_steps(points, hexes, s, rho, places):
     """`element_step` of every hex; writes places (m, 8, 3)."""
     m = hexes.shape[0]
     for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
-        x, y, f, w = np.empty(CORNERS), np.empty(CORNERS), np.empty(18 * LANES), np.empty(WORK)
+        x, y, f, w = np.empty(CORNERS), np.empty(CORNERS), np.empty(18 * STRIDE), np.empty(WORK)
         end = min(m, (chunk + 1) * CHUNK)
         for begin in range(chunk * CHUNK, end, LANES):
             count = min(LANES, end - begin)
@@ -153,11 +153,11 @@ def element_steps(points, hexes, s, rho, places):
                         lanes.copy(f, _row(CORNER_FACES[c, j], k), w, _row(j, k))
                 _triangle(w, s)
                 for k in range(3):
-                    lanes.copy(w, np.uint64((_NEW + k) * LANES), y, _row(c, k))
+                    lanes.copy(w, np.uint64((_NEW + k) * STRIDE), y, _row(c, k))
             _add_edges(x, w, _BEFORE)
             _add_edges(y, w, _AFTER)
             _blend(x, w, rho, y)
             for i in range(count):
                 for c in range(8):
                     for k in range(3):
-                        places[begin + i, c, k] = y[(3 * c + k) * LANES + i]
+                        places[begin + i, c, k] = y[(3 * c + k) * STRIDE + i]

@@ -131,46 +131,6 @@ def product(x, v, delta, p, left_out, g, hv):
 
 
 @serial
-def own_blocks(x, delta, p, left_out, g, own):
-    """Second derivatives of max(eta(H), 0)^p by each corner alone; writes own (8, 6): xx xy xz yy yz zz.
-
-    Parameters
-    ----------
-    x : (8, 3) float64
-    delta, p : float
-    left_out : int
-        Bit t set: tetrahedron t counts as perfect.
-    g : (8, 3) float64, written
-        Gradient of eta(H).
-    """
-    first, second = weights(gradient(x, delta, left_out, g), p)
-    own[:] = 0.0
-    for t in range(8):
-        ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
-        if not kept(left_out, t) > 0:
-            continue
-        f, square, sigma, r = tetrahedron.energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, 1.0)
-        cux, cuy, cuz, cvx, cvy, cvz, cwx, cwy, cwz = tetrahedron.cofactors(ux, uy, uz, vx, vy, vz, wx, wy, wz)
-        a, b, c, d = CORNER_TETRAHEDRA[t, 0], CORNER_TETRAHEDRA[t, 1], CORNER_TETRAHEDRA[t, 2], CORNER_TETRAHEDRA[t, 3]
-        add_own(own[b], f, square, sigma, r, 1.0, ux, uy, uz, cux, cuy, cuz)
-        add_own(own[c], f, square, sigma, r, 1.0, vx, vy, vz, cvx, cvy, cvz)
-        add_own(own[d], f, square, sigma, r, 1.0, wx, wy, wz, cwx, cwy, cwz)
-        add_own(
-            own[a], f, square, sigma, r, 3.0,
-            -(ux + vx + wx), -(uy + vy + wy), -(uz + vz + wz),
-            -(cux + cvx + cwx), -(cuy + cvy + cwy), -(cuz + cvz + cwz),
-        )  # fmt: skip
-    for i in range(8):
-        gx, gy, gz = g[i, 0], g[i, 1], g[i, 2]
-        own[i, 0] = first * own[i, 0] / 8 + second * gx * gx
-        own[i, 1] = first * own[i, 1] / 8 + second * gx * gy
-        own[i, 2] = first * own[i, 2] / 8 + second * gx * gz
-        own[i, 3] = first * own[i, 3] / 8 + second * gy * gy
-        own[i, 4] = first * own[i, 4] / 8 + second * gy * gz
-        own[i, 5] = first * own[i, 5] / 8 + second * gz * gz
-
-
-@serial
 def add_own(to, f, square, sigma, r, k, sx, sy, sz, cx, cy, cz):
     """Add `tetrahedron.own_second` to (6,)."""
     xx, xy, xz, yy, yz, zz = tetrahedron.own_second(f, square, sigma, r, k, sx, sy, sz, cx, cy, cz)

@@ -22,14 +22,18 @@ LANES = 64
 #: The same, for loops over lanes.
 ALL = np.uint64(LANES)
 
+#: From the beginning of a row to that of the next: not a power of two, so that one lane's values in all rows do not
+#: compete for the same few sets of the processor's nearest cache.
+STRIDE = LANES + 12
+
 #: Rows of an array of work, by where they begin: nine of S, nine of a direction of it, nine of a derivative, nine of
 #: another, two of sums, one that says which tetrahedra count.
-ROW = tuple(np.uint64(k * LANES) for k in range(39))
+ROW = tuple(np.uint64(k * STRIDE) for k in range(39))
 S, A, G, H = ROW[0], ROW[9], ROW[18], ROW[27]
 SUM, SLOPE, KEEP = ROW[36], ROW[37], ROW[38]
 
 #: Length of an array of work, and of one that holds a vector at eight corners.
-WORK, CORNERS = 39 * LANES, 24 * LANES
+WORK, CORNERS = 39 * STRIDE, 24 * STRIDE
 
 
 @serial
@@ -47,7 +51,7 @@ def load(values, rows, first, count, x):
         for c in range(8):
             i = rows[h, c]
             for k in range(3):
-                x[(3 * c + k) * LANES + lane] = values[i, k] if i >= 0 else 0.0
+                x[(3 * c + k) * STRIDE + lane] = values[i, k] if i >= 0 else 0.0
 
 
 @serial
@@ -93,8 +97,8 @@ def edges(x, t, w, to):
     for j in range(3):
         b = CORNER_TETRAHEDRA[t, j + 1]
         for k in range(3):
-            tip, apex = np.uint64((3 * b + k) * LANES), np.uint64((3 * a + k) * LANES)
-            row = to + np.uint64((3 * j + k) * LANES)
+            tip, apex = np.uint64((3 * b + k) * STRIDE), np.uint64((3 * a + k) * STRIDE)
+            row = to + np.uint64((3 * j + k) * STRIDE)
             for lane in range(ALL):
                 w[row + lane] = x[tip + lane] - x[apex + lane]
 
@@ -105,10 +109,13 @@ def scatter(w, begin, t, to):
     a = CORNER_TETRAHEDRA[t, 0]
     for k in range(3):
         for j in range(3):
-            row, tip = begin + np.uint64((3 * j + k) * LANES), np.uint64((3 * CORNER_TETRAHEDRA[t, j + 1] + k) * LANES)
+            row, tip = (
+                begin + np.uint64((3 * j + k) * STRIDE),
+                np.uint64((3 * CORNER_TETRAHEDRA[t, j + 1] + k) * STRIDE),
+            )
             for lane in range(ALL):
                 to[tip + lane] += w[row + lane]
-        u, apex = begin + np.uint64(k * LANES), np.uint64((3 * a + k) * LANES)
-        v, z = u + np.uint64(3 * LANES), u + np.uint64(6 * LANES)
+        u, apex = begin + np.uint64(k * STRIDE), np.uint64((3 * a + k) * STRIDE)
+        v, z = u + np.uint64(3 * STRIDE), u + np.uint64(6 * STRIDE)
         for lane in range(ALL):
             to[apex + lane] -= w[u + lane] + w[v + lane] + w[z + lane]

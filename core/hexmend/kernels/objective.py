@@ -1,4 +1,4 @@
-"""Sum of eta(H)^p over a mesh: energies, gradient, Hessian product and diagonal blocks.
+"""Sum of eta(H)^p over a mesh: energies, gradient, Hessian product.
 
 Every hex writes its share into a block of its own; a node's row is the sum over the corners that meet there, always in
 the same order, so that results do not depend on the number of threads.
@@ -9,8 +9,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import CHUNK, hexahedron, parallel, serial, tetrahedron
-from hexmend.kernels.elements import load as load_hex
+from hexmend.kernels import CHUNK, parallel, serial, tetrahedron
 from hexmend.kernels.hexahedron import weights
 from hexmend.kernels.lanes import (
     ALL,
@@ -19,6 +18,7 @@ from hexmend.kernels.lanes import (
     LANES,
     ROW,
     SLOPE,
+    STRIDE,
     SUM,
     WORK,
     A,
@@ -137,7 +137,7 @@ def gradient(points, hexes, delta, p, left_out, blocks):
                 first, _ = weights(w[SUM + np.uint64(i)] / 8 - 1, p)
                 for c in range(8):
                     for k in range(3):
-                        blocks[begin + i, c, k] = first * g[(3 * c + k) * LANES + i]
+                        blocks[begin + i, c, k] = first * g[(3 * c + k) * STRIDE + i]
 
 
 @parallel
@@ -180,33 +180,8 @@ def hessian_product(points, hexes, slots, values, delta, p, left_out, blocks):
                 along = second * w[SLOPE + np.uint64(i)]
                 for c in range(8):
                     for k in range(3):
-                        row = (3 * c + k) * LANES + i
+                        row = (3 * c + k) * STRIDE + i
                         blocks[begin + i, c, k] = first * hv[row] + along * g[row]
-
-
-@parallel
-def hex_hessians(points, hexes, delta, p, left_out, first, blocks):
-    """Hessian of eta(H)^p of the hexes first, first + 1, ... by their corners; writes blocks (count, 24, 24)."""
-    for k in numba.prange(blocks.shape[0]):
-        x, v, g, hv = np.empty((8, 3)), np.zeros((8, 3)), np.empty((8, 3)), np.empty((8, 3))
-        load_hex(points, hexes, first + k, x)
-        for j in range(24):
-            v[j // 3, j % 3] = 1.0
-            hexahedron.product(x, v, delta, p, left_out[first + k], g, hv)
-            v[j // 3, j % 3] = 0.0
-            for i in range(24):
-                blocks[k, i, j] = hv[i // 3, i % 3]
-
-
-@parallel
-def diagonal_blocks(points, hexes, delta, p, left_out, blocks):
-    """The 3 x 3 blocks of the Hessian that couple a corner with itself; writes blocks (m, 8, 6): xx xy xz yy yz zz."""
-    m = hexes.shape[0]
-    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
-        x, g = np.empty((8, 3)), np.empty((8, 3))
-        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
-            load_hex(points, hexes, h, x)
-            hexahedron.own_blocks(x, delta, p, left_out[h], g, blocks[h])
 
 
 @parallel

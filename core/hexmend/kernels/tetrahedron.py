@@ -108,6 +108,19 @@ def product(ux, uy, uz, vx, vy, vz, wx, wy, wz, aux, auy, auz, avx, avy, avz, aw
 
 
 @formula
+def second(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep):
+    """What the second derivative is made of: eta(T), k, c, mixed and half; the last four for d2 eta/8.
+
+    The gradient is k S - c C; the second derivative has k (V, W), -c d2 sigma, and, with p = mixed S + half C,
+    (C, V)(p, W) + (p, V)(C, W).
+    """
+    f, square, sigma, r = energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, keep)
+    over_r = 1 / r if keep > 0 else 0.0
+    k, c = f / 4, f * square * over_r / 12
+    return f * square, k, c, -2.0 / 3.0 * k * over_r, c * over_r * (1.0 / 3.0 + sigma * over_r / 2)
+
+
+@formula
 def own_second(f, square, sigma, r, k, sx, sy, sz, cx, cy, cz):
     """Second derivatives of eta(T) by one of its nodes, (xx xy xz yy yz zz); there d2 sigma vanishes (B.1).
 

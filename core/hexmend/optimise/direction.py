@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from hexmend.energy import Hessian
+from hexmend.energy.assembled import full
 from hexmend.optimise.linear import ConjugateGradients, LinearSolver
 
 
@@ -54,28 +55,36 @@ class Newton:
         return Found(p.reshape(-1, 3), count, hessian.shift)
 
 
-@dataclass(frozen=True)
-class TruncatedNewton:
-    """Newton's direction, only as good as the distance from the optimum deserves (Dembo and Steihaug 1983).
+#: What is left of the first gradient where a solution is as good as rounding lets it be.
+ENOUGH = 1e-9
 
-    The tolerance of the residual follows the gradient between two bounds: products with the Hessian that would make the
-    direction better than the quadratic model is good are saved.
+
+class TruncatedNewton:
+    """Newton's direction, only as good as the quadratic model deserves (Dembo and Steihaug 1983).
+
+    The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
+    1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
+    would fall below `ENOUGH` of the first.
 
     Parameters
     ----------
-    loosest, tightest : float
-        Tolerance far from the optimum and near it, in (0, 1).
     iterations : int
-        Most products with the Hessian.
+        Most iterations of conjugate gradients.
+    loosest, tightest : float
+        Bounds of the tolerance, in (0, 1).
     """
 
-    loosest: float = 0.2
-    tightest: float = 0.05
-    iterations: int = 200
+    def __init__(self, iterations: int = 200, loosest: float = 0.2, tightest: float = 1e-3):
+        self.iterations, self.loosest, self.tightest = iterations, loosest, tightest
+        self._first = self._last = np.inf
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
-        share = np.sqrt(np.linalg.norm(gradient) / max(value, np.finfo(float).tiny))
-        tolerance = float(np.clip(share, self.tightest, self.loosest))
+        norm = float(np.linalg.norm(gradient))
+        if self._first == np.inf:
+            self._first = self._last = norm
+        goal = max(0.9 * (norm / self._last) ** 2, ENOUGH * self._first / norm) if norm > 0 else self.loosest
+        self._last = norm
+        tolerance = float(np.clip(goal, self.tightest, self.loosest))
         return Newton(ConjugateGradients(tolerance, self.iterations))(value, gradient, hessian)
 
 
@@ -92,11 +101,6 @@ class ModifiedNewton:
         return Newton(self.solver)(value, gradient, hessian)
 
 
-def full(blocks: np.ndarray) -> np.ndarray:
-    """Symmetric blocks (k, 6) as matrices (k, 3, 3)."""
-    return blocks[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)
-
-
 def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
     """Least and greatest eigenvalue by Lanczos's method, good to a thousandth of their distance.
 
@@ -104,6 +108,7 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
     iterations it is taken to be zero (A.2).
     """
     start = np.ones(hessian.shape[0])  # ARPACK's own would be random
+    matrix = hessian.assembled(np.float64)
 
     def top(operator: LinearOperator) -> float | None:
         try:
@@ -111,8 +116,8 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
         except ArpackNoConvergence:
             return None
 
-    greatest = top(hessian)
+    greatest = top(matrix)
     if greatest is None:
-        return 0.0, float(np.linalg.eigvalsh(full(hessian.diagonal_blocks())).max())
-    distance = top(LinearOperator(hessian.shape, matvec=lambda v: greatest * v - hessian @ v, dtype=np.float64))
+        return 0.0, float(np.linalg.eigvalsh(full(matrix.diagonal)).max())
+    distance = top(LinearOperator(hessian.shape, matvec=lambda v: greatest * v - matrix @ v, dtype=np.float64))
     return (0.0 if distance is None else greatest - distance), greatest

@@ -1,8 +1,7 @@
-"""Linear solvers for H p = -g with a symmetric H that is known as a product."""
+"""Linear solvers for H p = -g with a symmetric H."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -10,7 +9,6 @@ import numpy as np
 import scipy.sparse.linalg
 
 from hexmend.energy import Hessian
-from hexmend.kernels import precondition as kernels
 
 Vector = np.ndarray
 
@@ -45,18 +43,15 @@ class Minres:
             count += 1
 
         solution, _ = scipy.sparse.linalg.minres(
-            hessian, right, rtol=self.tolerance, maxiter=self.iterations, callback=tick
+            hessian.assembled(np.float64), right, rtol=self.tolerance, maxiter=self.iterations, callback=tick
         )
         return solution, count
 
 
 @dataclass(frozen=True)
 class ConjugateGradients:
-    """Conjugate gradients, preconditioned by the diagonal blocks, that end at a direction of negative curvature
+    """Conjugate gradients, preconditioned by symmetric Gauss-Seidel, that end at a direction of negative curvature
     (Steihaug 1983).
-
-    What has been reached before such a direction is returned, or, if it is the first, the preconditioned right-hand
-    side: a direction of descent either way.
 
     Parameters
     ----------
@@ -64,42 +59,13 @@ class ConjugateGradients:
         Of the residual, relative to the right-hand side, both in the norm of the preconditioner.
     iterations : int
         As for `Minres`.
+    precision : type
+        Of matrix and vectors: single precision is twice as fast, and enough for a direction.
     """
 
     tolerance: float = 1e-6
     iterations: int = 1000
+    precision: type = np.float32
 
     def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
-        precondition = block_jacobi(hessian.diagonal_blocks())
-        x, r = np.zeros_like(right), right.copy()
-        z = precondition(r)
-        d, rz = z.copy(), float(r @ z)
-        goal = self.tolerance**2 * rz
-        for count in range(1, self.iterations + 1):
-            hd = hessian @ d
-            curvature = float(d @ hd)
-            if not curvature > 0:
-                return (x, count) if count > 1 else (d, count)
-            alpha = rz / curvature
-            x += alpha * d
-            r -= alpha * hd
-            z = precondition(r)
-            rz, before = float(r @ z), rz
-            if rz <= goal:
-                return x, count
-            d *= rz / before
-            d += z
-        return x, self.iterations
-
-
-def block_jacobi(blocks: np.ndarray) -> Callable[[Vector], Vector]:
-    """Preconditioner from the diagonal blocks (k, 6), each made positive definite as Algorithm A.4 does."""
-    inverse = np.empty_like(blocks)
-    kernels.invert_blocks(blocks, inverse)
-
-    def apply(r: Vector) -> Vector:
-        z = np.empty_like(r)
-        kernels.apply_blocks(inverse, r.reshape(-1, 3), z.reshape(-1, 3))
-        return z
-
-    return apply
+        return hessian.assembled(self.precision).solve(right, self.tolerance, self.iterations)

@@ -73,8 +73,9 @@ class Mend(Smoother):
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
         locked = _locked_corners(mesh)
-        points, left_out = yield from self._untangled(mesh, locked)
-        return (yield from self._optimum(mesh, points, left_out))
+        energy = MeshEnergy(mesh, self.p, locked)
+        points, left_out = yield from self._untangled(mesh, energy, locked)
+        return (yield from self._optimum(mesh, energy, points, left_out))
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Inverted hexes first, then whether a guarded figure is lower than at the start, then whether the objective of
@@ -87,16 +88,18 @@ class Mend(Smoother):
     def _direction(self) -> TruncatedNewton:
         return TruncatedNewton(iterations=self.solver_iterations)
 
-    def _untangled(self, mesh: Mesh, locked: np.ndarray) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
+    def _untangled(
+        self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray
+    ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
-        energy = MeshEnergy(mesh, self.p, locked)
         points, x, e = mesh.points, energy.scaled(mesh.points), self.softness
         tangled, worst = _tangled(points, mesh.hexes, locked)
         least, idle = tangled, 0
         while tangled and idle < PATIENCE and e > LEAST:
             delta = min(LARGEST, float(np.sqrt(e * (e - min(worst / energy.unit**3, 0.0)))))
+            find = self._direction()
             for _ in range(STEPS):
-                taken = descend(energy, x, delta, self._direction(), SEARCH, REACH)
+                taken = descend(energy, x, delta, find, SEARCH, REACH)
                 if taken is None or taken.alpha == 0:
                     break
                 x, points = taken.x, energy.placed(taken.x)
@@ -119,18 +122,19 @@ class Mend(Smoother):
             yield Step(points, decision=words, more=True)
         return points, _inverted_corners(points, mesh.hexes) | locked
 
-    def _optimum(self, mesh: Mesh, points: np.ndarray, left_out: np.ndarray) -> Steps:
+    def _optimum(self, mesh: Mesh, energy: MeshEnergy, points: np.ndarray, left_out: np.ndarray) -> Steps:
         """Behind the barrier to the optimum, then, where it is asked for, with higher and higher p."""
         p = self.p
         while True:
-            energy = MeshEnergy(mesh, p, left_out)
+            energy = energy.but(p, left_out)
+            find = self._direction()
             x, rises = energy.scaled(points), p < self.highest_p
             whole = False  # whether the last step was taken whole: then no hex is in the way
             while True:
                 poor = energies(x, mesh.hexes, 0.0, left_out) > POOR
                 if poor.any() and not whole:
                     x = _swept(mesh, x, poor, left_out, 0.0, p, POOR_SWEEPS)
-                taken = descend(energy, x, 0.0, self._direction(), SEARCH, REACH)
+                taken = descend(energy, x, 0.0, find, SEARCH, REACH)
                 if taken is None or (taken.alpha == 0 and taken.slope < 0):
                     break
                 move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))

@@ -1,0 +1,88 @@
+"""An assembled Hessian."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
+
+from hexmend.energy.couplings import Couplings
+from hexmend.kernels import conjugate_gradients as kernels
+
+
+class Assembled(scipy.sparse.linalg.LinearOperator):
+    """A symmetric matrix of 3 x 3 blocks, (3 k, 3 k): a linear operator, and a system to be solved.
+
+    Vectors are in the order of the free nodes by number, as those of `Hessian` are.
+
+    Parameters
+    ----------
+    couplings : Couplings
+    off : (blocks, 9) float32 or float64
+        Blocks above the diagonal, by rows.
+    diagonal : (k, 6) of the same
+        xx xy xz yy yz zz of each slot.
+    """
+
+    def __init__(self, couplings: Couplings, off: np.ndarray, diagonal: np.ndarray):
+        size = 3 * couplings.nodes.size
+        super().__init__(np.float64, (size, size))
+        self.couplings, self.off, self.diagonal = couplings, off, diagonal
+        self.order = np.argsort(couplings.nodes)  # the slot of each free node
+
+    def _matvec(self, v: np.ndarray) -> np.ndarray:
+        x = self._slotted(v, np.float64)
+        y = np.empty_like(x)
+        kernels.product(*self.couplings.pattern, self.off, self.diagonal, x, y)
+        return y[self.order].ravel()
+
+    def _adjoint(self) -> Assembled:
+        return self
+
+    def _slotted(self, v: np.ndarray, dtype: type) -> np.ndarray:
+        """v (3 k,) by slots, (k, 3)."""
+        x = np.empty((self.order.size, 3), dtype)
+        x[self.order] = v.reshape(-1, 3)
+        return x
+
+    def solve(self, right: np.ndarray, tolerance: float, iterations: int) -> tuple[np.ndarray, int]:
+        """Solution (3 k,) by preconditioned conjugate gradients, and the number of iterations.
+
+        What has been reached before a direction of negative curvature is returned, or, if it is the first, that
+        direction: one of descent for right = -gradient either way.
+
+        Parameters
+        ----------
+        right : (3 k,) float64
+        tolerance : float
+            Of the residual, relative to the right-hand side, both in the norm of the preconditioner.
+        iterations : int
+            Limit, after which the solution so far is taken as it is.
+        """
+        b = self._slotted(right, self.off.dtype)
+        x = np.empty_like(b)
+        count, _ = kernels.solve(*self.couplings.pattern, self.off, self.diagonal, b, tolerance, iterations, x)
+        return x[self.order].astype(np.float64).ravel(), count
+
+    @property
+    def own_blocks(self) -> np.ndarray:
+        """The 3 x 3 blocks that couple a node with itself, (k, 6): xx xy xz yy yz zz."""
+        return self.diagonal[self.order]
+
+    def matrix(self) -> scipy.sparse.csr_array:
+        """The same as a sparse matrix of scipy's, (3 k, 3 k), some 243 entries a free node."""
+        _, start, columns = self.couplings.pattern[:3]
+        slots = np.arange(self.order.size)
+        rows, off = np.repeat(slots, np.diff(start)), self.off.reshape(-1, 3, 3)
+        i, j = np.concatenate([slots, rows, columns]), np.concatenate([slots, columns, rows])
+        blocks = np.concatenate([full(self.diagonal), off, off.transpose(0, 2, 1)])
+        free = np.argsort(self.order)  # the number of each slot's node among the free nodes
+        row = 3 * free[i][:, None, None] + np.arange(3)[:, None]
+        column = 3 * free[j][:, None, None] + np.arange(3)
+        row, column = np.broadcast_arrays(row, column)
+        return scipy.sparse.coo_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=self.shape).tocsr()
+
+
+def full(blocks: np.ndarray) -> np.ndarray:
+    """Symmetric blocks (k, 6) as matrices (k, 3, 3)."""
+    return blocks[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)

@@ -1,0 +1,156 @@
+"""The assembled Hessian against the matrix-free product, and what is solved with it."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.energy import MeshEnergy
+from hexmend.energy.assembled import Assembled, full
+from hexmend.energy.couplings import Couplings
+from hexmend.kernels import conjugate_gradients
+from hexmend.mesh import Mesh
+from tests.core.grids import grid, scrambled
+
+seeds = st.integers(0, 2**32 - 1)
+deltas = st.sampled_from([(0.15, 0.0), (0.15, 0.1), (0.9, 0.02), (3.0, 0.5)])
+exponents = st.sampled_from([1.0, 2.0, 3.5])
+
+
+def hessian_of(mesh, delta=0.0, p=2.0, left_out=None, shift=0.0):
+    energy = MeshEnergy(mesh, p, left_out)
+    return energy.hessian(energy.scaled(mesh.points), delta).shifted(shift)
+
+
+def some_left_out(mesh, share, seed):
+    bits = np.random.default_rng(seed).uniform(size=(mesh.n_hexes, 8)) < share
+    return np.packbits(bits, axis=1, bitorder="little")[:, 0]
+
+
+def by_parts(hessian, part):
+    """The same matrix with another division of its slots."""
+    hessian.energy.__dict__["couplings"] = Couplings(hessian.energy.mesh, part)
+    return hessian.assembled(np.float64)
+
+
+@given(seeds, deltas, exponents, st.sampled_from([0.0, 0.3]))
+def test_the_matrix_is_the_product(seed, case, p, share):
+    mesh = scrambled(grid(6, 4, 3), case[0], seed)
+    hessian = hessian_of(mesh, case[1], p, some_left_out(mesh, share, seed), 0.25)
+    assembled = hessian.assembled(np.float64)
+    matrix, dense = assembled.matrix().toarray(), hessian @ np.eye(hessian.shape[0])
+    size = np.abs(dense).max()
+    np.testing.assert_allclose(matrix, dense, atol=1e-12 * size)
+    np.testing.assert_array_equal(matrix, matrix.T)
+    np.testing.assert_allclose(assembled @ np.eye(len(matrix)), dense, atol=1e-12 * size)
+    blocks = np.array([matrix[3 * k : 3 * k + 3, 3 * k : 3 * k + 3] for k in range(len(matrix) // 3)])
+    np.testing.assert_array_equal(full(assembled.own_blocks), blocks)
+    single = hessian.assembled().matrix().toarray()
+    np.testing.assert_allclose(single, dense, atol=1e-6 * size)
+
+
+@pytest.mark.parametrize("shares", [1, 2, 3, 7])
+def test_the_matrix_is_the_same_to_the_last_bit_however_many_threads_share_it(monkeypatch, shares):
+    mesh = scrambled(grid(9), 0.4)
+    hessian = hessian_of(mesh, 0.05)
+    one = hessian.assembled()
+    monkeypatch.setattr("numba.get_num_threads", lambda: shares)
+    other = hessian.assembled()
+    np.testing.assert_array_equal(one.off, other.off)
+    np.testing.assert_array_equal(one.diagonal, other.diagonal)
+
+
+def test_a_hex_that_uses_a_node_twice():
+    mesh = grid(3)
+    hexes = mesh.hexes.copy()
+    inner = np.flatnonzero(mesh.free)
+    hexes[0, :2] = inner[0]
+    mesh = Mesh(mesh.points + 0.1 * np.random.default_rng(0).uniform(-1, 1, mesh.points.shape), hexes)
+    hessian = hessian_of(mesh, 0.1)
+    dense = hessian @ np.eye(hessian.shape[0])
+    np.testing.assert_allclose(
+        hessian.assembled(np.float64).matrix().toarray(), dense, atol=1e-12 * np.abs(dense).max()
+    )
+
+
+def test_a_mesh_without_free_nodes_and_one_with_a_single_one():
+    assert hessian_of(grid(1)).assembled().shape == (0, 0)
+    hessian = hessian_of(scrambled(grid(2), 0.2))
+    solution, count = hessian.assembled(np.float64).solve(np.ones(3), 1e-12, 10)
+    np.testing.assert_allclose(hessian @ solution, np.ones(3), rtol=1e-9)
+    assert count <= 3
+
+
+def test_what_single_precision_cannot_hold_is_cut():
+    mesh = grid(4)
+    points = mesh.points.copy()
+    points[mesh.hexes[21, 4:], 2] = points[mesh.hexes[21, :4], 2] + 1e-13  # all but flat
+    assembled = hessian_of(mesh.with_points(points)).assembled()
+    assert np.abs(assembled.off).max() > 1e30
+    assert np.isfinite(assembled.off).all()
+    assert np.isfinite(assembled.diagonal).all()
+
+
+@pytest.mark.parametrize("part", [1, 7, 100, 10**6])
+@given(seed=seeds)
+def test_parts_change_the_way_but_not_the_solution(part, seed):
+    hessian = hessian_of(scrambled(grid(5), 0.15, seed), shift=0.5)
+    matrix = hessian.assembled(np.float64).matrix().toarray()
+    right = np.random.default_rng(seed).normal(size=len(matrix))
+    assembled = by_parts(hessian, part)
+    solution, count = assembled.solve(right, 1e-10, 500)
+    np.testing.assert_allclose(solution, np.linalg.solve(matrix, right), atol=1e-7 * np.abs(solution).max())
+    assert count < 100
+    np.testing.assert_allclose(assembled @ right, matrix @ right, atol=1e-11 * np.abs(matrix).max())
+
+
+@pytest.mark.parametrize(("part", "name"), [(1, "Jacobi"), (10**6, "Gauss-Seidel")])
+def test_the_preconditioner_is_what_it_is_said_to_be(part, name):
+    """Conjugate gradients written out, with M as a dense matrix, take as many iterations to the same solution."""
+    hessian = hessian_of(scrambled(grid(5), 0.15, 3), shift=0.5)
+    assembled = by_parts(hessian, part)
+    matrix = assembled.matrix().toarray()
+    slots = 3 * np.repeat(assembled.order.argsort(), 3) + np.tile(np.arange(3), len(matrix) // 3)
+    a = matrix[np.ix_(slots, slots)]  # in the order of the slots
+    block = np.arange(len(a)) // 3
+    d = np.where(block[:, None] == block, a, 0)
+    u = np.where(block[:, None] < block, a, 0) * (part > 1)
+    m = (d + u.T) @ np.linalg.inv(d) @ (d + u)
+    right = np.random.default_rng(0).normal(size=len(a))
+    x, r = np.zeros_like(right), right[slots].copy()
+    z = np.linalg.solve(m, r)
+    v, square = z.copy(), r @ z
+    goal, count = 1e-8 * square, 0
+    while square > goal:
+        alpha = square / (v @ a @ v)
+        x, r, count = x + alpha * v, r - alpha * a @ v, count + 1
+        z = np.linalg.solve(m, r)
+        before, square = square, r @ z
+        v = z + square / before * v
+    solution, iterations = assembled.solve(right, 1e-4, 500)
+    assert abs(iterations - count) <= 1, name
+    np.testing.assert_allclose(solution[slots], x, atol=1e-4 * np.abs(x).max())
+
+
+@given(seeds, st.floats(-5, 1), st.sampled_from([np.float32, np.float64]))
+def test_the_solution_descends_whatever_the_curvature(seed, shift, precision):
+    hessian = hessian_of(scrambled(grid(4), 0.15, 3), shift=shift)
+    right = np.random.default_rng(seed).normal(size=hessian.shape[0])
+    solution, _ = hessian.assembled(precision).solve(right, 1e-3, 50)
+    assert solution @ right > 0
+
+
+def test_how_a_solve_ended_is_told():
+    hessian = hessian_of(scrambled(grid(5), 0.15, 3))
+
+    def end(shift, most):
+        assembled = hessian.shifted(shift).assembled()
+        assert isinstance(assembled, Assembled)
+        right = np.ones((assembled.order.size, 3), np.float32)
+        return conjugate_gradients.solve(
+            *assembled.couplings.pattern, assembled.off, assembled.diagonal, right, 1e-4, most, np.empty_like(right)
+        )
+
+    assert end(0.5, 100)[1] == conjugate_gradients.DONE
+    assert end(0.5, 2) == (2, conjugate_gradients.TOO_MANY)
+    assert end(-5.0, 100)[1] == conjugate_gradients.NEGATIVE_CURVATURE
