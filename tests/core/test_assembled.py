@@ -76,7 +76,8 @@ def test_a_hex_that_uses_a_node_twice():
 def test_a_mesh_without_free_nodes_and_one_with_a_single_one():
     assert hessian_of(grid(1)).assembled().shape == (0, 0)
     hessian = hessian_of(scrambled(grid(2), 0.2))
-    solution, count = hessian.assembled(np.float64).solve(np.ones(3), 1e-12, 10)
+    solved = hessian.assembled(np.float64).solve(np.ones(3), 1e-12, 10)
+    solution, count = solved.x, solved.iterations
     np.testing.assert_allclose(hessian @ solution, np.ones(3), rtol=1e-9)
     assert count <= 3
 
@@ -98,7 +99,8 @@ def test_parts_change_the_way_but_not_the_solution(part, seed):
     matrix = hessian.assembled(np.float64).matrix().toarray()
     right = np.random.default_rng(seed).normal(size=len(matrix))
     assembled = by_parts(hessian, part)
-    solution, count = assembled.solve(right, 1e-10, 500)
+    solved = assembled.solve(right, 1e-10, 500)
+    solution, count = solved.x, solved.iterations
     np.testing.assert_allclose(solution, np.linalg.solve(matrix, right), atol=1e-7 * np.abs(solution).max())
     assert count < 100
     np.testing.assert_allclose(assembled @ right, matrix @ right, atol=1e-11 * np.abs(matrix).max())
@@ -127,17 +129,16 @@ def test_the_preconditioner_is_what_it_is_said_to_be(part, name):
         z = np.linalg.solve(m, r)
         before, square = square, r @ z
         v = z + square / before * v
-    solution, iterations = assembled.solve(right, 1e-4, 500)
-    assert abs(iterations - count) <= 1, name
-    np.testing.assert_allclose(solution[slots], x, atol=1e-4 * np.abs(x).max())
+    solved = assembled.solve(right, 1e-4, 500)
+    assert abs(solved.iterations - count) <= 1, name
+    np.testing.assert_allclose(solved.x[slots], x, atol=1e-4 * np.abs(x).max())
 
 
 @given(seeds, st.floats(-5, 1), st.sampled_from([np.float32, np.float64]))
 def test_the_solution_descends_whatever_the_curvature(seed, shift, precision):
     hessian = hessian_of(scrambled(grid(4), 0.15, 3), shift=shift)
     right = np.random.default_rng(seed).normal(size=hessian.shape[0])
-    solution, _ = hessian.assembled(precision).solve(right, 1e-3, 50)
-    assert solution @ right > 0
+    assert hessian.assembled(precision).solve(right, 1e-3, 50).x @ right > 0
 
 
 def test_how_a_solve_ended_is_told():
@@ -148,9 +149,29 @@ def test_how_a_solve_ended_is_told():
         assert isinstance(assembled, Assembled)
         right = np.ones((assembled.order.size, 3), np.float32)
         return conjugate_gradients.solve(
-            *assembled.couplings.pattern, assembled.off, assembled.diagonal, right, 1e-4, most, np.empty_like(right)
+            *assembled.couplings.pattern,
+            assembled.off,
+            assembled.diagonal,
+            0.0,
+            right,
+            1e-4,
+            most,
+            np.empty_like(right),
         )
 
     assert end(0.5, 100)[1] == conjugate_gradients.DONE
     assert end(0.5, 2) == (2, conjugate_gradients.TOO_MANY)
     assert end(-5.0, 100)[1] == conjugate_gradients.NEGATIVE_CURVATURE
+
+
+def test_damping_adds_a_multiple_of_the_diagonal_and_makes_the_matrix_positive_definite():
+    hessian = hessian_of(scrambled(grid(5), 0.15, 3), shift=0.5)
+    assembled, right = hessian.assembled(np.float64), np.random.default_rng(1).normal(size=hessian.shape[0])
+    matrix = assembled.matrix().toarray()
+    block = np.arange(len(matrix)) // 3
+    damped = matrix + 0.3 * np.where(block[:, None] == block, matrix, 0)
+    solved = assembled.solve(right, 1e-12, 200, 0.3)
+    np.testing.assert_allclose(solved.x, np.linalg.solve(damped, right), atol=1e-8)
+    indefinite = hessian.shifted(-1.0).assembled()
+    assert indefinite.solve(right, 1e-3, 100).negative_curvature
+    assert not indefinite.solve(right, 1e-3, 100, 20.0).negative_curvature

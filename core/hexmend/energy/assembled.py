@@ -2,12 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy.sparse
 import scipy.sparse.linalg
 
 from hexmend.energy.couplings import Couplings
 from hexmend.kernels import conjugate_gradients as kernels
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """What conjugate gradients reached.
+
+    Parameters
+    ----------
+    x : (3 k,) float64
+    iterations : int
+    negative_curvature : bool
+        Whether they stopped because the matrix is not positive definite.
+    """
+
+    x: np.ndarray
+    iterations: int
+    negative_curvature: bool
 
 
 class Assembled(scipy.sparse.linalg.LinearOperator):
@@ -45,8 +64,8 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
         x[self.order] = v.reshape(-1, 3)
         return x
 
-    def solve(self, right: np.ndarray, tolerance: float, iterations: int) -> tuple[np.ndarray, int]:
-        """Solution (3 k,) by preconditioned conjugate gradients, and the number of iterations.
+    def solve(self, right: np.ndarray, tolerance: float, iterations: int, damping: float = 0.0) -> Solved:
+        """Solution by conjugate gradients, preconditioned by symmetric Gauss-Seidel.
 
         What has been reached before a direction of negative curvature is returned, or, if it is the first, that
         direction: one of descent for right = -gradient either way.
@@ -58,11 +77,15 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
             Of the residual, relative to the right-hand side, both in the norm of the preconditioner.
         iterations : int
             Limit, after which the solution so far is taken as it is.
+        damping : float
+            The diagonal blocks, made positive definite, are added this many times.
         """
         b = self._slotted(right, self.off.dtype)
         x = np.empty_like(b)
-        count, _ = kernels.solve(*self.couplings.pattern, self.off, self.diagonal, b, tolerance, iterations, x)
-        return x[self.order].astype(np.float64).ravel(), count
+        count, end = kernels.solve(
+            *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x
+        )
+        return Solved(x[self.order].astype(np.float64).ravel(), count, end == kernels.NEGATIVE_CURVATURE)
 
     @property
     def own_blocks(self) -> np.ndarray:

@@ -22,7 +22,7 @@ DONE, NEGATIVE_CURVATURE, TOO_MANY = 0, 1, 2
 
 
 @serial
-def _positive(blocks, i, positive, inverse, rest):
+def _positive(blocks, i, damping, positive, inverse, rest):
     """D, D^-1 and the rest, block i - 2 D; D is block i with its least eigenvalue raised as in Algorithm A.4."""
     xx, xy, xz = np.float64(blocks[i, 0]), np.float64(blocks[i, 1]), np.float64(blocks[i, 2])
     yy, yz, zz = np.float64(blocks[i, 3]), np.float64(blocks[i, 4]), np.float64(blocks[i, 5])
@@ -45,7 +45,9 @@ def _positive(blocks, i, positive, inverse, rest):
     inverse[i, 3], inverse[i, 4] = (xx * zz - xz * xz) / det, (xy * xz - xx * yz) / det
     inverse[i, 5] = (xx * yy - xy * xy) / det
     for j in range(6):
-        rest[i, j] = blocks[i, j] - 2 * positive[i, j]
+        rest[i, j] = blocks[i, j] - (2 + damping) * positive[i, j]
+        positive[i, j] *= 1 + damping
+        inverse[i, j] /= 1 + damping
 
 
 @formula
@@ -147,6 +149,7 @@ def solve(
     across_slot,
     off,
     diagonal,
+    damping,
     right,
     tolerance,
     most,
@@ -163,6 +166,8 @@ def solve(
         Pattern, as `couplings` makes it.
     off : (blocks, 9) float
     diagonal : (k, 6) float
+    damping : float
+        This multiple of D is added to the diagonal.
     right : (k, 3) float
     tolerance : float
         Of the residual, relative to the right-hand side, both in the norm of M^-1.
@@ -184,7 +189,7 @@ def solve(
     for c in numba.prange(parts):
         begin, end = c * part, min(k, (c + 1) * part)
         for i in range(begin, end):
-            _positive(diagonal, i, positive, inverse, rest)
+            _positive(diagonal, i, damping, positive, inverse, rest)
             for j in range(3):
                 x[i, j], v[i, j], w[i, j] = 0, 0, right[i, j]
         _forward(begin, end, row_start, inner_end, columns, off, inverse, w, residual)

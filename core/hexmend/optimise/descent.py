@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.energy import MeshEnergy
+from hexmend.energy import MeshEnergy, energies
 from hexmend.kernels.reach import shorten
 from hexmend.optimise.direction import Direction, Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
@@ -83,11 +83,30 @@ def descend(
     if np.isfinite(reach):
         ring = energy.mesh.topology.rings
         shorten(found.p, read_only(x), ring.start, ring.items, energy.nodes, reach)
+        _restrain(energy, x, delta, found.p)
     if not np.vdot(found.p, gradient) < 0:
         found = steepest_descent(value, gradient, hessian)
     slope = float(np.vdot(found.p, gradient))
     alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, alpha * found.p), delta), value, slope)  # A.5
     return Descent(energy.moved(x, alpha * found.p), value, slope, norm, found, alpha, cuts)
+
+
+#: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others.
+WORSE, MORE, HALVINGS = 2.0, 1.0, 8
+
+
+def _restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
+    """Halve the steps of the nodes of hexes that would be spoilt, again and again: the rest need not wait for them."""
+    hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
+    limit = WORSE * energies(x, hexes, delta, energy.left_out) + MORE
+    for _ in range(HALVINGS):
+        spoilt = ~(energies(energy.moved(x, share[energy.nodes, None] * step), hexes, delta, energy.left_out) <= limit)
+        if not spoilt.any():
+            break
+        halved = np.zeros(share.size, dtype=bool)
+        halved[hexes[spoilt]] = True
+        share[halved] *= 0.5
+    step *= share[energy.nodes, None]
 
 
 def perfect(value: float, hexes: int) -> bool:

@@ -10,7 +10,7 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from hexmend.energy import Hessian
 from hexmend.energy.assembled import full
-from hexmend.optimise.linear import ConjugateGradients, LinearSolver
+from hexmend.optimise.linear import LinearSolver
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Found:
     solver_iterations : int
         Of the linear solver; 0 where there is none.
     shift : float
-        What was added to the diagonal of the Hessian.
+        What was added to the diagonal of the Hessian: to each entry, or, by `TruncatedNewton`, in multiples of it.
     """
 
     p: np.ndarray
@@ -57,6 +57,8 @@ class Newton:
 
 #: What is left of the first gradient where a solution is as good as rounding lets it be.
 ENOUGH = 1e-9
+#: How often the damping is raised in a step, by what factor, from what on; by what factor it falls where it was enough.
+RAISES, RISE, FIRST, FALL = 4, 4.0, 0.05, 4.0
 
 
 class TruncatedNewton:
@@ -64,7 +66,10 @@ class TruncatedNewton:
 
     The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
     1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
-    would fall below `ENOUGH` of the first.
+    would fall below `ENOUGH` of the first. Where the Hessian is not positive definite its diagonal is raised until it
+    is (Levenberg 1944): the matrix stands, and a solution costs less than the way that would be lost.
+
+    One object serves one sequence of steps: it remembers the last.
 
     Parameters
     ----------
@@ -77,15 +82,32 @@ class TruncatedNewton:
     def __init__(self, iterations: int = 200, loosest: float = 0.2, tightest: float = 1e-3):
         self.iterations, self.loosest, self.tightest = iterations, loosest, tightest
         self._first = self._last = np.inf
+        self._damping = 0.0
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+        matrix, right, tolerance = hessian.assembled(), -gradient.ravel(), self._tolerance(gradient)
+        solved = matrix.solve(right, tolerance, self.iterations, self._damping)
+        count, damping = solved.iterations, self._damping
+        for _ in range(RAISES):
+            if not solved.negative_curvature:
+                break
+            damping = max(RISE * damping, FIRST)
+            solved = matrix.solve(right, tolerance, self.iterations, damping)
+            count += solved.iterations
+        self._damping = damping if damping > self._damping else damping / FALL
+        if self._damping < FIRST:
+            self._damping = 0.0
+        return Found(solved.x.reshape(-1, 3), count, damping)
+
+    def _tolerance(self, gradient: np.ndarray) -> float:
         norm = float(np.linalg.norm(gradient))
         if self._first == np.inf:
             self._first = self._last = norm
-        goal = max(0.9 * (norm / self._last) ** 2, ENOUGH * self._first / norm) if norm > 0 else self.loosest
+        if norm == 0:
+            return self.loosest
+        goal = max(0.9 * (norm / self._last) ** 2, ENOUGH * self._first / norm)
         self._last = norm
-        tolerance = float(np.clip(goal, self.tightest, self.loosest))
-        return Newton(ConjugateGradients(tolerance, self.iterations))(value, gradient, hessian)
+        return float(np.clip(goal, self.tightest, self.loosest))
 
 
 @dataclass(frozen=True)

@@ -68,4 +68,5 @@ class ConjugateGradients:
     precision: type = np.float32
 
     def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
-        return hessian.assembled(self.precision).solve(right, self.tolerance, self.iterations)
+        solved = hessian.assembled(self.precision).solve(right, self.tolerance, self.iterations)
+        return solved.x, solved.iterations

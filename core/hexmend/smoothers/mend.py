@@ -29,11 +29,15 @@ LARGEST = 0.5
 PATIENCE = 14
 #: How far a step may take a node, in mean lengths of its edges.
 REACH = 1.5
-#: Sweeps of local steepest descent around the hexes that a Newton step has left inverted, and, at the optimum's side of
-#: the barrier, around those whose energy eta is higher than `POOR`: a few of them would cut the step of all nodes.
+#: Sweeps of local Newton steps (A.4) around the hexes that a step of all nodes has left inverted, and, at the optimum's
+#: side of the barrier, around those whose energy eta is higher than `POOR`: a few of them would cut the step of all.
 SWEEPS, POOR_SWEEPS, POOR = 10, 5, 3.0
 #: A raise of p is complete when a step moves no node further than this, in mean edge lengths.
 SETTLED = 1e-3
+
+#: The share of hexes below which the inverted ones are few: these are left to local sweeps alone, in larger numbers,
+#: and the whole mesh steps again only where two deltas in a row have mended nothing.
+FEW, MANY_SWEEPS = 0.003, 50
 
 SEARCH = BackLineSearch(shrink=0.5)
 
@@ -98,7 +102,9 @@ class Mend(Smoother):
         while tangled and idle < PATIENCE and e > LEAST:
             delta = min(LARGEST, float(np.sqrt(e * (e - min(worst / energy.unit**3, 0.0)))))
             find = self._direction()
-            for _ in range(STEPS):
+            few = tangled < FEW * mesh.n_hexes
+            sweeps = MANY_SWEEPS if few else SWEEPS
+            for _ in range(STEPS if not few or idle % 3 == 2 else 0):
                 taken = descend(energy, x, delta, find, SEARCH, REACH)
                 if taken is None or taken.alpha == 0:
                     break
@@ -110,9 +116,9 @@ class Mend(Smoother):
                     break
             if tangled:
                 inverted = measure(points, mesh.hexes).inverted
-                x = _swept(mesh, x, inverted, locked, delta, self.p, SWEEPS)
+                x = _swept(mesh, x, inverted, locked, delta, self.p, sweeps)
                 points = energy.placed(x)
-                yield Step(points, {"delta": delta, "sweeps": SWEEPS}, more=True)
+                yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True)
                 tangled, worst = _tangled(points, mesh.hexes, locked)
             idle = 0 if tangled < least else idle + 1
             least = min(least, tangled)
@@ -150,7 +156,7 @@ class Mend(Smoother):
 def _swept(
     mesh: Mesh, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, p: float, sweeps: int
 ) -> np.ndarray:
-    """Sweeps of local steepest descent over the nodes of some hexes and of their neighbours.
+    """Sweeps of local Newton steps over the nodes of some hexes and of their neighbours.
 
     Nodes at hexes of which corners are left out stay: a local energy would count these corners.
     """
@@ -163,7 +169,7 @@ def _swept(
     for _ in range(sweeps):
         local.sweep(
             swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            local.STEEPEST_DESCENT, delta, p, 1.0, 0.7, 1e-4, 60,
+            local.MODIFIED_NEWTON, delta, p, 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
     return swept
 
