@@ -17,7 +17,7 @@ class Bench:
             metavar="PART",
             action="append",
             default=[],
-            help="iterations, optima, tangled, scaling or viewer; may be repeated",
+            help="kernels, iterations, preconditioners, optima, tangled, scaling, sizes or viewer; may be repeated",
         )
         parser.add_argument("--json", metavar="FILE", help="write the figures")
 

@@ -1,9 +1,11 @@
 """The energy that the optimisers minimise, its derivatives, and the policies for its delta."""
 
+from hexmend.energy.couplings import Couplings
 from hexmend.energy.delta import POLICIES, AdaptiveDelta, DeltaPolicy, FixedDelta
 from hexmend.energy.hexahedral import energies, objective
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 
 __all__ = [
-    "POLICIES", "AdaptiveDelta", "DeltaPolicy", "FixedDelta", "Hessian", "MeshEnergy", "energies", "objective",
+    "POLICIES", "AdaptiveDelta", "Couplings", "DeltaPolicy", "FixedDelta", "Hessian", "MeshEnergy",
+    "energies", "objective",
 ]  # fmt: skip

@@ -69,6 +69,8 @@ def sweep(points, hexes, start, corners, free, candidates, q, sound, s, rho, pen
         Steps taken back.
     """
     m, steps = hexes.shape[0], candidates.size
+    if steps == 0:  # a queue of nothing has no first
+        return 0
     key = np.where(sound, q, q - 1)  # inverted hexes come first
     leaf = np.full(m, -1, np.int32)
     for i in range(steps):

@@ -17,7 +17,8 @@ import numba
 from hexmend.gallery import make
 from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
-from hexmend.study.mending import OPTIMA, TANGLED
+from hexmend.study.kernels import KERNELS, PRECONDITIONERS
+from hexmend.study.mending import OPTIMA, SIZES, TANGLED
 from hexmend.study.section import Section
 
 #: Seconds per iteration and node in the thesis's tables for BridgeSharp: 4.1 for the optimisers, 4.2 for GETMe, 4.3 for
@@ -35,7 +36,9 @@ THESIS_SECONDS_PER_NODE = {
 
 def sections() -> dict[str, Section]:
     """Every section by name; the viewer's joins through the entry-point group `hexmend.benchmarks`."""
-    found = {section.name: section for section in (ITERATIONS, OPTIMA, TANGLED, SCALING)}
+    found = {
+        section.name: section for section in (KERNELS, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, SCALING, SIZES)
+    }
     for entry in entry_points(group="hexmend.benchmarks"):
         try:
             found[entry.name] = entry.load()

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import itertools
+import json
 import os
+import subprocess
+import sys
 from collections import Counter
 from pathlib import Path
 from statistics import median
@@ -93,6 +96,42 @@ def _tangled_lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
+#: Each size is measured in a process of its own, so that its peak of memory is its own.
+_PROBE = """
+import json, resource, sys
+from hexmend.gallery import make
+from hexmend.run import Stop, iterate
+mesh = make("five-side", size=int(sys.argv[1]), scramble=0.3)
+run = iterate(mesh, "mend", Stop(max_iterations=1000))
+inner = sum(it.notes.get("solver_iterations", 0) for it in run)
+result = run.result()
+row = {
+    "hexes": mesh.n_hexes, "inverted": result.before.inverted, "left": result.after.inverted,
+    "iterations": result.iterations, "solver_iterations": inner, "seconds": result.seconds,
+    "peak_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+}
+print(json.dumps(row))
+"""
+
+
+def _sizes() -> dict[str, Any]:
+    rows = []
+    for size in (10_000, 100_000, 1_000_000):
+        done = subprocess.run([sys.executable, "-c", _PROBE, str(size)], capture_output=True, text=True, check=True)
+        rows.append(json.loads(done.stdout))
+    return {"sizes": rows}
+
+
+def _size_lines(figures: dict[str, Any]) -> list[str]:
+    return [
+        f"{row['hexes']:>9,} hexes   inverted {row['inverted']:>6,} to {row['left']}"
+        f"   {row['iterations']:>3} iterations ({row['solver_iterations']:>3} of the solver)   {row['seconds']:8.2f} s"
+        f"   {row['seconds'] / row['hexes'] * 1e6:5.1f} us a hex   peak {row['peak_mb']:6.0f} MB"
+        for row in figures["sizes"]
+    ]
+
+
+SIZES = Section("sizes", "mend on five-side scrambled by 0.3, against size (whole process)", _sizes, _size_lines)
 OPTIMA = Section("optima", "mend, from the mesh to its optimum", _optima, _optima_lines)
 TANGLED = Section(
     "tangled", "mend on meshes scrambled by up to 5 edge lengths, 750 to 2,500 hexes", _tangled, _tangled_lines
