@@ -75,7 +75,9 @@ def problem():
     return energy, x, energy.value(x), energy.gradient(x), energy.hessian(x)
 
 
-@pytest.mark.parametrize("solver", [Minres(1e-10), ConjugateGradients(1e-10, precision=np.float64)])
+@pytest.mark.parametrize(
+    "solver", [Minres(1e-10, precision=np.float64), ConjugateGradients(1e-10, precision=np.float64)]
+)
 def test_solvers_solve_where_the_matrix_is_positive_definite(problem, solver):
     *_, gradient, hessian = problem
     hessian = hessian.shifted(0.5)
@@ -91,7 +93,7 @@ def test_minres_solves_an_indefinite_system(problem):
     hessian = hessian.shifted(-1.0)
     values = np.linalg.eigvalsh(hessian.assembled(np.float64).matrix().toarray())
     assert values[0] < 0 < values[-1]
-    solution, _ = Minres(1e-10)(hessian, gradient.ravel())
+    solution, _ = Minres(1e-10, precision=np.float64)(hessian, gradient.ravel())
     np.testing.assert_allclose(hessian @ solution, gradient.ravel(), atol=1e-7)
 
 
@@ -114,10 +116,10 @@ def test_extreme_eigenvalues_are_good_to_a_thousandth(problem):
 def test_directions_are_those_of_appendix_a(problem):
     *_, value, gradient, hessian = problem
     np.testing.assert_allclose(steepest_descent(value, gradient, hessian).p, -gradient / (2 * np.sqrt(value)))
-    newton = Newton(Minres(1e-12))(value, gradient, hessian).p
+    newton = Newton(Minres(1e-12, precision=np.float64))(value, gradient, hessian).p
     np.testing.assert_allclose(hessian @ newton.ravel(), -gradient.ravel(), atol=1e-8)
     indefinite = hessian.shifted(-1.0)
-    found = ModifiedNewton(Minres(1e-12))(value, gradient, indefinite)
+    found = ModifiedNewton(Minres(1e-12, precision=np.float64))(value, gradient, indefinite)
     shift = found.shift - indefinite.shift
     values = np.linalg.eigvalsh(indefinite.assembled(np.float64).matrix().toarray())
     assert shift == pytest.approx(0.001 * values[-1] - values[0], rel=1e-2)

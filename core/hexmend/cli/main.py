@@ -56,8 +56,10 @@ def commands() -> dict[str, Callable[[], Command]]:
 
 
 def _run(load: Callable[[], Command], words: list[str]) -> int:
+    from hexmend import compiling
     from hexmend.errors import FileError, HexmendError, MeshError
 
+    compiling.listeners.append(_compiling)
     try:
         command = load()
         parser = argparse.ArgumentParser(prog=f"hexmend {command.name}", description=command.help, allow_abbrev=False)
@@ -76,6 +78,10 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
     except BrokenPipeError:  # the reader (head, less) has gone: nothing more to say
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+
+
+def _compiling() -> None:
+    print("hexmend: compiling the numerical kernels. This takes a minute or two, once.", file=sys.stderr, flush=True)
 
 
 def _looks_like_a_command(word: str) -> bool:

@@ -156,8 +156,8 @@ class Hessian(scipy.sparse.linalg.LinearOperator):
             Of the blocks.
         """
         energy, couplings = self.energy, self.energy.couplings
-        off = np.empty((couplings.blocks, 9), dtype)
-        diagonal = np.empty((couplings.nodes.size, 6), dtype)
+        off = np.zeros((couplings.blocks, 9), dtype)
+        diagonal = np.zeros((couplings.nodes.size, 6), dtype)
         assembly.assemble(
             self.x,
             energy.mesh.hexes,

@@ -18,6 +18,9 @@ from pathlib import Path
 from typing import Any
 
 import numba
+from numba.core import event
+
+from hexmend import compiling
 
 #: Hexes (or nodes) that one thread takes at a time.
 CHUNK = 256
@@ -57,12 +60,29 @@ def _compiled(**options: Any) -> Callable[[Callable], Callable]:
     return decorate
 
 
+class _Compiling(event.Listener):
+    """Hears of every kernel that is compiled because it is not on disk."""
+
+    def on_start(self, event: event.Event) -> None:
+        compiling.tell()
+
+    def on_end(self, event: event.Event) -> None:
+        pass
+
+
+event.register("numba:compile", _Compiling())
+
 #: A kernel that runs on one thread, or a piece of one. Products and sums may be contracted to one rounding, which is
 #: what vector units are fast at.
 serial = _compiled(fastmath={"contract"})
 
+#: Of what Numba would make parallel, `prange` alone: array expressions are short here, and cost seconds to compile.
+_PRANGE = dict.fromkeys(
+    ("comprehension", "reduction", "inplace_binop", "setitem", "numpy", "stencil", "fusion"), False
+) | {"prange": True}
+
 #: A kernel whose `prange` loops share the threads.
-parallel = _compiled(parallel=True, fastmath={"contract"})
+parallel = _compiled(parallel=_PRANGE, fastmath={"contract"})
 
 #: A formula that its callers take in whole, as a loop over lanes needs it to be.
 formula = _compiled(fastmath={"contract"}, forceinline=True)

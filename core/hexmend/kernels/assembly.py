@@ -292,7 +292,7 @@ def _add(values, chosen, slots, target, low, high, off, diagonal):
 
 @parallel
 def assemble(points, hexes, delta, p, left_out, slots, target, bounds, start, chosen, off, diagonal):
-    """Assemble the Hessian of sum eta(H)^p; writes off and diagonal, in their precision.
+    """Assemble the Hessian of sum eta(H)^p: add it to off and diagonal, in their precision.
 
     Slots are shared out, and each share takes all hexes at its slots: some hexes are computed twice, and every block is
     the sum over its hexes in one order, however many shares there are.
@@ -318,14 +318,14 @@ def assemble(points, hexes, delta, p, left_out, slots, target, bounds, start, ch
     diagonal : (k, 6) float
         xx xy xz yy yz zz.
     """
-    off[:] = 0
-    diagonal[:] = 0
     for share in numba.prange(bounds.size - 1):
         work, values = np.empty(_LENGTH), np.empty((_VALUES, LANES + 16), off.dtype)
         corners, bits = np.empty((LANES, 8), np.int32), np.empty(LANES, np.uint8)
         for begin in range(start[share], start[share + 1], LANES):
             some = chosen[begin : min(begin + LANES, start[share + 1])]
             for lane in range(some.size):
-                corners[lane], bits[lane] = hexes[some[lane]], left_out[some[lane]]
+                bits[lane] = left_out[some[lane]]
+                for c in range(8):
+                    corners[lane, c] = hexes[some[lane], c]
             _block(points, corners[: some.size], delta, p, bits, work, values)
             _add(values, some, slots, target, bounds[share], bounds[share + 1], off, diagonal)

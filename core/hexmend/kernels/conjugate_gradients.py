@@ -212,11 +212,12 @@ def solve(
             sums[c] = _add_and_multiply(begin, end, t, product, v)
         curvature = sums.sum()
         if not curvature > 0:
-            if count == 1 and np.isfinite(curvature):
-                x[:] = t
-            elif count == 1:  # M has left the range of numbers: block Jacobi's direction
+            if count == 1:
                 for i in range(k):
-                    x[i, 0], x[i, 1], x[i, 2] = _times(inverse, i, right[i, 0], right[i, 1], right[i, 2])
+                    if np.isfinite(curvature):
+                        x[i, 0], x[i, 1], x[i, 2] = t[i, 0], t[i, 1], t[i, 2]
+                    else:  # M has left the range of numbers: block Jacobi's direction
+                        x[i, 0], x[i, 1], x[i, 2] = _times(inverse, i, right[i, 0], right[i, 1], right[i, 2])
             return count, NEGATIVE_CURVATURE
         alpha = right.dtype.type(square / curvature)
         for c in numba.prange(parts):

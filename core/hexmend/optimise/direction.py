@@ -130,7 +130,7 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
     iterations it is taken to be zero (A.2).
     """
     start = np.ones(hessian.shape[0])  # ARPACK's own would be random
-    matrix = hessian.assembled(np.float64)
+    matrix = hessian.assembled()
 
     def top(operator: LinearOperator) -> float | None:
         try:

@@ -30,10 +30,13 @@ class Minres:
         Of the residual, relative to the right-hand side.
     iterations : int
         Limit, after which the solution so far is taken as it is.
+    precision : type
+        Of the matrix.
     """
 
     tolerance: float = 1e-6
     iterations: int = 1000
+    precision: type = np.float32
 
     def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
         count = 0
@@ -43,7 +46,7 @@ class Minres:
             count += 1
 
         solution, _ = scipy.sparse.linalg.minres(
-            hessian.assembled(np.float64), right, rtol=self.tolerance, maxiter=self.iterations, callback=tick
+            hessian.assembled(self.precision), right, rtol=self.tolerance, maxiter=self.iterations, callback=tick
         )
         return solution, count
 
