@@ -8,9 +8,9 @@ from hexmend import compiling
 
 PROGRAM = """
 import numpy as np
-from hexmend import compiling
 from hexmend.kernels.incidence import grouped
-compiling.listeners.append(lambda: print("compiling"))
+from hexmend.compiling import listeners
+listeners.append(lambda: print("compiling"))
 grouped(np.zeros(3, np.int32), 1)
 """
 

@@ -6,8 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.energy import AdaptiveDelta, FixedDelta, MeshEnergy
+from hexmend.gallery import make
 from hexmend.kernels import local, symmetric
-from hexmend.optimise.direction import ModifiedNewton, Newton, extreme_eigenvalues, steepest_descent
+from hexmend.optimise import descent
+from hexmend.optimise.direction import (
+    ModifiedNewton,
+    Newton,
+    TruncatedNewton,
+    extreme_eigenvalues,
+    steepest_descent,
+)
 from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.linear import ConjugateGradients, Minres
 from hexmend.quality import measure
@@ -139,3 +147,50 @@ def test_adaptive_delta_gives_the_worst_determinant_the_h_that_is_asked():
         figures = measure(tangled.points * length, tangled.hexes)
         sigma, delta = figures.sigma.min() / length**3, AdaptiveDelta(0.1).at(figures, length)
         assert (sigma + np.sqrt(sigma**2 + 4 * delta**2)) / 2 == pytest.approx(0.1)
+
+
+def test_a_truncated_newton_step_is_as_good_as_the_model_deserves():
+    mesh = make("five-side", size=500, scramble=0.1)
+    energy, find = MeshEnergy(mesh), TruncatedNewton()
+    x, residuals, norms = energy.scaled(mesh.points), [], []
+    for _ in range(7):
+        gradient, hessian = energy.gradient(x), energy.hessian(x)
+        found = find(energy.value(x), gradient, hessian)
+        assert np.vdot(found.p, gradient) < 0
+        norms.append(np.linalg.norm(gradient))
+        residuals.append(np.linalg.norm(hessian @ found.p.ravel() + gradient.ravel()) / norms[-1])
+        x = energy.moved(x, found.p)
+    assert max(residuals) < 0.5  # the tolerance is in the norm of the preconditioner
+    assert min(residuals) < 0.01 < residuals[0]
+    assert norms[-1] < 1e-7 * norms[0]
+
+
+def test_a_hessian_that_is_not_positive_definite_is_damped_until_it_is(problem):
+    *_, value, gradient, hessian = problem
+    find, indefinite = TruncatedNewton(), hessian.shifted(-1.0)
+    found = find(value, gradient, indefinite)
+    assert found.shift >= 0.05
+    assert np.vdot(found.p, gradient) < 0
+    again = find(value, gradient, indefinite)
+    assert again.shift == found.shift  # remembered: no attempt is lost
+    find(value, gradient, hessian.shifted(5.0))
+    assert find(value, gradient, hessian.shifted(5.0)).shift < found.shift  # and given up step by step
+
+
+def test_a_spoilt_hex_holds_back_its_own_nodes_alone():
+    mesh = grid(6)
+    energy = MeshEnergy(mesh)
+    x, step = energy.scaled(mesh.points), np.full((energy.nodes.size, 3), 0.01)
+    thrown = int(energy.nodes.size // 2)
+    step[thrown] = [1.8, 0.1, 0.0]
+    before = step.copy()
+    assert energy.value(energy.moved(x, step)) == np.inf
+    descent._restrain(energy, x, 0.0, step)
+    assert np.isfinite(energy.value(energy.moved(x, step)))
+    kept = (step == before).all(axis=1)
+    touched = np.isin(mesh.hexes, energy.nodes[thrown]).any(axis=1)
+    near = np.isin(energy.nodes, mesh.hexes[touched])
+    assert kept[~near].all()
+    assert np.count_nonzero(~kept[near]) > 0
+    assert not kept[thrown]
+    np.testing.assert_allclose(step[thrown] / before[thrown], (step[thrown] / before[thrown])[0])

@@ -56,10 +56,10 @@ def commands() -> dict[str, Callable[[], Command]]:
 
 
 def _run(load: Callable[[], Command], words: list[str]) -> int:
-    from hexmend import compiling
+    from hexmend.compiling import listeners
     from hexmend.errors import FileError, HexmendError, MeshError
 
-    compiling.listeners.append(_compiling)
+    listeners.append(_compiling)
     try:
         command = load()
         parser = argparse.ArgumentParser(prog=f"hexmend {command.name}", description=command.help, allow_abbrev=False)

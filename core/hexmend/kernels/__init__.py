@@ -20,7 +20,7 @@ from typing import Any
 import numba
 from numba.core import event
 
-from hexmend import compiling
+from hexmend.compiling import tell
 
 #: Hexes (or nodes) that one thread takes at a time.
 CHUNK = 256
@@ -64,7 +64,7 @@ class _Compiling(event.Listener):
     """Hears of every kernel that is compiled because it is not on disk."""
 
     def on_start(self, event: event.Event) -> None:
-        compiling.tell()
+        tell()
 
     def on_end(self, event: event.Event) -> None:
         pass

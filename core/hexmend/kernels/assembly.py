@@ -52,41 +52,38 @@ _CUT = 1e34
 
 
 @formula
-def _own(cx, cy, cz, px, py, pz, k):
-    """c p' + p c' + k I: xx xy xz yy yz zz."""
-    return 2 * cx * px + k, cx * py + px * cy, cx * pz + px * cz, 2 * cy * py + k, cy * pz + py * cz, 2 * cz * pz + k
+def _put_own(w, at, cx, cy, cz, px, py, pz, k):
+    """c p' + p c' + k I: xx xy xz yy yz zz, into six rows of w."""
+    w[at + ROW[0]], w[at + ROW[1]], w[at + ROW[2]] = 2 * cx * px + k, cx * py + px * cy, cx * pz + px * cz
+    w[at + ROW[3]], w[at + ROW[4]], w[at + ROW[5]] = 2 * cy * py + k, cy * pz + py * cz, 2 * cz * pz + k
 
 
 @formula
-def _pair(cx, cy, cz, px, py, pz, dx, dy, dz, qx, qy, qz, k, x, y, z):
-    """c q' + p d' + k I + [(x, y, z)] cross, by rows."""
-    return (
-        cx * qx + px * dx + k, cx * qy + px * dy - z, cx * qz + px * dz + y,
-        cy * qx + py * dx + z, cy * qy + py * dy + k, cy * qz + py * dz - x,
-        cz * qx + pz * dx - y, cz * qy + pz * dy + x, cz * qz + pz * dz + k,
-    )  # fmt: skip
+def _put_pair(w, at, cx, cy, cz, px, py, pz, dx, dy, dz, qx, qy, qz, k, x, y, z):
+    """c q' + p d' + k I + [(x, y, z)] cross, by its rows, into nine rows of w."""
+    w[at + ROW[0]] = cx * qx + px * dx + k
+    w[at + ROW[1]] = cx * qy + px * dy - z
+    w[at + ROW[2]] = cx * qz + px * dz + y
+    w[at + ROW[3]] = cy * qx + py * dx + z
+    w[at + ROW[4]] = cy * qy + py * dy + k
+    w[at + ROW[5]] = cy * qz + py * dz - x
+    w[at + ROW[6]] = cz * qx + pz * dx - y
+    w[at + ROW[7]] = cz * qy + pz * dy + x
+    w[at + ROW[8]] = cz * qz + pz * dz + k
 
 
 @serial
 def _second_derivatives(w, delta):
     """Of the tetrahedra in S: eta(T), added to SUM, an eighth of its gradient, written to G, and of its second
-    derivatives by its nodes, written to _T: (B.19), mended, as `tetrahedron` has it.
+    derivatives by its nodes, written to the rows behind: (B.19), mended, as `tetrahedron` has it.
 
     With s and c what the columns of S and of C are to a node (of the apex: minus their sum), and p = mixed s + half c,
     the block of two nodes is c p' + p c' and what d2 sigma and (V, W) add.
     """
     for i in range(ALL):
-        ux, uy, uz = w[S + i], w[S + np.uint64(STRIDE) + i], w[S + np.uint64(2 * STRIDE) + i]
-        vx, vy, vz = (
-            w[S + np.uint64(3 * STRIDE) + i],
-            w[S + np.uint64(4 * STRIDE) + i],
-            w[S + np.uint64(5 * STRIDE) + i],
-        )
-        wx, wy, wz = (
-            w[S + np.uint64(6 * STRIDE) + i],
-            w[S + np.uint64(7 * STRIDE) + i],
-            w[S + np.uint64(8 * STRIDE) + i],
-        )
+        ux, uy, uz = w[ROW[0] + i], w[ROW[1] + i], w[ROW[2] + i]
+        vx, vy, vz = w[ROW[3] + i], w[ROW[4] + i], w[ROW[5] + i]
+        wx, wy, wz = w[ROW[6] + i], w[ROW[7] + i], w[ROW[8] + i]
         eta, k, c, mixed, half = tetrahedron.second(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, w[KEEP + i])
         cux, cuy, cuz, cvx, cvy, cvz, cwx, cwy, cwz = tetrahedron.cofactors(ux, uy, uz, vx, vy, vz, wx, wy, wz)
         w[SUM + i] += eta
@@ -98,79 +95,23 @@ def _second_derivatives(w, delta):
         pwx, pwy, pwz = mixed * wx + half * cwx, mixed * wy + half * cwy, mixed * wz + half * cwz
         cax, cay, caz = -(cux + cvx + cwx), -(cuy + cvy + cwy), -(cuz + cvz + cwz)
         pax, pay, paz = -(pux + pvx + pwx), -(puy + pvy + pwy), -(puz + pvz + pwz)
-        w[_T[0] + i], w[_T[1] + i], w[_T[2] + i], w[_T[3] + i], w[_T[4] + i], w[_T[5] + i] = _own(
-            cax, cay, caz, pax, pay, paz, 3 * k
-        )
-        w[_T[6] + i], w[_T[7] + i], w[_T[8] + i], w[_T[9] + i], w[_T[10] + i], w[_T[11] + i] = _own(
-            cux, cuy, cuz, pux, puy, puz, k
-        )
-        w[_T[12] + i], w[_T[13] + i], w[_T[14] + i], w[_T[15] + i], w[_T[16] + i], w[_T[17] + i] = _own(
-            cvx, cvy, cvz, pvx, pvy, pvz, k
-        )
-        w[_T[18] + i], w[_T[19] + i], w[_T[20] + i], w[_T[21] + i], w[_T[22] + i], w[_T[23] + i] = _own(
-            cwx, cwy, cwz, pwx, pwy, pwz, k
-        )
+        _put_own(w, _T[0] + i, cax, cay, caz, pax, pay, paz, 3 * k)
+        _put_own(w, _T[6] + i, cux, cuy, cuz, pux, puy, puz, k)
+        _put_own(w, _T[12] + i, cvx, cvy, cvz, pvx, pvy, pvz, k)
+        _put_own(w, _T[18] + i, cwx, cwy, cwz, pwx, pwy, pwz, k)
         ux, uy, uz, vx, vy, vz, wx, wy, wz = c * ux, c * uy, c * uz, c * vx, c * vy, c * vz, c * wx, c * wy, c * wz
-        (
-            w[_T[24] + i],
-            w[_T[25] + i],
-            w[_T[26] + i],
-            w[_T[27] + i],
-            w[_T[28] + i],
-            w[_T[29] + i],
-            w[_T[30] + i],
-            w[_T[31] + i],
-            w[_T[32] + i],
-        ) = _pair(cax, cay, caz, pax, pay, paz, cux, cuy, cuz, pux, puy, puz, -k, wx - vx, wy - vy, wz - vz)
-        (
-            w[_T[33] + i],
-            w[_T[34] + i],
-            w[_T[35] + i],
-            w[_T[36] + i],
-            w[_T[37] + i],
-            w[_T[38] + i],
-            w[_T[39] + i],
-            w[_T[40] + i],
-            w[_T[41] + i],
-        ) = _pair(cax, cay, caz, pax, pay, paz, cvx, cvy, cvz, pvx, pvy, pvz, -k, ux - wx, uy - wy, uz - wz)
-        (
-            w[_T[42] + i],
-            w[_T[43] + i],
-            w[_T[44] + i],
-            w[_T[45] + i],
-            w[_T[46] + i],
-            w[_T[47] + i],
-            w[_T[48] + i],
-            w[_T[49] + i],
-            w[_T[50] + i],
-        ) = _pair(cax, cay, caz, pax, pay, paz, cwx, cwy, cwz, pwx, pwy, pwz, -k, vx - ux, vy - uy, vz - uz)
-        (
-            w[_T[51] + i],
-            w[_T[52] + i],
-            w[_T[53] + i],
-            w[_T[54] + i],
-            w[_T[55] + i],
-            w[_T[56] + i],
-            w[_T[57] + i],
-            w[_T[58] + i],
-            w[_T[59] + i],
-        ) = _pair(cux, cuy, cuz, pux, puy, puz, cvx, cvy, cvz, pvx, pvy, pvz, 0.0, wx, wy, wz)
-        (
-            w[_T[60] + i],
-            w[_T[61] + i],
-            w[_T[62] + i],
-            w[_T[63] + i],
-            w[_T[64] + i],
-            w[_T[65] + i],
-            w[_T[66] + i],
-            w[_T[67] + i],
-            w[_T[68] + i],
-        ) = _pair(cux, cuy, cuz, pux, puy, puz, cwx, cwy, cwz, pwx, pwy, pwz, 0.0, -vx, -vy, -vz)
-        (
-            w[_T[69] + i], w[_T[70] + i], w[_T[71] + i],
-            w[_T[72] + i], w[_T[73] + i], w[_T[74] + i],
-            w[_T[75] + i], w[_T[76] + i], w[_T[77] + i],
-        ) = _pair(cvx, cvy, cvz, pvx, pvy, pvz, cwx, cwy, cwz, pwx, pwy, pwz, 0.0, ux, uy, uz)  # fmt: skip
+        _put_pair(
+            w, _T[24] + i, cax, cay, caz, pax, pay, paz, cux, cuy, cuz, pux, puy, puz, -k, wx - vx, wy - vy, wz - vz
+        )
+        _put_pair(
+            w, _T[33] + i, cax, cay, caz, pax, pay, paz, cvx, cvy, cvz, pvx, pvy, pvz, -k, ux - wx, uy - wy, uz - wz
+        )
+        _put_pair(
+            w, _T[42] + i, cax, cay, caz, pax, pay, paz, cwx, cwy, cwz, pwx, pwy, pwz, -k, vx - ux, vy - uy, vz - uz
+        )
+        _put_pair(w, _T[51] + i, cux, cuy, cuz, pux, puy, puz, cvx, cvy, cvz, pvx, pvy, pvz, 0.0, wx, wy, wz)
+        _put_pair(w, _T[60] + i, cux, cuy, cuz, pux, puy, puz, cwx, cwy, cwz, pwx, pwy, pwz, 0.0, -vx, -vy, -vz)
+        _put_pair(w, _T[69] + i, cvx, cvy, cvz, pvx, pvy, pvz, cwx, cwy, cwz, pwx, pwy, pwz, 0.0, ux, uy, uz)
 
 
 @serial

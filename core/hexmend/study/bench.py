@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import itertools
-import json
 import os
 import platform
-import subprocess
-import sys
 from importlib.metadata import entry_points
 from statistics import median
 from typing import Any
@@ -19,7 +16,7 @@ from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
 from hexmend.study.kernels import KERNELS, PRECONDITIONERS
 from hexmend.study.mending import OPTIMA, SIZES, TANGLED
-from hexmend.study.section import Section
+from hexmend.study.section import Section, by_size
 
 #: Seconds per iteration and node in the thesis's tables for BridgeSharp: 4.1 for the optimisers, 4.2 for GETMe, 4.3 for
 #: Laplacian.
@@ -95,7 +92,6 @@ def _iteration_lines(figures: dict[str, Any]) -> list[str]:
     return rows
 
 
-#: Each size is measured in a process of its own, so that its peak of memory is its own.
 _PROBE = """
 import json, resource, sys
 from time import perf_counter
@@ -121,11 +117,7 @@ print(json.dumps(row))
 
 
 def _scaling() -> dict[str, Any]:
-    rows = []
-    for size in (10_000, 100_000, 1_000_000):
-        done = subprocess.run([sys.executable, "-c", _PROBE, str(size)], capture_output=True, text=True, check=True)
-        rows.append(json.loads(done.stdout))
-    return {"sizes": rows}
+    return {"sizes": by_size(_PROBE)}
 
 
 def _scaling_lines(figures: dict[str, Any]) -> list[str]:

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import itertools
-import json
 import os
-import subprocess
-import sys
 from collections import Counter
 from pathlib import Path
 from statistics import median
@@ -17,7 +14,7 @@ from hexmend.io import read, readable_suffixes
 from hexmend.mesh import Mesh
 from hexmend.quality import summarise
 from hexmend.run import Stop, smooth
-from hexmend.study.section import Section
+from hexmend.study.section import Section, by_size
 
 #: Gallery meshes by name, size and scramble.
 _MESHES = [("five-side", 7350, 0.0), ("bridge-sharp", 32000, 0.0), ("bridge-sharp", 32000, 0.6), ("plane", 31760, 0.0)]
@@ -96,7 +93,6 @@ def _tangled_lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
-#: Each size is measured in a process of its own, so that its peak of memory is its own.
 _PROBE = """
 import json, resource, sys
 from hexmend.gallery import make
@@ -115,11 +111,7 @@ print(json.dumps(row))
 
 
 def _sizes() -> dict[str, Any]:
-    rows = []
-    for size in (10_000, 100_000, 1_000_000):
-        done = subprocess.run([sys.executable, "-c", _PROBE, str(size)], capture_output=True, text=True, check=True)
-        rows.append(json.loads(done.stdout))
-    return {"sizes": rows}
+    return {"sizes": by_size(_PROBE)}
 
 
 def _size_lines(figures: dict[str, Any]) -> list[str]:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -24,3 +27,16 @@ class Section:
     title: str
     measure: Callable[[], dict[str, Any]]
     lines: Callable[[dict[str, Any]], list[str]]
+
+
+#: Hexes of the meshes that a figure is measured on against size.
+_SIZES = 10_000, 100_000, 1_000_000
+
+
+def by_size(program: str) -> list[dict[str, Any]]:
+    """What a program that is given a size prints as JSON, for each size: in a process, so that its memory is its own."""
+    rows = []
+    for size in _SIZES:
+        done = subprocess.run([sys.executable, "-c", program, str(size)], capture_output=True, text=True, check=True)
+        rows.append(json.loads(done.stdout))
+    return rows
