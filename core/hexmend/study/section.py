@@ -34,7 +34,7 @@ _SIZES = 10_000, 100_000, 1_000_000
 
 
 def by_size(program: str) -> list[dict[str, Any]]:
-    """What a program that is given a size prints as JSON, for each size, in a process of its own with its own memory."""
+    """What a program that is given a size prints as JSON, for each size in a process, and a memory, of its own."""
     rows = []
     for size in _SIZES:
         done = subprocess.run([sys.executable, "-c", program, str(size)], capture_output=True, text=True, check=True)
