@@ -16,6 +16,7 @@ from hexmend import gallery, io
 from hexmend_app.program import application, report_unexpected_errors
 from hexmend_app.state.run import Phase
 from hexmend_app.window import Window
+from tests.said import FIRST_RUN
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -116,7 +117,7 @@ def test_run_pause_step_stop_reset_by_mouse(window, qtbot):
 
 def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
     window.smoothing_panel.stop_form.set_values({"tolerance": 1e-2})
-    with qtbot.waitSignal(window.smoothing.ended, timeout=30000):
+    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
         QTest.keyClick(window.windowHandle(), Qt.Key.Key_F5)
     assert window.document.start.summary.inverted > 0
     assert window.document.now.summary.inverted == 0

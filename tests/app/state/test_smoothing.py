@@ -14,6 +14,7 @@ from hexmend_app.state.document import Document, State
 from hexmend_app.state.run import Phase, Smoothing
 from hexmend_app.state.worker import Mailbox
 from tests.core.grids import grid, scrambled
+from tests.said import FIRST_RUN
 
 SLOW = Stop(tolerance=0, max_iterations=100_000)
 
@@ -53,7 +54,7 @@ def phase_is(smoothing, phase):
 
 def test_a_run_ends_where_the_command_line_ends(document, smoothing, qtbot):
     expected = smooth(document.now.mesh, LocalSteepestDescent())
-    with qtbot.waitSignal(smoothing.ended, timeout=30000) as ended:
+    with qtbot.waitSignal(smoothing.ended, timeout=FIRST_RUN) as ended:
         smoothing.start(LocalSteepestDescent(), Stop())
     (result,) = ended.args
     assert result.outcome is expected.outcome
@@ -69,7 +70,7 @@ def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtb
     seen = []
     smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
     smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=30000)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=FIRST_RUN)
     for count in (2, 3):
         smoothing.step()
         qtbot.waitUntil(lambda count=count: seen[-1:] == [count], timeout=5000)
@@ -88,7 +89,7 @@ def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtb
 
 def test_stop_keeps_what_was_reached(document, smoothing, qtbot):
     smoothing.start(LocalSteepestDescent(), SLOW)
-    qtbot.waitUntil(phase_is(smoothing, Phase.RUNNING), timeout=30000)
+    qtbot.waitUntil(phase_is(smoothing, Phase.RUNNING), timeout=FIRST_RUN)
     with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
         smoothing.stop()
     (result,) = ended.args
@@ -98,7 +99,7 @@ def test_stop_keeps_what_was_reached(document, smoothing, qtbot):
 
 def test_stop_ends_a_paused_run(document, smoothing, qtbot):
     smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=30000)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=FIRST_RUN)
     with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
         smoothing.stop()
     assert ended.args[0].iterations == 1
@@ -117,7 +118,7 @@ def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
 
 def test_a_method_that_raises_leaves_the_document_as_it_was(document, smoothing, qtbot):
     before = document.now
-    with qtbot.waitSignal(smoothing.failed, timeout=30000) as failed:
+    with qtbot.waitSignal(smoothing.failed, timeout=FIRST_RUN) as failed:
         smoothing.start(Failing(), SLOW)
     assert isinstance(failed.args[0], ZeroDivisionError)
     assert document.now is before
