@@ -93,25 +93,24 @@ def _iteration_lines(figures: dict[str, Any]) -> list[str]:
 
 
 _PROBE = """
-import json, resource, sys
+import json, sys
 from time import perf_counter
 from hexmend.gallery import make
 from hexmend.quality import measure
 from hexmend.mesh import Mesh
+from hexmend.study.section import peak_mb
 mesh = make("cube", size=27)
 mesh.topology.face_neighbours, mesh.topology.edges, mesh.topology.colouring(mesh.free)
 measure(mesh.points, mesh.hexes)
 mesh = make("cube", size=int(sys.argv[1]))
 mesh = Mesh(mesh.points, mesh.hexes)
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 began = perf_counter()
 mesh.topology.face_neighbours, mesh.topology.boundary, mesh.topology.edges, mesh.topology.colouring(mesh.free)
 topology = perf_counter() - began
 began = perf_counter()
 measure(mesh.points, mesh.hexes)
 quality = perf_counter() - began
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-row = {"hexes": mesh.n_hexes, "topology_seconds": topology, "quality_seconds": quality, "peak_mb": peak / 1024}
+row = {"hexes": mesh.n_hexes, "topology_seconds": topology, "quality_seconds": quality, "peak_mb": peak_mb()}
 print(json.dumps(row))
 """
 

@@ -94,9 +94,10 @@ def _tangled_lines(figures: dict[str, Any]) -> list[str]:
 
 
 _PROBE = """
-import json, resource, sys
+import json, sys
 from hexmend.gallery import make
 from hexmend.run import Stop, iterate
+from hexmend.study.section import peak_mb
 mesh = make("five-side", size=int(sys.argv[1]), scramble=0.3)
 run = iterate(mesh, "mend", Stop(max_iterations=1000))
 inner = sum(it.notes.get("solver_iterations", 0) for it in run)
@@ -104,7 +105,7 @@ result = run.result()
 row = {
     "hexes": mesh.n_hexes, "inverted": result.before.inverted, "left": result.after.inverted,
     "iterations": result.iterations, "solver_iterations": inner, "seconds": result.seconds,
-    "peak_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+    "peak_mb": peak_mb(),
 }
 print(json.dumps(row))
 """

@@ -40,3 +40,17 @@ def by_size(program: str) -> list[dict[str, Any]]:
         done = subprocess.run([sys.executable, "-c", program, str(size)], capture_output=True, text=True, check=True)
         rows.append(json.loads(done.stdout))
     return rows
+
+
+def peak_mb() -> float:
+    """The most memory that this process has held.
+
+    Not the operating system's `ru_maxrss`, which a process inherits from the one that has started it.
+    """
+    try:
+        with open("/proc/self/status", encoding="ascii") as file:
+            return next(int(line.split()[1]) / 1024 for line in file if line.startswith("VmHWM"))
+    except OSError:
+        import resource
+
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
