@@ -61,14 +61,17 @@ def main(mesh: str, folder: Path) -> None:
     shoot(window, folder / "window-cut.png")
     window.smoothing_panel.run_or_pause()
     until(lambda: window.smoothing.phase is Phase.RUNNING)
-    turn(3)
-    window.smoothing_panel.run_or_pause()
-    until(lambda: window.smoothing.phase is Phase.PAUSED)
-    window.smoothing_panel.step()
     turn(1)
+    if window.smoothing.phase is Phase.RUNNING:  # a fast method may be through by now
+        window.smoothing_panel.run_or_pause()
+        until(lambda: window.smoothing.phase in (Phase.PAUSED, Phase.FINISHED))
+    if window.smoothing.phase is Phase.PAUSED:
+        window.smoothing_panel.step()
+        turn(1)
     window.view.set_clip(ClipPlane((1, 0, 0), middle, crinkle=False))
     shoot(window, folder / "window-smoothing.png")
-    window.smoothing.stop()
+    if window.smoothing.phase is not Phase.FINISHED:
+        window.smoothing.stop()
     until(lambda: window.smoothing.phase is Phase.FINISHED)
     shoot(window, folder / "window-stopped.png")
     window.document.saved(window.document.path)
