@@ -29,7 +29,7 @@ def some_left_out(mesh, share, seed):
 
 def by_parts(hessian, part):
     """The same matrix with another division of its slots."""
-    hessian.energy.__dict__["couplings"] = Couplings(hessian.energy.mesh, part)
+    hessian.energy.couplings = Couplings(hessian.energy.mesh, part)
     return hessian.assembled(np.float64)
 
 

@@ -59,7 +59,8 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
     from hexmend.compiling import listeners
     from hexmend.errors import FileError, HexmendError, MeshError
 
-    listeners.append(_compiling)
+    if _compiling not in listeners:
+        listeners.append(_compiling)
     try:
         command = load()
         parser = argparse.ArgumentParser(prog=f"hexmend {command.name}", description=command.help, allow_abbrev=False)

@@ -7,7 +7,7 @@ import numpy as np
 
 from hexmend.kernels import CHUNK, parallel, serial
 
-#: Pairs of corners of a hex, and the pairs by their lower and their higher corner: 01, 02... 07, 12...
+#: Pairs of corners of a hex, in the order 01, 02... 07, 12...
 PAIRS = 28
 
 

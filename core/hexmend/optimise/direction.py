@@ -140,6 +140,6 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
 
     greatest = top(matrix)
     if greatest is None:
-        return 0.0, float(np.linalg.eigvalsh(full(matrix.diagonal)).max())
+        return 0.0, float(np.linalg.eigvalsh(full(matrix.own_blocks)).max())
     distance = top(LinearOperator(hessian.shape, matvec=lambda v: greatest * v - matrix @ v, dtype=np.float64))
     return (0.0 if distance is None else greatest - distance), greatest

@@ -97,7 +97,8 @@ class Mend(Smoother):
     ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
         points, x, e = mesh.points, energy.scaled(mesh.points), self.softness
-        tangled, worst = _tangled(points, mesh.hexes, locked)
+        figures = measure(points, mesh.hexes)
+        tangled, worst = _tangled(points, mesh.hexes, locked, figures)
         least, idle = tangled, 0
         while tangled and idle < PATIENCE and e > LEAST:
             delta = min(LARGEST, float(np.sqrt(e * (e - min(worst / energy.unit**3, 0.0)))))
@@ -115,11 +116,11 @@ class Mend(Smoother):
                 if not tangled:
                     break
             if tangled:
-                inverted = measure(points, mesh.hexes).inverted
-                x = _swept(mesh, x, inverted, locked, delta, self.p, sweeps)
+                x = _swept(mesh, x, figures.inverted, locked, delta, self.p, sweeps)
                 points = energy.placed(x)
-                yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True)
-                tangled, worst = _tangled(points, mesh.hexes, locked)
+                figures = measure(points, mesh.hexes)
+                yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True, figures=figures)
+                tangled, worst = _tangled(points, mesh.hexes, locked, figures)
             idle = 0 if tangled < least else idle + 1
             least = min(least, tangled)
             e *= FALL
@@ -137,8 +138,8 @@ class Mend(Smoother):
             x, rises = energy.scaled(points), p < self.highest_p
             whole = False  # whether the last step was taken whole: then no hex is in the way
             while True:
-                poor = energies(x, mesh.hexes, 0.0, left_out) > POOR
-                if poor.any() and not whole:
+                poor = None if whole else energies(x, mesh.hexes, 0.0, left_out) > POOR
+                if poor is not None and poor.any():
                     x = _swept(mesh, x, poor, left_out, 0.0, p, POOR_SWEEPS)
                 taken = descend(energy, x, 0.0, find, SEARCH, REACH)
                 if taken is None or (taken.alpha == 0 and taken.slope < 0):
@@ -201,11 +202,9 @@ def _locked_corners(mesh: Mesh) -> np.ndarray:
     return _inverted_corners(mesh.points, mesh.hexes) & held
 
 
-def _tangled(
-    points: np.ndarray, hexes: np.ndarray, left_out: np.ndarray, figures: ElementQuality | None = None
-) -> tuple[int, float]:
+def _tangled(points: np.ndarray, hexes: np.ndarray, left_out: np.ndarray, figures: ElementQuality) -> tuple[int, float]:
     """How many hexes have an inverted corner that is not left out, and the least determinant of those corners."""
-    where = np.flatnonzero((figures or measure(points, hexes)).inverted)
+    where = np.flatnonzero(figures.inverted)
     counts = np.unpackbits(left_out[where, None], axis=1, bitorder="little") == 0
     sigma = np.where(counts, corner_determinants(points, hexes[where]), np.inf)
     inverted = ~(sigma > 0)
