@@ -108,7 +108,7 @@ class HistogramPlot(QWidget):
             high = self._top
             left.setTicks([[(n, f"{n:,.0f}") for n in np.linspace(0, high, 5) if n == round(n)]])
         # Room above for the number that stands on the bar.
-        self.plot.setYRange(floor, floor + (high - floor) * 1.12, padding=0)
+        self.plot.setYRange(floor, floor + (high - floor) * 1.22, padding=0)
 
 
 class _Outline:
