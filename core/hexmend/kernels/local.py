@@ -35,7 +35,7 @@ def newton(hessian, gx, gy, gz, modified):
 
 
 @serial
-def back_line_search(table, rest, size, delta, p, lane, f, slope, dx, dy, dz, first, shrink, c1, cuts):
+def back_line_search(table, size, delta, p, f, slope, dx, dy, dz, first, shrink, c1, cuts):
     """Algorithm A.5 along d.
 
     Returns
@@ -45,7 +45,7 @@ def back_line_search(table, rest, size, delta, p, lane, f, slope, dx, dy, dz, fi
     """
     alpha = first
     for _ in range(cuts + 1):
-        trial = patch.value(table, rest, size, alpha * dx, alpha * dy, alpha * dz, delta, p, lane)
+        trial = patch.value(table, size, alpha * dx, alpha * dy, alpha * dz, delta, p)
         if trial < f + c1 * alpha * slope:
             return alpha
         alpha *= shrink
@@ -79,36 +79,30 @@ def sweep(points, hexes, start, corners, groups, nodes, direction, delta, p, fir
     widest = 0
     for k in range(nodes.size):
         widest = max(widest, start[nodes[k] + 1] - start[nodes[k]])
+    blocks = patch.blocks_of(widest)
     for g in range(groups.size - 1):
         count = groups[g + 1] - groups[g]
         for chunk in numba.prange((count + _CHUNK - 1) // _CHUNK):
-            x = np.empty((8, 3))
-            table = np.empty((9, 4 * widest))
-            lane = np.empty((2, 4 * widest))
-            rest = np.empty(widest)
-            own = np.empty(6)
+            table = np.empty(patch.TABLE * blocks)
             for k in range(groups[g] + chunk * _CHUNK, min(groups[g + 1], groups[g] + (chunk + 1) * _CHUNK)):
                 i = nodes[k]
-                begin, end = start[i], start[i + 1]
-                size = end - begin
-                scale = patch.scale_of(points, hexes, corners, begin, end)
+                begin, size = start[i], start[i + 1] - start[i]
+                patch.load(points, hexes, corners, begin, size, table)
+                scale = patch.rescale(table, size)  # delta is meant for edges of mean length 1
                 if scale == 0:
                     continue
-                patch.tabulate(points, hexes, corners, begin, end, scale, delta, x, table, rest)
-                f, gx, gy, gz = patch.value_and_gradient(table, rest, size, delta, p, lane)
+                patch.tabulate(table, size, delta)
+                f, gx, gy, gz = patch.value_and_gradient(table, size, delta, p)
                 if not 0 < f < np.inf or (gx == 0 and gy == 0 and gz == 0):
                     continue
                 dx, dy, dz = 0.0, 0.0, 0.0
                 if direction != STEEPEST_DESCENT:
-                    hessian = patch.hessian(table, rest, size, delta, p, lane[0], own)
-                    dx, dy, dz = newton(hessian, gx, gy, gz, direction == MODIFIED_NEWTON)
+                    dx, dy, dz = newton(patch.hessian(table, size, p), gx, gy, gz, direction == MODIFIED_NEWTON)
                 slope = gx * dx + gy * dy + gz * dz
                 if not slope < 0:  # no direction of descent
                     dx, dy, dz = steepest_descent(f, gx, gy, gz, p)
                     slope = gx * dx + gy * dy + gz * dz
-                alpha = back_line_search(
-                    table, rest, size, delta, p, lane, f, slope, dx, dy, dz, first, shrink, c1, cuts
-                )  # fmt: skip
+                alpha = back_line_search(table, size, delta, p, f, slope, dx, dy, dz, first, shrink, c1, cuts)
                 points[i, 0] += alpha * dx / scale
                 points[i, 1] += alpha * dy / scale
                 points[i, 2] += alpha * dz / scale

@@ -7,218 +7,332 @@ neighbours. The other four do not change as the node moves. At the node's displa
 
 because a determinant is linear in each of its columns. A patch is therefore a table of numbers a tetrahedron, made once
 a visit, on which value, gradient and every trial of the line search are short loops over lanes.
+
+Every hex is turned so that the node is its corner 0: what is to be done is then the same in all lanes. Tables come in
+blocks of eight hexes, as many as meet at a regular node; in a block that is not full the last hex is repeated, and left
+out of the sums.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES
-from hexmend.kernels import serial
-from hexmend.kernels.hexahedron import add_own, corner_edges, weights
-from hexmend.kernels.shape import TINY, barrier, determinant, power_minus_two_thirds
+from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
+from hexmend.kernels import formula, serial
+from hexmend.kernels.hexahedron import weights
+from hexmend.kernels.shape import barrier, determinant, power_minus_two_thirds
+from hexmend.kernels.tetrahedron import own_second
 
-#: Columns of a patch table.
-SIGMA, GX, GY, GZ, SQUARE, BX, BY, BZ, K = range(9)
+#: Hexes in a block, and the tetrahedra in it that hold the node: number j of hex s is in lane 8 j + s.
+HEXES, LANES = 8, 32
+
+#: The same, for loops over lanes.
+_HEXES, _LANES = np.uint64(HEXES), np.uint64(LANES)
+
+#: Rows of one value a hex: coordinates of its corners; the sum of eta over the tetrahedra that do not hold the node,
+#: eta(H), sums of derivatives. All rows lie in one array, at known distances (see `lanes`).
+_X = tuple(np.uint64(HEXES * i) for i in range(24))
+_REST, _ENERGY = np.uint64(HEXES * 24), np.uint64(HEXES * 25)
+_SUM = tuple(np.uint64(HEXES * i) for i in range(26, 35))
+
+#: Rows of one value a tetrahedron: sigma_0, g, s_0, b, k; then eta, r, and derivatives.
+_SIGMA, _GX, _GY, _GZ, _SQUARE, _BX, _BY, _BZ, _K, _ETA, _R = (np.uint64(LANES * i) for i in range(9, 20))
+_EACH = tuple(np.uint64(LANES * i) for i in range(20, 29))
+
+#: Length of a block.
+TABLE = 29 * LANES
 
 
-def _around(corner: int) -> list[list[int]]:
-    """The tetrahedra that hold a corner, as (apex, others in cyclic order); a neighbour's others begin with it."""
-    rows = [list(CORNER_TETRAHEDRA[corner])]
-    for apex, *others in CORNER_TETRAHEDRA:
-        if corner in others:
-            turn = others.index(corner)
-            rows.append([apex, *others[turn:], *others[:turn]])
-    return rows
+def _turned(corner: int) -> list[int]:
+    """The corners of a hex as the unit cube numbers them after a rotation that makes `corner` its corner 0."""
+    y, z, x = UNIT_CUBE[CORNER_TETRAHEDRA[corner, 1:]] - UNIT_CUBE[corner]
+    places = UNIT_CUBE[corner] + UNIT_CUBE @ np.array([x, y, z])
+    return [int(np.flatnonzero((UNIT_CUBE == place).all(axis=1))[0]) for place in places]
 
 
-#: Of each corner: its own tetrahedron, then three (apex, corner, u, v); (8, 4, 4).
-AROUND = np.array([_around(c) for c in range(8)], dtype=np.int64)
-#: Of each corner: the rows of CORNER_TETRAHEDRA that do not hold it, (8, 4).
-APART = np.array([[t for t in range(8) if c not in CORNER_TETRAHEDRA[t]] for c in range(8)], dtype=np.int64)
+#: Of each corner: where the corners of the turned hex are in the hex, (8, 8).
+TURNED = np.array([_turned(c) for c in range(8)], dtype=np.int64)
 
 
 @serial
-def scale_of(points, hexes, corners, begin, end):
-    """One over the mean edge length of a patch, each edge counted once a hex; 0 if the patch has no extent."""
-    total = 0.0
-    for s in range(begin, end):
-        h = corners[s] // 8
-        for e in range(12):
-            a, b = hexes[h, EDGES[e, 0]], hexes[h, EDGES[e, 1]]
-            dx, dy, dz = points[a, 0] - points[b, 0], points[a, 1] - points[b, 1], points[a, 2] - points[b, 2]
-            total += np.sqrt(dx * dx + dy * dy + dz * dz)
-    return 12 * (end - begin) / total if total > 0 else 0.0
+def blocks_of(size):
+    """How many blocks a patch of so many hexes takes."""
+    return (size + HEXES - 1) // HEXES
 
 
 @serial
-def tabulate(points, hexes, corners, begin, end, scale, delta, x, table, rest):
-    """Write a patch's table.
+def _block(size, block):
+    """Where a block's table begins, and how many hexes it has."""
+    return np.uint64(TABLE * block), min(HEXES, size - HEXES * block)
+
+
+@serial
+def load(points, hexes, corners, begin, size, table):
+    """Write the corners of a patch's hexes, turned, relative to its node.
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
     corners : (8 m,) int32
-        8 * hex + corner; the patch's are corners[begin:end], its node being the same for all.
-    scale : float
-        Lengths are multiplied by it, (3.2)'s delta being meant for edges of mean length 1.
-    delta : float
-    x : (8, 3) float64, scratch
-    table : (9, 4 * hexes of the patch or more) float64, written
-        sigma_0, g, s_0, b, k of each tetrahedron that holds the node, four a hex.
-    rest : (hexes of the patch or more,) float64, written
-        Sum of eta over the four tetrahedra of each hex that do not hold it.
+        8 * hex + corner; the patch's are corners[begin:begin + size], its node being the same for all.
+    table : (TABLE * blocks or more,) float64, written
+        Coordinate k of corner c of hex s at 8 (3 c + k) + s of its block.
     """
     node = hexes[corners[begin] // 8, corners[begin] % 8]
     ox, oy, oz = points[node, 0], points[node, 1], points[node, 2]
-    for s in range(begin, end):
-        h, corner = corners[s] // 8, corners[s] % 8
+    for s in range(HEXES * blocks_of(size)):
+        corner = corners[begin + min(s, size - 1)]
+        h, turn = corner // 8, corner % 8
+        at = s // HEXES * TABLE + s % HEXES
         for c in range(8):
-            i = hexes[h, c]
-            x[c, 0] = (points[i, 0] - ox) * scale
-            x[c, 1] = (points[i, 1] - oy) * scale
-            x[c, 2] = (points[i, 2] - oz) * scale
-        row = 4 * (s - begin)
-        # The node's own tetrahedron: S = [u - y, v - y, w - y].
-        u, v, w = AROUND[corner, 0, 1], AROUND[corner, 0, 2], AROUND[corner, 0, 3]
-        ux, uy, uz = x[u, 0], x[u, 1], x[u, 2]
-        vx, vy, vz = x[v, 0], x[v, 1], x[v, 2]
-        wx, wy, wz = x[w, 0], x[w, 1], x[w, 2]
-        table[SIGMA, row] = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
-        table[GX, row] = -((vy * wz - vz * wy) + (wy * uz - wz * uy) + (uy * vz - uz * vy))
-        table[GY, row] = -((vz * wx - vx * wz) + (wz * ux - wx * uz) + (uz * vx - ux * vz))
-        table[GZ, row] = -((vx * wy - vy * wx) + (wx * uy - wy * ux) + (ux * vy - uy * vx))
-        table[SQUARE, row] = (
-            ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
-        )  # fmt: skip
-        table[BX, row] = -2 * (ux + vx + wx)
-        table[BY, row] = -2 * (uy + vy + wy)
-        table[BZ, row] = -2 * (uz + vz + wz)
-        table[K, row] = 3.0
-        # Its neighbours' tetrahedra: S = [y - a, u - a, v - a].
-        for j in range(1, 4):
-            a, u, v = AROUND[corner, j, 0], AROUND[corner, j, 2], AROUND[corner, j, 3]
-            ax, ay, az = x[a, 0], x[a, 1], x[a, 2]
-            ux, uy, uz = x[u, 0] - ax, x[u, 1] - ay, x[u, 2] - az
-            vx, vy, vz = x[v, 0] - ax, x[v, 1] - ay, x[v, 2] - az
-            gx, gy, gz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-            table[SIGMA, row + j] = -(ax * gx + ay * gy + az * gz)
-            table[GX, row + j] = gx
-            table[GY, row + j] = gy
-            table[GZ, row + j] = gz
-            table[SQUARE, row + j] = (
-                ax * ax + ay * ay + az * az + ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz
-            )  # fmt: skip
-            table[BX, row + j] = -2 * ax
-            table[BY, row + j] = -2 * ay
-            table[BZ, row + j] = -2 * az
-            table[K, row + j] = 1.0
-        total = 0.0
-        for j in range(4):
-            ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, APART[corner, j])
-            det = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
-            square = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
-            total += square * power_minus_two_thirds(barrier(det, delta)[0]) / 3
-        rest[s - begin] = total
+            i = hexes[h, TURNED[turn, c]]
+            table[at + 3 * HEXES * c] = points[i, 0] - ox
+            table[at + 3 * HEXES * c + HEXES] = points[i, 1] - oy
+            table[at + 3 * HEXES * c + 2 * HEXES] = points[i, 2] - oz
+
+
+@formula
+def _length(table, i, a, b):
+    """Distance of two corners."""
+    dx, dy, dz = (
+        table[i + _X[3 * a]] - table[i + _X[3 * b]],
+        table[i + _X[3 * a + 1]] - table[i + _X[3 * b + 1]],
+        table[i + _X[3 * a + 2]] - table[i + _X[3 * b + 2]],
+    )
+    return np.sqrt(dx * dx + dy * dy + dz * dz)
 
 
 @serial
-def lanes(table, count, y0, y1, y2, delta, lane):
-    """eta(T) of the patch's first `count` tetrahedra with the node displaced by y.
+def rescale(table, size):
+    """Multiply the corners by one over the mean edge length of the patch, each edge counted once a hex.
 
-    Two short loops without a branch or a call, so that the compiler runs them over vectors.
+    Returns the factor; 0 if the patch has no extent.
+    """
+    total = 0.0
+    for block in range(blocks_of(size)):
+        at, count = _block(size, block)
+        for s in range(_HEXES):
+            i = at + s
+            table[i + _ENERGY] = (
+                (_length(table, i, 0, 1) + _length(table, i, 3, 2)) + (_length(table, i, 4, 5) + _length(table, i, 7, 6))
+                + (_length(table, i, 0, 3) + _length(table, i, 1, 2)) + (_length(table, i, 4, 7) + _length(table, i, 5, 6))
+                + (_length(table, i, 0, 4) + _length(table, i, 1, 5)) + (_length(table, i, 3, 7) + _length(table, i, 2, 6))
+            )  # fmt: skip
+        for s in range(count):
+            total += table[at + _ENERGY + np.uint64(s)]
+    scale = 12 * size / total if total > 0 else 0.0
+    for block in range(blocks_of(size)):
+        at, _ = _block(size, block)
+        for i in range(_REST):
+            table[at + i] *= scale
+    return scale
+
+
+@formula
+def _edge(table, i, a, b):
+    """From corner a to corner b."""
+    return (
+        table[i + _X[3 * b]] - table[i + _X[3 * a]],
+        table[i + _X[3 * b + 1]] - table[i + _X[3 * a + 1]],
+        table[i + _X[3 * b + 2]] - table[i + _X[3 * a + 2]],
+    )
+
+
+@formula
+def _square(ux, uy, uz, vx, vy, vz, wx, wy, wz):
+    return ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz + wx * wx + wy * wy + wz * wz
+
+
+@formula
+def _tabulate_own(table, i, t):
+    """The node's own tetrahedron: S = [u - y, v - y, w - y]."""
+    ux, uy, uz = table[i + _X[9]], table[i + _X[10]], table[i + _X[11]]
+    vx, vy, vz = table[i + _X[12]], table[i + _X[13]], table[i + _X[14]]
+    wx, wy, wz = table[i + _X[3]], table[i + _X[4]], table[i + _X[5]]
+    table[t + _SIGMA] = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+    table[t + _GX] = -((vy * wz - vz * wy) + (wy * uz - wz * uy) + (uy * vz - uz * vy))
+    table[t + _GY] = -((vz * wx - vx * wz) + (wz * ux - wx * uz) + (uz * vx - ux * vz))
+    table[t + _GZ] = -((vx * wy - vy * wx) + (wx * uy - wy * ux) + (ux * vy - uy * vx))
+    table[t + _SQUARE] = _square(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+    table[t + _BX], table[t + _BY], table[t + _BZ] = -2 * (ux + vx + wx), -2 * (uy + vy + wy), -2 * (uz + vz + wz)
+    table[t + _K] = 3.0
+
+
+@formula
+def _tabulate_neighbour(table, i, a, b, c, t):
+    """A neighbour's tetrahedron: S = [y - a, u, v], u and v being its edges to b and c."""
+    ax, ay, az = table[i + _X[3 * a]], table[i + _X[3 * a + 1]], table[i + _X[3 * a + 2]]
+    ux, uy, uz = _edge(table, i, a, b)
+    vx, vy, vz = _edge(table, i, a, c)
+    gx, gy, gz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    table[t + _SIGMA] = -(ax * gx + ay * gy + az * gz)
+    table[t + _GX], table[t + _GY], table[t + _GZ] = gx, gy, gz
+    table[t + _SQUARE] = _square(ax, ay, az, ux, uy, uz, vx, vy, vz)
+    table[t + _BX], table[t + _BY], table[t + _BZ] = -2 * ax, -2 * ay, -2 * az
+    table[t + _K] = 1.0
+
+
+@formula
+def _tabulate_apart(table, i, a, b, c, d, t):
+    """Determinant and square of a tetrahedron that does not hold the node."""
+    ux, uy, uz = _edge(table, i, a, b)
+    vx, vy, vz = _edge(table, i, a, c)
+    wx, wy, wz = _edge(table, i, a, d)
+    table[t + _R] = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+    table[t + _ETA] = _square(ux, uy, uz, vx, vy, vz, wx, wy, wz)
+
+
+@formula
+def _energy(sigma, square, delta):
+    """eta(T), (3.1), and r."""
+    h, r = barrier(sigma, delta)
+    return square * (1.0 / 3.0) * power_minus_two_thirds(h), r
+
+
+@serial
+def tabulate(table, size, delta):
+    """Write a patch's table from its scaled corners.
 
     Parameters
     ----------
-    lane : (2, count or more) float64, written
-        Row 0 holds eta, row 1 h.
+    table : (TABLE * blocks or more,) float64, changed
+    delta : float
+        Meant for edges of mean length 1.
     """
-    eta, h = lane[0], lane[1]
-    softness = 4 * delta * delta
-    far = y0 * y0 + y1 * y1 + y2 * y2
-    for t in range(count):
-        sigma = table[SIGMA, t] + table[GX, t] * y0 + table[GY, t] * y1 + table[GZ, t] * y2
-        square = table[SQUARE, t] + table[BX, t] * y0 + table[BY, t] * y1 + table[BZ, t] * y2 + table[K, t] * far
-        u = abs(sigma) + np.sqrt(sigma * sigma + softness)
-        h[t] = 0.5 * u if sigma >= 0 else 0.5 * softness / max(u, TINY)  # (3.2)
-        eta[t] = square * (1.0 / 3.0)
-    for t in range(count):
-        eta[t] *= power_minus_two_thirds(h[t])  # (3.1)
+    for block in range(blocks_of(size)):
+        to, _ = _block(size, block)
+        for s in range(_HEXES):  # corner tetrahedra as in CORNER_TETRAHEDRA, neighbours' beginning with the node
+            i = t = to + s
+            _tabulate_own(table, i, t)
+            _tabulate_neighbour(table, i, 1, 5, 2, t + _X[1])
+            _tabulate_neighbour(table, i, 3, 2, 7, t + _X[2])
+            _tabulate_neighbour(table, i, 4, 7, 5, t + _X[3])
+            _tabulate_apart(table, i, 2, 1, 6, 3, t)
+            _tabulate_apart(table, i, 5, 4, 6, 1, t + _X[1])
+            _tabulate_apart(table, i, 6, 5, 7, 2, t + _X[2])
+            _tabulate_apart(table, i, 7, 6, 4, 3, t + _X[3])
+        for lane in range(_LANES):
+            t = to + lane
+            table[t + _ETA], _ = _energy(table[t + _R], table[t + _ETA], delta)
+        for s in range(_HEXES):
+            table[to + _REST + s] = _sum_of_four(table, to + _ETA + s)
+
+
+@formula
+def _sum_of_four(table, i):
+    """Sum over the tetrahedra of a hex."""
+    return (table[i] + table[i + _X[1]]) + (table[i + _X[2]] + table[i + _X[3]])
+
+
+@formula
+def _moved(table, t, y0, y1, y2, far):
+    """sigma and |S|^2 with the node displaced by y."""
+    sigma = table[t + _SIGMA] + table[t + _GX] * y0 + table[t + _GY] * y1 + table[t + _GZ] * y2
+    square = table[t + _SQUARE] + table[t + _BX] * y0 + table[t + _BY] * y1 + table[t + _BZ] * y2
+    return sigma, square + table[t + _K] * far
 
 
 @serial
-def value(table, rest, size, y0, y1, y2, delta, p, lane):
+def _energies(table, to, y0, y1, y2, delta):
+    """eta(T) and eta(H) of a block with the node displaced by y, and r."""
+    far = y0 * y0 + y1 * y1 + y2 * y2
+    if delta == 0:  # a loop of its own: without root and quotient
+        for lane in range(_LANES):
+            t = to + lane
+            sigma, square = _moved(table, t, y0, y1, y2, far)
+            table[t + _ETA], table[t + _R] = _energy(sigma, square, 0.0)
+    else:
+        for lane in range(_LANES):
+            t = to + lane
+            sigma, square = _moved(table, t, y0, y1, y2, far)
+            table[t + _ETA], table[t + _R] = _energy(sigma, square, delta)
+    for s in range(_HEXES):
+        table[to + _ENERGY + s] = (_sum_of_four(table, to + _ETA + s) + table[to + _REST + s]) / 8 - 1
+
+
+@serial
+def value(table, size, y0, y1, y2, delta, p):
     """Sum over the patch's hexes of eta(H)^p with the node displaced by y: (3.3) without its root, (B.20)."""
-    lanes(table, 4 * size, y0, y1, y2, delta, lane)
-    eta = lane[0]
     total = 0.0
-    for s in range(size):
-        energy = (eta[4 * s] + eta[4 * s + 1] + eta[4 * s + 2] + eta[4 * s + 3] + rest[s]) / 8 - 1
-        energy = max(energy, 0.0)
-        total += energy * energy if p == 2 else energy**p
+    for block in range(blocks_of(size)):
+        to, count = _block(size, block)
+        _energies(table, to, y0, y1, y2, delta)
+        for s in range(count):
+            # Softened by delta, a hex better than perfect counts as perfect.
+            energy = max(table[to + _ENERGY + np.uint64(s)], 0.0)
+            total += energy * energy if p == 2 else energy**p
     return total
 
 
 @serial
-def value_and_gradient(table, rest, size, delta, p, lane):
-    """Value where the node is, and its gradient: (B.3), (B.21), (C.1)."""
-    lanes(table, 4 * size, 0.0, 0.0, 0.0, delta, lane)
-    eta = lane[0]
+def value_and_gradient(table, size, delta, p):
+    """Value where the node is, and its gradient: (B.3), (B.21), (C.1).
+
+    Leaves in the table what `hessian` begins with.
+    """
     total, gx, gy, gz = 0.0, 0.0, 0.0, 0.0
-    for s in range(size):
-        energy, ex, ey, ez = hex_gradient(table, rest, s, delta, eta)
-        first, _ = weights(energy, p)
-        energy = max(energy, 0.0)  # softened by delta, a hex better than perfect counts as perfect
-        total += energy * energy if p == 2 else energy**p
-        gx += first * ex
-        gy += first * ey
-        gz += first * ez
+    for block in range(blocks_of(size)):
+        to, count = _block(size, block)
+        _energies(table, to, 0.0, 0.0, 0.0, delta)
+        for lane in range(_LANES):
+            t = to + lane
+            # d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ]
+            stretch, squeeze = table[t + _ETA] / table[t + _SQUARE], 2 * table[t + _ETA] / (3 * table[t + _R])
+            table[t + _EACH[0]] = stretch * table[t + _BX] - squeeze * table[t + _GX]
+            table[t + _EACH[1]] = stretch * table[t + _BY] - squeeze * table[t + _GY]
+            table[t + _EACH[2]] = stretch * table[t + _BZ] - squeeze * table[t + _GZ]
+        for s in range(_HEXES):
+            table[to + _SUM[0] + s] = _sum_of_four(table, to + _EACH[0] + s) / 8
+            table[to + _SUM[1] + s] = _sum_of_four(table, to + _EACH[1] + s) / 8
+            table[to + _SUM[2] + s] = _sum_of_four(table, to + _EACH[2] + s) / 8
+        for k in range(count):
+            s = to + np.uint64(k)
+            energy = table[s + _ENERGY]
+            first, _ = weights(energy, p)
+            energy = max(energy, 0.0)
+            total += energy * energy if p == 2 else energy**p
+            gx += first * table[s + _SUM[0]]
+            gy += first * table[s + _SUM[1]]
+            gz += first * table[s + _SUM[2]]
     return total, gx, gy, gz
 
 
 @serial
-def hex_gradient(table, rest, s, delta, eta):
-    """eta(H) of the patch's hex s and its gradient by the node, from the eta(T) that `lanes` wrote."""
-    energy, ex, ey, ez = rest[s], 0.0, 0.0, 0.0
-    for t in range(4 * s, 4 * s + 4):
-        # d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ]
-        r = np.sqrt(table[SIGMA, t] ** 2 + 4 * delta * delta)
-        stretch, squeeze = eta[t] / table[SQUARE, t], 2 * eta[t] / (3 * r)
-        ex += stretch * table[BX, t] - squeeze * table[GX, t]
-        ey += stretch * table[BY, t] - squeeze * table[GY, t]
-        ez += stretch * table[BZ, t] - squeeze * table[GZ, t]
-        energy += eta[t]
-    return energy / 8 - 1, ex / 8, ey / 8, ez / 8
-
-
-@serial
-def hessian(table, rest, size, delta, p, eta, own):
+def hessian(table, size, p):
     """Second derivatives of the value where the node is, (xx xy xz yy yz zz): (B.19) mended, (B.22).
 
-    Parameters
-    ----------
-    eta : (4 * size or more,) float64
-        Row 0 of `lane` as `value_and_gradient` left it.
-    own : (6,) float64, scratch
+    The table is as `value_and_gradient` has left it.
     """
     xx, xy, xz, yy, yz, zz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for s in range(size):
-        energy, ex, ey, ez = hex_gradient(table, rest, s, delta, eta)
-        first, second = weights(energy, p)
-        own[:] = 0.0
-        for t in range(4 * s, 4 * s + 4):
-            sigma, square = table[SIGMA, t], table[SQUARE, t]
-            r = np.sqrt(sigma * sigma + 4 * delta * delta)
-            add_own(
-                own, eta[t] / square, square, sigma, r, table[K, t],
-                table[BX, t] / 2, table[BY, t] / 2, table[BZ, t] / 2,
-                table[GX, t], table[GY, t], table[GZ, t],
+    for block in range(blocks_of(size)):
+        to, count = _block(size, block)
+        for lane in range(_LANES):
+            t = to + lane
+            square = table[t + _SQUARE]
+            (
+                table[t + _EACH[3]], table[t + _EACH[4]], table[t + _EACH[5]],
+                table[t + _EACH[6]], table[t + _EACH[7]], table[t + _EACH[8]],
+            ) = own_second(
+                table[t + _ETA] / square, square, table[t + _SIGMA], table[t + _R], table[t + _K],
+                table[t + _BX] / 2, table[t + _BY] / 2, table[t + _BZ] / 2,
+                table[t + _GX], table[t + _GY], table[t + _GZ],
             )  # fmt: skip
-        xx += first * own[0] / 8 + second * ex * ex
-        xy += first * own[1] / 8 + second * ex * ey
-        xz += first * own[2] / 8 + second * ex * ez
-        yy += first * own[3] / 8 + second * ey * ey
-        yz += first * own[4] / 8 + second * ey * ez
-        zz += first * own[5] / 8 + second * ez * ez
+        for s in range(_HEXES):
+            table[to + _SUM[3] + s] = _sum_of_four(table, to + _EACH[3] + s) / 8
+            table[to + _SUM[4] + s] = _sum_of_four(table, to + _EACH[4] + s) / 8
+            table[to + _SUM[5] + s] = _sum_of_four(table, to + _EACH[5] + s) / 8
+            table[to + _SUM[6] + s] = _sum_of_four(table, to + _EACH[6] + s) / 8
+            table[to + _SUM[7] + s] = _sum_of_four(table, to + _EACH[7] + s) / 8
+            table[to + _SUM[8] + s] = _sum_of_four(table, to + _EACH[8] + s) / 8
+        for k in range(count):
+            s = to + np.uint64(k)
+            first, second = weights(table[s + _ENERGY], p)
+            ex, ey, ez = table[s + _SUM[0]], table[s + _SUM[1]], table[s + _SUM[2]]
+            xx += first * table[s + _SUM[3]] + second * ex * ex
+            xy += first * table[s + _SUM[4]] + second * ex * ey
+            xz += first * table[s + _SUM[5]] + second * ex * ez
+            yy += first * table[s + _SUM[6]] + second * ey * ey
+            yz += first * table[s + _SUM[7]] + second * ey * ez
+            zz += first * table[s + _SUM[8]] + second * ez * ez
     return xx, xy, xz, yy, yz, zz

@@ -31,13 +31,15 @@ def barrier(sigma, delta):
 def power_minus_two_thirds(h):
     """h^(-2/3); +inf for h <= 0, for less than the least normal float and for what is no number.
 
-    A guess from the upper bits of h, then four Newton steps for q^-3 = h^2, without a branch: error 1e-13.
+    A guess from the upper bits of h, then twice the series of q (1 - y)^(-1/3), y = 1 - h^2 q^3, to its fourth term,
+    without a branch: an error of 0.04 becomes one of 3e-5, and then rounding is all that is left.
     """
     upper = np.int32(np.float64(h).view(np.int64) >> 32)
     q = np.int64(np.int64(MAGIC - np.int32(upper * (2.0 / 3.0))) << 32).view(np.float64)
-    for _ in range(4):
+    for _ in range(2):
         root = h * q  # h^(1/3): neither it nor its square leaves the range of floats
-        q *= (4.0 - root * root * q) * (1.0 / 3.0)
+        y = 1.0 - root * root * q
+        q += q * y * (1.0 / 3.0 + y * (2.0 / 9.0 + y * (14.0 / 81.0)))
     q = q if h >= TINY else np.inf
     return q if not h > HUGE else 0.0
 
