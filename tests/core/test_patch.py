@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from scipy.spatial.distance import pdist
 
 from hexmend.energy import MeshEnergy, energies

@@ -95,3 +95,15 @@ def measure(points, hexes, q, sigma, jacobian, eta):
                 sigma[h] = w[_LOWEST + i]
                 jacobian[h] = w[_WORST + i]
                 eta[h] = max(w[SUM + i] / 8 - 1, 0.0)
+
+
+@parallel
+def corner_determinants(points, hexes, which, sigma):
+    """sigma of the eight corner tetrahedra, (2.9), of the hexes `which` (k,); writes sigma (k, 8)."""
+    for chunk in numba.prange((which.size + CHUNK - 1) // CHUNK):
+        x = np.empty((8, 3))
+        for i in range(chunk * CHUNK, min(which.size, (chunk + 1) * CHUNK)):
+            load(points, hexes, which[i], x)
+            for t in range(8):
+                ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
+                sigma[i, t] = determinant(ux, uy, uz, vx, vy, vz, wx, wy, wz)

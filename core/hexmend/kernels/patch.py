@@ -47,7 +47,7 @@ def _turned(corner: int) -> list[int]:
     """The corners of a hex as the unit cube numbers them after a rotation that makes `corner` its corner 0."""
     y, z, x = UNIT_CUBE[CORNER_TETRAHEDRA[corner, 1:]] - UNIT_CUBE[corner]
     places = UNIT_CUBE[corner] + UNIT_CUBE @ np.array([x, y, z])
-    return [int(np.flatnonzero((UNIT_CUBE == place).all(axis=1))[0]) for place in places]
+    return [int(np.flatnonzero((place == UNIT_CUBE).all(axis=1))[0]) for place in places]
 
 
 #: Of each corner: where the corners of the turned hex are in the hex, (8, 8).
@@ -93,7 +93,7 @@ def load(points, hexes, corners, begin, size, table):
 
 
 @formula
-def _length(table, i, a, b):
+def _far(table, i, a, b):
     """Distance of two corners."""
     dx, dy, dz = (
         table[i + _X[3 * a]] - table[i + _X[3 * b]],
@@ -114,11 +114,10 @@ def rescale(table, size):
         at, count = _block(size, block)
         for s in range(_HEXES):
             i = at + s
-            table[i + _ENERGY] = (
-                (_length(table, i, 0, 1) + _length(table, i, 3, 2)) + (_length(table, i, 4, 5) + _length(table, i, 7, 6))
-                + (_length(table, i, 0, 3) + _length(table, i, 1, 2)) + (_length(table, i, 4, 7) + _length(table, i, 5, 6))
-                + (_length(table, i, 0, 4) + _length(table, i, 1, 5)) + (_length(table, i, 3, 7) + _length(table, i, 2, 6))
-            )  # fmt: skip
+            along_x = _far(table, i, 0, 1) + _far(table, i, 3, 2) + _far(table, i, 4, 5) + _far(table, i, 7, 6)
+            along_y = _far(table, i, 0, 3) + _far(table, i, 1, 2) + _far(table, i, 4, 7) + _far(table, i, 5, 6)
+            along_z = _far(table, i, 0, 4) + _far(table, i, 1, 5) + _far(table, i, 3, 7) + _far(table, i, 2, 6)
+            table[i + _ENERGY] = along_x + along_y + along_z
         for s in range(count):
             total += table[at + _ENERGY + np.uint64(s)]
     scale = 12 * size / total if total > 0 else 0.0

@@ -81,25 +81,24 @@ def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: n
     where = np.flatnonzero(inverted)
     held = fixed[hexes[where][:, CORNER_TETRAHEDRA]].all(axis=2)
     answer = np.zeros(len(hexes), dtype=bool)
-    answer[where] = (held & ~(corner_determinants(points, hexes[where]) > 0)).any(axis=1)
+    answer[where] = (held & ~(corner_determinants(points, hexes, where) > 0)).any(axis=1)
     return answer
 
 
-def corner_determinants(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """sigma of the eight corner tetrahedra of every hex, (m, 8), (2.9): to the last bit what `measure` judges by.
+def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray | None = None) -> np.ndarray:
+    """sigma of the eight corner tetrahedra of hexes, (k, 8), (2.9): to the last bit what `measure` judges by.
 
     Parameters
     ----------
     points : (n, 3) float64
-    hexes : (m, 8) int
+    hexes : (m, 8) int32
+    which : (k,) int, optional
+        Numbers of hexes; all without it.
     """
-    x = points[hexes[:, CORNER_TETRAHEDRA]]
-    u, v, w = np.moveaxis(x[:, :, 1:] - x[:, :, :1], (2, 3), (0, 1))
-    return (
-        u[0] * (v[1] * w[2] - v[2] * w[1])
-        + u[1] * (v[2] * w[0] - v[0] * w[2])
-        + u[2] * (v[0] * w[1] - v[1] * w[0])
-    )  # fmt: skip
+    numbers = np.arange(len(hexes)) if which is None else np.asarray(which, np.int64)
+    sigma = np.empty((numbers.size, 8))
+    elements.corner_determinants(read_only(points), read_only(hexes), read_only(numbers), sigma)
+    return sigma
 
 
 def read_only(array: np.ndarray) -> np.ndarray:

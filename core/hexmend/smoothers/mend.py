@@ -191,7 +191,7 @@ def _inverted_corners(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """A bit for each corner tetrahedron with sigma <= 0, (m,) uint8."""
     bits = np.zeros(len(hexes), np.uint8)
     where = np.flatnonzero(measure(points, hexes).inverted)
-    inverted = ~(corner_determinants(points, hexes[where]) > 0)
+    inverted = ~(corner_determinants(points, hexes, where) > 0)
     bits[where] = np.packbits(inverted, axis=1, bitorder="little")[:, 0]
     return bits
 
@@ -206,6 +206,6 @@ def _tangled(points: np.ndarray, hexes: np.ndarray, left_out: np.ndarray, figure
     """How many hexes have an inverted corner that is not left out, and the least determinant of those corners."""
     where = np.flatnonzero(figures.inverted)
     counts = np.unpackbits(left_out[where, None], axis=1, bitorder="little") == 0
-    sigma = np.where(counts, corner_determinants(points, hexes[where]), np.inf)
+    sigma = np.where(counts, corner_determinants(points, hexes, where), np.inf)
     inverted = ~(sigma > 0)
     return int(np.count_nonzero(inverted.any(axis=1))), float(sigma.min(initial=0.0))
