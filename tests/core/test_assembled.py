@@ -147,7 +147,7 @@ def test_how_a_solve_ended_is_told():
     def end(shift, most):
         assembled = hessian.shifted(shift).assembled()
         assert isinstance(assembled, Assembled)
-        right = np.ones((assembled.order.size, 3), np.float32)
+        right = np.ones((assembled.order.size, 4), np.float32) * np.float32([1, 1, 1, 0])
         return conjugate_gradients.solve(
             *assembled.couplings.pattern,
             assembled.off,

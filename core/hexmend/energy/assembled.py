@@ -37,8 +37,8 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
     Parameters
     ----------
     couplings : Couplings
-    off : (blocks, 9) float32 or float64
-        Blocks above the diagonal, by rows.
+    off : (blocks + 1, 9) float32 or float64
+        Blocks above the diagonal, by rows; the last is no block (see `kernels.block_rows`).
     diagonal : (k, 6) of the same
         xx xy xz yy yz zz of each slot.
     """
@@ -53,15 +53,15 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
         x = self._slotted(v, np.float64)
         y = np.empty_like(x)
         kernels.product(*self.couplings.pattern, self.off, self.diagonal, x, y)
-        return y[self.order].ravel()
+        return y[self.order, :3].ravel()
 
     def _adjoint(self) -> Assembled:
         return self
 
     def _slotted(self, v: np.ndarray, dtype: type) -> np.ndarray:
-        """v (3 k,) by slots, (k, 3)."""
-        x = np.empty((self.order.size, 3), dtype)
-        x[self.order] = v.reshape(-1, 3)
+        """v (3 k,) by slots, (k, 4): the fourth is 0."""
+        x = np.zeros((self.order.size, 4), dtype)
+        x[self.order, :3] = v.reshape(-1, 3)
         return x
 
     def solve(self, right: np.ndarray, tolerance: float, iterations: int, damping: float = 0.0) -> Solved:
@@ -85,7 +85,7 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
         count, end = kernels.solve(
             *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x
         )
-        return Solved(x[self.order].astype(np.float64).ravel(), count, end == kernels.NEGATIVE_CURVATURE)
+        return Solved(x[self.order, :3].astype(np.float64).ravel(), count, end == kernels.NEGATIVE_CURVATURE)
 
     @property
     def own_blocks(self) -> np.ndarray:
@@ -96,7 +96,7 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
         """The same as a sparse matrix of scipy's, (3 k, 3 k), some 243 entries a free node."""
         _, start, columns = self.couplings.pattern[:3]
         slots = np.arange(self.order.size)
-        rows, off = np.repeat(slots, np.diff(start)), self.off.reshape(-1, 3, 3)
+        rows, off = np.repeat(slots, np.diff(start)), self.off[:-1].reshape(-1, 3, 3)
         i, j = np.concatenate([slots, rows, columns]), np.concatenate([slots, columns, rows])
         blocks = np.concatenate([full(self.diagonal), off, off.transpose(0, 2, 1)])
         free = np.argsort(self.order)  # the number of each slot's node among the free nodes

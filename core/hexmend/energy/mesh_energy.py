@@ -156,7 +156,7 @@ class Hessian(scipy.sparse.linalg.LinearOperator):
             Of the blocks.
         """
         energy, couplings = self.energy, self.energy.couplings
-        off = np.zeros((couplings.blocks, 9), dtype)
+        off = np.zeros((couplings.blocks + 1, 9), dtype)
         diagonal = np.zeros((couplings.nodes.size, 6), dtype)
         assembly.assemble(
             self.x,

@@ -22,6 +22,12 @@ from numba.core import event
 
 from hexmend.compiling import tell
 
+# Threads that wait for others sleep after some microseconds. OpenMP's own way, to spin, keeps the thread that is waited
+# for off its core wherever another process (or this one's window) wants one too: twenty times slower on a busy machine.
+# Read as the first parallel kernel runs; what the user has set stands.
+for _name, _value in (("OMP_WAIT_POLICY", "PASSIVE"), ("GOMP_SPINCOUNT", "1000"), ("KMP_BLOCKTIME", "0")):
+    os.environ.setdefault(_name, _value)
+
 #: Hexes (or nodes) that one thread takes at a time.
 CHUNK = 256
 

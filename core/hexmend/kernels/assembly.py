@@ -254,8 +254,8 @@ def assemble(points, hexes, delta, p, left_out, slots, target, bounds, start, ch
     start : (shares + 1,) int32
     chosen : (start[shares],) int32
         The hexes of share k are chosen[start[k]:start[k + 1]].
-    off : (blocks, 9) float
-        Blocks above the diagonal, by rows.
+    off : (blocks + 1, 9) float
+        Blocks above the diagonal, by rows, and one that is none.
     diagonal : (k, 6) float
         xx xy xz yy yz zz.
     """

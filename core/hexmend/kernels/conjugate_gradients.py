@@ -15,6 +15,7 @@ import numba
 import numpy as np
 
 from hexmend.kernels import formula, parallel, serial
+from hexmend.kernels.block_rows import subtract_transposed, times
 from hexmend.kernels.symmetric import extreme_eigenvalues
 
 #: What the count of iterations comes with: how it ended.
@@ -57,50 +58,49 @@ def _times(blocks, i, x, y, z):
     return xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z
 
 
-@formula
-def _direction(positive, i, residual, z):
-    """z = D residual in slot i; returns its product with the residual."""
-    x, y, w = residual[i, 0], residual[i, 1], residual[i, 2]
-    z[i, 0], z[i, 1], z[i, 2] = _times(positive, i, x, y, w)
-    return np.float64(z[i, 0] * x + z[i, 1] * y + z[i, 2] * w)
-
-
 @serial
-def _backward(begin, end, row_start, inner_end, columns, off, inverse, z, beta, v, t):
-    """The next direction, v = z + beta v, and the solution of (D + U) t = v, in a part."""
+def _backward(begin, end, row_start, inner_end, columns, off, inverse, positive, residual, beta, v, t):
+    """The next direction, v = D residual + beta v, and the solution of (D + U) t = v, in a part."""
     for row in range(end - 1, begin - 1, -1):
         i = np.uint64(row)
-        x, y, z_ = z[i, 0] + beta * v[i, 0], z[i, 1] + beta * v[i, 1], z[i, 2] + beta * v[i, 2]
-        v[i, 0], v[i, 1], v[i, 2] = x, y, z_
-        for at in range(inner_end[i] - 1, row_start[i] - 1, -1):  # the nearest, known last, comes last
-            s, j = np.uint64(at), np.uint64(columns[at])
-            p, q, r = t[j, 0], t[j, 1], t[j, 2]
-            x -= off[s, 0] * p + off[s, 1] * q + off[s, 2] * r
-            y -= off[s, 3] * p + off[s, 4] * q + off[s, 5] * r
-            z_ -= off[s, 6] * p + off[s, 7] * q + off[s, 8] * r
-        t[i, 0], t[i, 1], t[i, 2] = _times(inverse, i, x, y, z_)
+        zx, zy, zz = _times(positive, i, residual[i, 0], residual[i, 1], residual[i, 2])
+        x, y, z = zx + beta * v[i, 0], zy + beta * v[i, 1], zz + beta * v[i, 2]
+        v[i, 0], v[i, 1], v[i, 2] = x, y, z
+        # The nearest, known last, comes last.
+        sx, sy, sz = times(off, columns, t, row_start[i], inner_end[i])
+        t[i, 0], t[i, 1], t[i, 2] = _times(inverse, i, x - sx, y - sy, z - sz)
 
 
 @serial
-def _forward(begin, end, row_start, inner_end, columns, off, inverse, w, y):
-    """Solve (D + L) y = w in a part; w is used up."""
+def _forward(begin, end, row_start, inner_end, columns, across, off, inverse, rest, v, t, w, product):
+    """product = t + (D + L)^-1 (v + rest t + E t) in a part, and its product with v; w is scratch, 0 before and after.
+
+    What the rows above have subtracted from a row is in w.
+    """
+    total = 0.0
     for row in range(begin, end):
         i = np.uint64(row)
-        p, q, r = _times(inverse, i, w[i, 0], w[i, 1], w[i, 2])
-        y[i, 0], y[i, 1], y[i, 2] = p, q, r
-        for at in range(row_start[i], inner_end[i]):
-            s, j = np.uint64(at), np.uint64(columns[at])
-            w[j, 0] -= off[s, 0] * p + off[s, 3] * q + off[s, 6] * r
-            w[j, 1] -= off[s, 1] * p + off[s, 4] * q + off[s, 7] * r
-            w[j, 2] -= off[s, 2] * p + off[s, 5] * q + off[s, 8] * r
+        tx, ty, tz = t[i, 0], t[i, 1], t[i, 2]
+        vx, vy, vz = v[i, 0], v[i, 1], v[i, 2]
+        rx, ry, rz = _times(rest, i, tx, ty, tz)
+        ex, ey, ez = _across(i, across, off, t)
+        x, y, z = w[i, 0] + vx + rx + ex, w[i, 1] + vy + ry + ey, w[i, 2] + vz + rz + ez
+        w[i, 0], w[i, 1], w[i, 2] = 0, 0, 0
+        p, q, r = _times(inverse, i, x, y, z)
+        subtract_transposed(off, columns, w, row_start[i], inner_end[i], p, q, r)
+        p, q, r = p + tx, q + ty, r + tz
+        product[i, 0], product[i, 1], product[i, 2] = p, q, r
+        total += np.float64(vx * p + vy * q + vz * r)
+    return total
 
 
 @formula
-def _across(i, across_start, across_block, across_slot, off, t):
+def _across(i, across, off, t):
     """Row i of E t."""
+    start, block, slot = across
     x, y, z = t[i, 0] * 0, t[i, 0] * 0, t[i, 0] * 0
-    for at in range(across_start[i], across_start[i + 1]):
-        s, j = across_block[at], across_slot[at]
+    for at in range(start[i], start[i + 1]):
+        s, j = block[at], slot[at]
         p, q, r = t[j, 0], t[j, 1], t[j, 2]
         if j > i:
             x += off[s, 0] * p + off[s, 1] * q + off[s, 2] * r
@@ -114,27 +114,38 @@ def _across(i, across_start, across_block, across_slot, off, t):
 
 
 @serial
-def _add_and_multiply(begin, end, t, product, v):
-    """Add t to the product, whose product with v is returned."""
+def _start(begin, end, row_start, inner_end, columns, off, diagonal, damping, right, positive, inverse, rest, w, start):
+    """Diagonal blocks of a part, and its first residual, (D + L)^-1 right, in `start`; returns its square."""
     total = 0.0
     for row in range(begin, end):
         i = np.uint64(row)
-        x, y, z = product[i, 0] + t[i, 0], product[i, 1] + t[i, 1], product[i, 2] + t[i, 2]
-        product[i, 0], product[i, 1], product[i, 2] = x, y, z
-        total += np.float64(v[i, 0] * x + v[i, 1] * y + v[i, 2] * z)
+        _positive(diagonal, i, damping, positive, inverse, rest)
+        x, y, z = _times(inverse, i, w[i, 0] + right[i, 0], w[i, 1] + right[i, 1], w[i, 2] + right[i, 2])
+        w[i, 0], w[i, 1], w[i, 2] = 0, 0, 0
+        subtract_transposed(off, columns, w, row_start[i], inner_end[i], x, y, z)
+        start[i, 0], start[i, 1], start[i, 2] = x, y, z
+        total += _square(positive, i, x, y, z)
     return total
 
 
+@formula
+def _square(positive, i, x, y, z):
+    """(x, y, z) D (x, y, z) in slot i."""
+    p, q, r = _times(positive, i, x, y, z)
+    return np.float64(p * x + q * y + r * z)
+
+
 @serial
-def _advance(begin, end, alpha, t, product, positive, x, residual, z):
-    """One step on; z = D residual, whose product with the residual is returned."""
+def _advance(begin, end, alpha, t, product, positive, x, residual):
+    """One step on; returns the square of the residual."""
     total = 0.0
     for row in range(begin, end):
         i = np.uint64(row)
-        for j in range(3):
-            x[i, np.uint64(j)] += alpha * t[i, np.uint64(j)]
-            residual[i, np.uint64(j)] -= alpha * product[i, np.uint64(j)]
-        total += _direction(positive, i, residual, z)
+        x[i, 0], x[i, 1], x[i, 2] = x[i, 0] + alpha * t[i, 0], x[i, 1] + alpha * t[i, 1], x[i, 2] + alpha * t[i, 2]
+        rx, ry, rz = residual[i, 0], residual[i, 1], residual[i, 2]
+        rx, ry, rz = rx - alpha * product[i, 0], ry - alpha * product[i, 1], rz - alpha * product[i, 2]
+        residual[i, 0], residual[i, 1], residual[i, 2] = rx, ry, rz
+        total += _square(positive, i, rx, ry, rz)
     return total
 
 
@@ -164,16 +175,18 @@ def solve(
     ----------
     part, row_start, columns, inner_end, across_start, across_block, across_slot
         Pattern, as `couplings` makes it.
-    off : (blocks, 9) float
+    off : (blocks + 1, 9) float
+        The last is no block (see `block_rows`).
     diagonal : (k, 6) float
     damping : float
         This multiple of D is added to the diagonal.
-    right : (k, 3) float
+    right : (k, 4) float
+        The fourth of each is 0, as in all vectors here.
     tolerance : float
         Of the residual, relative to the right-hand side, both in the norm of M^-1.
     most : int
         Limit of iterations.
-    x : (k, 3) float, written
+    x : (k, 4) float, written
 
     Returns
     -------
@@ -182,34 +195,29 @@ def solve(
     """
     k = right.shape[0]
     parts = (k + part - 1) // part
+    across = across_start, across_block, across_slot
     positive, inverse, rest = np.empty_like(diagonal), np.empty_like(diagonal), np.empty_like(diagonal)
-    residual, v, t = np.empty_like(right), np.empty_like(right), np.empty_like(right)
-    z, product, w = np.empty_like(right), np.empty_like(right), np.empty_like(right)
+    residual, v, t = np.zeros_like(right), np.zeros_like(right), np.zeros_like(right)
+    product, w = np.zeros_like(right), np.zeros_like(right)
+    x[:] = 0
     sums = np.empty(parts)
     for c in numba.prange(parts):
         begin, end = c * part, min(k, (c + 1) * part)
-        for i in range(begin, end):
-            _positive(diagonal, i, damping, positive, inverse, rest)
-            for j in range(3):
-                x[i, j], v[i, j], w[i, j] = 0, 0, right[i, j]
-        _forward(begin, end, row_start, inner_end, columns, off, inverse, w, residual)
-        total = 0.0
-        for i in range(begin, end):
-            total += _direction(positive, i, residual, z)
-        sums[c] = total
+        sums[c] = _start(
+            begin, end, row_start, inner_end, columns, off,
+            diagonal, damping, right, positive, inverse, rest, w, residual,
+        )  # fmt: skip
     square = sums.sum()
     goal, beta = tolerance * tolerance * square, right.dtype.type(0)
     for count in range(1, most + 1):
         for c in numba.prange(parts):
-            _backward(c * part, min(k, (c + 1) * part), row_start, inner_end, columns, off, inverse, z, beta, v, t)
+            begin, end = c * part, min(k, (c + 1) * part)
+            _backward(begin, end, row_start, inner_end, columns, off, inverse, positive, residual, beta, v, t)
         for c in numba.prange(parts):
             begin, end = c * part, min(k, (c + 1) * part)
-            for i in range(begin, end):
-                rx, ry, rz = _times(rest, i, t[i, 0], t[i, 1], t[i, 2])
-                ex, ey, ez = _across(i, across_start, across_block, across_slot, off, t)
-                w[i, 0], w[i, 1], w[i, 2] = v[i, 0] + rx + ex, v[i, 1] + ry + ey, v[i, 2] + rz + ez
-            _forward(begin, end, row_start, inner_end, columns, off, inverse, w, product)
-            sums[c] = _add_and_multiply(begin, end, t, product, v)
+            sums[c] = _forward(
+                begin, end, row_start, inner_end, columns, across, off, inverse, rest, v, t, w, product
+            )  # fmt: skip
         curvature = sums.sum()
         if not curvature > 0:
             if count == 1:
@@ -221,7 +229,7 @@ def solve(
             return count, NEGATIVE_CURVATURE
         alpha = right.dtype.type(square / curvature)
         for c in numba.prange(parts):
-            sums[c] = _advance(c * part, min(k, (c + 1) * part), alpha, t, product, positive, x, residual, z)
+            sums[c] = _advance(c * part, min(k, (c + 1) * part), alpha, t, product, positive, x, residual)
         before, square = square, sums.sum()
         if square <= goal:
             return count, DONE
@@ -231,25 +239,16 @@ def solve(
 
 @parallel
 def product(part, row_start, columns, inner_end, across_start, across_block, across_slot, off, diagonal, x, y):
-    """A times x (k, 3); writes y (k, 3)."""
+    """A times x (k, 4); writes y (k, 4)."""
     k = x.shape[0]
+    across = across_start, across_block, across_slot
+    y[:] = 0
     for c in numba.prange((k + part - 1) // part):
-        begin, end = c * part, min(k, (c + 1) * part)
-        for i in range(begin, end):
-            ax, ay, az = _times(diagonal, i, x[i, 0], x[i, 1], x[i, 2])
-            ex, ey, ez = _across(i, across_start, across_block, across_slot, off, x)
-            y[i, 0], y[i, 1], y[i, 2] = ax + ex, ay + ey, az + ez
-        for row in range(begin, end):
+        for row in range(c * part, min(k, (c + 1) * part)):
             i = np.uint64(row)
-            a, b, c_ = x[i, 0], x[i, 1], x[i, 2]
-            sx, sy, sz = y[i, 0], y[i, 1], y[i, 2]
-            for at in range(row_start[i], inner_end[i]):
-                s, j = np.uint64(at), np.uint64(columns[at])
-                p, q, r = x[j, 0], x[j, 1], x[j, 2]
-                sx += off[s, 0] * p + off[s, 1] * q + off[s, 2] * r
-                sy += off[s, 3] * p + off[s, 4] * q + off[s, 5] * r
-                sz += off[s, 6] * p + off[s, 7] * q + off[s, 8] * r
-                y[j, 0] += off[s, 0] * a + off[s, 3] * b + off[s, 6] * c_
-                y[j, 1] += off[s, 1] * a + off[s, 4] * b + off[s, 7] * c_
-                y[j, 2] += off[s, 2] * a + off[s, 5] * b + off[s, 8] * c_
-            y[i, 0], y[i, 1], y[i, 2] = sx, sy, sz
+            p, q, r = x[i, 0], x[i, 1], x[i, 2]
+            ax, ay, az = _times(diagonal, i, p, q, r)
+            ex, ey, ez = _across(i, across, off, x)
+            sx, sy, sz = times(off, columns, x, row_start[i], inner_end[i])
+            y[i, 0], y[i, 1], y[i, 2] = y[i, 0] + ax + ex + sx, y[i, 1] + ay + ey + sy, y[i, 2] + az + ez + sz
+            subtract_transposed(off, columns, y, row_start[i], inner_end[i], -p, -q, -r)
