@@ -81,7 +81,14 @@ class Topology:
     @cached_property
     def boundary(self) -> np.ndarray:
         """True for each node of a boundary face, (n,) bool."""
-        return incidence.boundary_mask(self.hexes, self.face_neighbours, self.n)
+        boundary = np.zeros(self.n, dtype=bool)
+        boundary[self.boundary_faces.ravel()] = True
+        return boundary
+
+    @cached_property
+    def parts(self) -> int:
+        """Number of parts that hang together by nodes."""
+        return incidence.parts(self.hexes, self.used)
 
     @cached_property
     def rings(self) -> Rows:

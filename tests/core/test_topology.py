@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from hexmend.hexahedron import EDGES, FACES
 from hexmend.mesh import Mesh
@@ -71,6 +73,14 @@ def test_a_face_of_three_hexes_counts_as_boundary_and_is_reported():
     topology = Mesh(mesh.points, hexes).topology
     assert topology.crowded_faces == 3
     assert topology.boundary[mesh.points[:, 0] == 1].all()
+
+
+@given(st.integers(1, 12), st.integers(8, 60), st.integers(0, 2**32 - 1))
+def test_parts_are_the_components_of_the_graph_of_nodes_that_share_a_hex(m, n, seed):
+    hexes = np.random.default_rng(seed).integers(n, size=(m, 8))
+    topology = Mesh(np.zeros((n, 3)), hexes).topology
+    graph = coo_array((np.ones(8 * m), (np.repeat(hexes[:, 0], 8), hexes.ravel())), shape=(n, n))
+    assert topology.parts == connected_components(graph, directed=False)[0] - np.count_nonzero(~topology.used)
 
 
 def test_boundary_faces_point_outwards():

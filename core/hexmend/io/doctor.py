@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
@@ -54,7 +52,11 @@ def examine(mesh: Mesh) -> tuple[Finding, ...]:
         "{count} faces (counted once a hex) belong to more than two hexes; they are treated as boundary.",
         "Look for overlapping hexes.",
     )
-    add("parts", _parts(mesh) - 1, "the mesh has {count} parts besides the first that hang together with no other.")
+    add(
+        "parts",
+        mesh.topology.parts - 1,
+        "the mesh has {count} parts besides the first that hang together with no other.",
+    )
     if (measure(mesh.points, mesh.hexes).scaled_jacobian <= 0).all() and _all_mirrored(mesh):
         add(
             "mirrored",
@@ -83,12 +85,3 @@ def mirrored(mesh: Mesh) -> Mesh:
 def _all_mirrored(mesh: Mesh) -> bool:
     turned = mirrored(mesh)
     return bool(np.median(measure(turned.points, turned.hexes).sigma) > 0)
-
-
-def _parts(mesh: Mesh) -> int:
-    """Number of parts that hang together by nodes."""
-    m = mesh.n_hexes
-    first, others = np.repeat(mesh.hexes[:, 0], 7), mesh.hexes[:, 1:].ravel()
-    graph = coo_matrix((np.ones(7 * m, np.int8), (first, others)), shape=(mesh.n_nodes, mesh.n_nodes))
-    _, label = connected_components(graph, directed=False)
-    return len(np.unique(label[mesh.topology.used]))

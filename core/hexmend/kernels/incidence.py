@@ -106,15 +106,27 @@ def face_neighbours(hexes, n):
 
 
 @serial
-def boundary_mask(hexes, neighbours, n):
-    """True for each node of a face that has no hex behind it, (n,) bool."""
-    mask = np.zeros(n, np.bool_)
+def _root(parent, i):
+    """The node that stands for the part of node i; the way there is halved for those who come after."""
+    while parent[i] != i:
+        parent[i] = parent[parent[i]]
+        i = parent[i]
+    return i
+
+
+@serial
+def parts(hexes, used):
+    """How many parts, hanging together by nodes, the used nodes (n,) bool are in."""
+    parent = np.arange(used.size)
     for h in range(hexes.shape[0]):
-        for f in range(6):
-            if neighbours[h, f] < 0:
-                for k in range(4):
-                    mask[hexes[h, FACES[f, k]]] = True
-    return mask
+        first = _root(parent, hexes[h, 0])
+        for c in range(1, 8):
+            other = _root(parent, hexes[h, c])
+            parent[max(first, other)] = first = min(first, other)
+    count = 0
+    for i in range(used.size):
+        count += used[i] and parent[i] == i
+    return count
 
 
 @serial
@@ -155,7 +167,8 @@ def node_rings(hexes, start, corners):
             if fill == 0:
                 ring_start[i + 1] = size
             else:
-                ring[ring_start[i] : ring_start[i + 1]] = row[:size]
+                for j in range(size):
+                    ring[ring_start[i] + j] = row[j]
     return ring_start, ring
 
 
