@@ -8,11 +8,12 @@ from hypothesis import strategies as st
 from hexmend.energy import MeshEnergy, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import hexahedron, objective
+from hexmend.kernels.lanes import CHUNK, LANES
 from hexmend.quality.measure import read_only
 from tests.core.grids import grid, scrambled
 
 #: One hex, a part of a block, one block and a hex, more than a chunk.
-COUNTS = [1, 63, 65, 300]
+COUNTS = [1, LANES - 1, LANES + 1, CHUNK + 12]
 
 
 def some(count, amplitude, seed):

@@ -11,8 +11,8 @@ import numba
 import numpy as np
 
 from hexmend.hexahedron import EDGES, FACES, UNIT_CUBE
-from hexmend.kernels import CHUNK, formula, lanes, parallel, serial
-from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, STRIDE, WORK
+from hexmend.kernels import formula, lanes, parallel, serial
+from hexmend.kernels.lanes import ALL, CHUNK, CORNERS, LANES, ROW, STRIDE, VECTOR, WORK, vector
 
 
 def _corner_faces() -> np.ndarray:
@@ -72,37 +72,35 @@ def element_step(x, s, rho, f, y):
         y[c, 2] = x[c, 2] + rho * (mz + zeta * (y[c, 2] - mz) - x[c, 2])
 
 
-# The same for a block of hexes side by side, as `lanes` explains. Rows of work beside a triangle's nine coordinates:
-#: The new corner, the centroid's coordinates, the sums of edge lengths before and after.
-_NEW, _CENTROID, _BEFORE, _AFTER = 9, 12, ROW[15], ROW[16]
-
-
-@formula
-def _row(c, k):
-    """Where the coordinate k of corner (or face) c begins."""
-    return np.uint64((3 * c + k) * STRIDE)
+# The same for a block of hexes side by side, as `lanes` explains. Vectors of work beside a triangle's three: the new
+# corner, the centroid; then rows of the sums of edge lengths before and after, in the place of which, in the end, three
+# rows of zeta come.
+_NEW, _CENTROID, _ZETA = ROW[9], ROW[12], ROW[15]
+_BEFORE, _AFTER = ROW[15], ROW[16]
 
 
 @serial
 def _faces(x, f):
     """Centroids of the six faces, f (18 rows)."""
-    for i in range(6):
-        for k in range(3):
-            to = _row(i, k)
-            a, b, c, d = _row(FACES[i, 0], k), _row(FACES[i, 1], k), _row(FACES[i, 2], k), _row(FACES[i, 3], k)
-            for lane in range(ALL):
-                f[to + lane] = (x[a + lane] + x[b + lane] + x[c + lane] + x[d + lane]) * 0.25
+    for face in range(6):
+        a, b, c, d = vector(FACES[face, 0]), vector(FACES[face, 1]), vector(FACES[face, 2]), vector(FACES[face, 3])
+        to = vector(face)
+        for i in range(VECTOR):
+            f[to + i] = (x[a + i] + x[b + i] + x[c + i] + x[d + i]) * 0.25
 
 
 @serial
 def _add_edges(x, w, to):
     """Lengths of the twelve edges, added to a row of work."""
     for e in range(12):
-        ax, ay, az = _row(EDGES[e, 0], 0), _row(EDGES[e, 0], 1), _row(EDGES[e, 0], 2)
-        bx, by, bz = _row(EDGES[e, 1], 0), _row(EDGES[e, 1], 1), _row(EDGES[e, 1], 2)
-        for lane in range(ALL):
-            dx, dy, dz = x[bx + lane] - x[ax + lane], x[by + lane] - x[ay + lane], x[bz + lane] - x[az + lane]
-            w[to + lane] += np.sqrt(dx * dx + dy * dy + dz * dz)
+        a, b = vector(EDGES[e, 0]), vector(EDGES[e, 1])
+        for i in range(ALL):
+            dx, dy, dz = (
+                x[b + i] - x[a + i],
+                x[b + ROW[1] + i] - x[a + ROW[1] + i],
+                x[b + ROW[2] + i] - x[a + ROW[2] + i],
+            )
+            w[to + i] += np.sqrt(dx * dx + dy * dy + dz * dz)
 
 
 @serial
@@ -123,16 +121,16 @@ def _triangle(w, s):
 @serial
 def _blend(x, w, rho, y):
     """Scale the new hexes y and blend them with the old ones."""
-    for k in range(3):
-        centre = np.uint64((_CENTROID + k) * STRIDE)
-        for c in range(8):
-            row = _row(c, k)
-            for lane in range(ALL):
-                before, after = w[_BEFORE + lane], w[_AFTER + lane]
-                zeta = before / after if after > 0 else 0.0
-                middle = w[centre + lane]
-                there = middle + zeta * (y[row + lane] - middle)
-                y[row + lane] = x[row + lane] + rho * (there - x[row + lane])
+    for i in range(ALL):
+        before, after = w[_BEFORE + i], w[_AFTER + i]
+        zeta = before / after if after > 0 else 0.0
+        w[ROW[15] + i], w[ROW[16] + i], w[ROW[17] + i] = zeta, zeta, zeta
+    for c in range(8):
+        corner = vector(c)
+        for i in range(VECTOR):
+            middle = w[_CENTROID + i]
+            there = middle + w[_ZETA + i] * (y[corner + i] - middle)
+            y[corner + i] = x[corner + i] + rho * (there - x[corner + i])
 
 
 @parallel
@@ -146,14 +144,12 @@ def element_steps(points, hexes, s, rho, places):
             count = min(LANES, end - begin)
             lanes.load(points, hexes, begin, count, x)
             _faces(x, f)
-            w[:] = 0.0
+            lanes.fill(w, 0, WORK, 0.0)
             for c in range(8):
                 for j in range(3):
-                    for k in range(3):
-                        lanes.copy(f, _row(CORNER_FACES[c, j], k), w, _row(j, k))
+                    lanes.copy(f, vector(CORNER_FACES[c, j]), w, vector(j))
                 _triangle(w, s)
-                for k in range(3):
-                    lanes.copy(w, np.uint64((_NEW + k) * STRIDE), y, _row(c, k))
+                lanes.copy(w, _NEW, y, vector(c))
             _add_edges(x, w, _BEFORE)
             _add_edges(y, w, _AFTER)
             _blend(x, w, rho, y)

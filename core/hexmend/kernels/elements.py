@@ -5,9 +5,9 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import CHUNK, lanes, parallel, serial
+from hexmend.kernels import lanes, parallel, serial
 from hexmend.kernels.hexahedron import corner_edges
-from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, SUM, WORK, S
+from hexmend.kernels.lanes import ALL, CHUNK, CORNERS, LANES, ROW, SUM, WORK, S
 from hexmend.kernels.shape import determinant, power_minus_two_thirds
 
 
@@ -82,10 +82,10 @@ def measure(points, hexes, q, sigma, jacobian, eta):
         for begin in range(chunk * CHUNK, end, LANES):
             count = min(LANES, end - begin)
             lanes.load(points, hexes, begin, count, x)
-            w[SUM : SUM + ALL] = 0.0
-            w[_Q : _Q + ALL] = 0.0
-            w[_LOWEST : _LOWEST + ALL] = np.inf
-            w[_WORST : _WORST + ALL] = np.inf
+            lanes.fill(w, SUM, SUM + ALL, 0.0)
+            lanes.fill(w, _Q, _Q + ALL, 0.0)
+            lanes.fill(w, _LOWEST, _LOWEST + ALL, np.inf)
+            lanes.fill(w, _WORST, _WORST + ALL, np.inf)
             for t in range(8):
                 lanes.edges(x, t, w, S)
                 _judge(w)

@@ -59,7 +59,8 @@ def relax(points, hexes, start, corners, sound, harmed, moved):
     changed = np.empty(points.shape[0], np.int32)
     queue = np.empty(hexes.shape[0], np.int32)
     queued = harmed.size
-    queue[:queued] = harmed
+    for j in range(queued):
+        queue[j] = harmed[j]
     x = np.empty((8, 3))
     relaxed, this = 0, 0
     while queued:

@@ -13,18 +13,22 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.kernels import serial
+from hexmend.kernels import formula, serial
 from hexmend.kernels.hexahedron import kept, left_out_count
 
-#: Hexes in a block.
-LANES = 64
+#: Hexes in a block: a whole number of lines of the processor's nearest cache, but not a power of two, so that one
+#: lane's values in all rows do not compete for the same few sets of it.
+LANES = 72
 
-#: The same, for loops over lanes.
-ALL = np.uint64(LANES)
+#: Hexes that one thread takes at a time.
+CHUNK = 4 * LANES
 
-#: From the beginning of a row to that of the next: not a power of two, so that one lane's values in all rows do not
-#: compete for the same few sets of the processor's nearest cache.
-STRIDE = LANES + 12
+#: From the beginning of a row to that of the next.
+STRIDE = LANES
+
+#: For loops over lanes, and over the three rows of a vector: these lie one behind the other, and short loops, which
+#: the compiler unrolls, would take it longer.
+ALL, VECTOR = np.uint64(LANES), np.uint64(3 * STRIDE)
 
 #: Rows of an array of work, by where they begin: nine of S, nine of a direction of it, nine of a derivative, nine of
 #: another, two of sums, one that says which tetrahedra count.
@@ -34,6 +38,12 @@ SUM, SLOPE, KEEP = ROW[36], ROW[37], ROW[38]
 
 #: Length of an array of work, and of one that holds a vector at eight corners.
 WORK, CORNERS = 39 * STRIDE, 24 * STRIDE
+
+
+@formula
+def vector(k):
+    """Where the three rows of vector k begin."""
+    return VECTOR * np.uint64(k)
 
 
 @serial
@@ -84,38 +94,36 @@ def select(left_out, first, count, t, w):
 
 
 @serial
-def copy(x, row, w, to):
-    """Copy the row of x that begins at `row` to the one of w that begins at `to`."""
-    for lane in range(ALL):
-        w[to + lane] = x[row + lane]
+def fill(w, begin, end, value):
+    """Set w from `begin` to `end`; a slice would be compiled anew, and slowly, in each kernel."""
+    for i in range(begin, end):
+        w[i] = value
+
+
+@serial
+def copy(x, begin, w, to):
+    """Copy the vector of x that begins at `begin` to the one of w that begins at `to`."""
+    for i in range(VECTOR):
+        w[to + i] = x[begin + i]
 
 
 @serial
 def edges(x, t, w, to):
     """Differences along the edges of corner tetrahedron t, u, v and w, into nine rows of w from `to` on."""
-    a = CORNER_TETRAHEDRA[t, 0]
+    apex = vector(CORNER_TETRAHEDRA[t, 0])
     for j in range(3):
-        b = CORNER_TETRAHEDRA[t, j + 1]
-        for k in range(3):
-            tip, apex = np.uint64((3 * b + k) * STRIDE), np.uint64((3 * a + k) * STRIDE)
-            row = to + np.uint64((3 * j + k) * STRIDE)
-            for lane in range(ALL):
-                w[row + lane] = x[tip + lane] - x[apex + lane]
+        tip, row = vector(CORNER_TETRAHEDRA[t, j + 1]), to + vector(j)
+        for i in range(VECTOR):
+            w[row + i] = x[tip + i] - x[apex + i]
 
 
 @serial
 def scatter(w, begin, t, to):
     """Add a derivative by u, v and w, nine rows of w from `begin` on, to the nodes' rows of `to` (CORNERS,)."""
-    a = CORNER_TETRAHEDRA[t, 0]
-    for k in range(3):
-        for j in range(3):
-            row, tip = (
-                begin + np.uint64((3 * j + k) * STRIDE),
-                np.uint64((3 * CORNER_TETRAHEDRA[t, j + 1] + k) * STRIDE),
-            )
-            for lane in range(ALL):
-                to[tip + lane] += w[row + lane]
-        u, apex = begin + np.uint64(k * STRIDE), np.uint64((3 * a + k) * STRIDE)
-        v, z = u + np.uint64(3 * STRIDE), u + np.uint64(6 * STRIDE)
-        for lane in range(ALL):
-            to[apex + lane] -= w[u + lane] + w[v + lane] + w[z + lane]
+    for j in range(3):
+        row, tip = begin + vector(j), vector(CORNER_TETRAHEDRA[t, j + 1])
+        for i in range(VECTOR):
+            to[tip + i] += w[row + i]
+    apex, v, z = vector(CORNER_TETRAHEDRA[t, 0]), begin + vector(1), begin + vector(2)
+    for i in range(VECTOR):
+        to[apex + i] -= w[begin + i] + w[v + i] + w[z + i]

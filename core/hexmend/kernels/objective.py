@@ -9,10 +9,11 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import CHUNK, parallel, serial, tetrahedron
+from hexmend.kernels import parallel, serial, tetrahedron
 from hexmend.kernels.hexahedron import weights
 from hexmend.kernels.lanes import (
     ALL,
+    CHUNK,
     CORNERS,
     KEEP,
     LANES,
@@ -26,6 +27,7 @@ from hexmend.kernels.lanes import (
     H,
     S,
     edges,
+    fill,
     load,
     scatter,
     select,
@@ -126,7 +128,7 @@ def gradient(points, hexes, delta, p, left_out, blocks):
             count = min(LANES, end - begin)
             load(points, hexes, begin, count, x)
             some = start_sums(left_out, begin, count, w)
-            g[:] = 0.0
+            fill(g, 0, CORNERS, 0.0)
             for t in range(8):
                 if some:
                     select(left_out, begin, count, t, w)
@@ -165,8 +167,8 @@ def hessian_product(points, hexes, slots, values, delta, p, left_out, blocks):
             load(points, hexes, begin, count, x)
             load(values, slots, begin, count, a)
             some = start_sums(left_out, begin, count, w)
-            g[:] = 0.0
-            hv[:] = 0.0
+            fill(g, 0, CORNERS, 0.0)
+            fill(hv, 0, CORNERS, 0.0)
             for t in range(8):
                 if some:
                     select(left_out, begin, count, t, w)

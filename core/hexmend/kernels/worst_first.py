@@ -24,7 +24,8 @@ def tournament(key, hexes):
     """The queue of some hexes; tree (2 k,) int32, the hex of least key at 1."""
     k = hexes.size
     tree = np.empty(2 * k, np.int32)
-    tree[k:] = hexes
+    for i in range(k):
+        tree[k + i] = hexes[i]
     for i in range(k - 1, 0, -1):
         tree[i] = _match(key, tree[2 * i], tree[2 * i + 1])
     return tree
@@ -71,7 +72,9 @@ def sweep(points, hexes, start, corners, free, candidates, q, sound, s, rho, pen
     m, steps = hexes.shape[0], candidates.size
     if steps == 0:  # a queue of nothing has no first
         return 0
-    key = np.where(sound, q, q - 1)  # inverted hexes come first
+    key = q.copy()
+    for h in range(m):
+        key[h] -= not sound[h]  # inverted hexes come first
     leaf = np.full(m, -1, np.int32)
     for i in range(steps):
         leaf[candidates[i]] = i
