@@ -24,6 +24,7 @@ from hexmend.kernels.lanes import (
     G,
     S,
     edges,
+    fill,
     load,
     scatter,
     select,
@@ -43,6 +44,19 @@ _PAIR_OF = np.array([[sum(7 - i for i in range(a)) + b - a - 1 for b in range(8)
 #: Values of a hex: its 28 pairs, then its 8 corners.
 _OWN = 9 * PAIRS
 _VALUES = _OWN + 6 * 8
+
+
+def _value_of(t: int) -> list[int]:
+    nodes = CORNER_TETRAHEDRA[t]
+    rows = [_OWN + 6 * a + j for a in nodes for j in range(6)]
+    for a, b in nodes[_PAIRS]:
+        block = 9 * _PAIR_OF[min(a, b), max(a, b)] + np.arange(9).reshape(3, 3)
+        rows += (block if a < b else block.T).ravel().tolist()
+    return rows
+
+
+#: The value of a hex that each row of _T adds to, for each corner tetrahedron, (8, 78).
+_VALUE_OF = np.array([_value_of(t) for t in range(8)])
 
 #: Length of an array of work: rows of a tetrahedron, corners and gradient, weights, sums.
 _LENGTH = _ROWS + 2 * CORNERS + 2 * LANES + _VALUES * STRIDE
@@ -117,21 +131,10 @@ def _second_derivatives(w, delta):
 @serial
 def _add_rows(w, t, to):
     """Add the blocks of corner tetrahedron t, in _T, to those of the hexes; to (_VALUES * STRIDE,)."""
-    for n in range(4):
-        own = _OWN + 6 * CORNER_TETRAHEDRA[t, n]
-        for j in range(6):
-            row, there = np.uint64(WORK + (6 * n + j) * STRIDE), np.uint64((own + j) * STRIDE)
-            for lane in range(ALL):
-                to[there + lane] += w[row + lane]
-    for pair in range(6):
-        a, b = CORNER_TETRAHEDRA[t, _PAIRS[pair, 0]], CORNER_TETRAHEDRA[t, _PAIRS[pair, 1]]
-        first = 9 * _PAIR_OF[min(a, b), max(a, b)]
-        for i in range(3):
-            for j in range(3):
-                row = np.uint64(WORK + (24 + 9 * pair + 3 * i + j) * STRIDE)
-                there = np.uint64((first + (3 * i + j if a < b else 3 * j + i)) * STRIDE)
-                for lane in range(ALL):
-                    to[there + lane] += w[row + lane]
+    for k in range(78):
+        row, there = np.uint64(WORK + k * STRIDE), np.uint64(_VALUE_OF[t, k] * STRIDE)
+        for lane in range(ALL):
+            to[there + lane] += w[row + lane]
 
 
 @serial
@@ -168,8 +171,8 @@ def _block(points, corners, delta, p, left_out, work, values):
     x, work = work[:CORNERS], work[CORNERS:]
     g, work = work[:CORNERS], work[CORNERS:]
     first, second, sums = work[:LANES], work[LANES : 2 * LANES], work[2 * LANES :]
-    g[:] = 0.0
-    sums[:] = 0.0
+    fill(g, 0, CORNERS, 0.0)
+    fill(sums, 0, _VALUES * STRIDE, 0.0)
     load(points, corners, 0, count, x)
     some = start_sums(left_out, 0, count, w)
     for t in range(8):
