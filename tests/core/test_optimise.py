@@ -75,6 +75,14 @@ def test_the_line_search_takes_the_first_step_that_descends_enough():
     assert search(lambda alpha: np.nan, 0.04, -0.4)[0] == 0.0
 
 
+def test_the_line_search_ends_where_descent_is_less_than_rounding():
+    search = BackLineSearch(shrink=0.5, c1=0.1, cuts=100)
+    assert search(lambda alpha: 1.0, 1.0, -1e-16) == (0.0, 0)
+    alpha, cuts = search(lambda alpha: 1.0, 1.0, -1e-12)
+    assert alpha == 0
+    assert 10 < cuts < 12
+
+
 @pytest.fixture(scope="module")
 def problem():
     mesh = scrambled(grid(5), 0.15, 3)

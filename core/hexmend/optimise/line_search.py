@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+
+
+#: Less descent than this share of the value cannot be told from rounding, and shorter steps descend less.
+ROUNDING = 4 * sys.float_info.epsilon
 
 
 @dataclass(frozen=True)
@@ -48,5 +53,7 @@ class BackLineSearch:
         for cut in range(self.cuts + 1):
             if along(alpha) < value + self.c1 * alpha * slope:
                 return alpha, cut
+            if -alpha * slope < ROUNDING * abs(value):
+                return 0.0, cut
             alpha *= self.shrink
         return 0.0, self.cuts
