@@ -166,18 +166,18 @@ def _weighted_row(values, row, g, i, j, first, second, out):
 @serial
 def _block(points, corners, delta, p, left_out, work, values):
     """Second derivatives of eta^p of up to LANES hexes, given by their corners; writes values (_VALUES, ...)."""
-    count = corners.shape[0]
+    count, begin = corners.shape[0], np.int64(0)
     w, work = work[:_ROWS], work[_ROWS:]
     x, work = work[:CORNERS], work[CORNERS:]
     g, work = work[:CORNERS], work[CORNERS:]
     first, second, sums = work[:LANES], work[LANES : 2 * LANES], work[2 * LANES :]
     fill(g, 0, CORNERS, 0.0)
     fill(sums, 0, _VALUES * STRIDE, 0.0)
-    load(points, corners, 0, count, x)
-    some = start_sums(left_out, 0, count, w)
+    load(points, corners, begin, count, x)
+    some = start_sums(left_out, begin, count, w)
     for t in range(8):
         if some:
-            select(left_out, 0, count, t, w)
+            select(left_out, begin, count, t, w)
         edges(x, t, w, S)
         _second_derivatives(w, delta)
         scatter(w, G, t, g)

@@ -221,7 +221,8 @@ def solve(
         curvature = sums.sum()
         if not curvature > 0:
             if count == 1:
-                for i in range(k):
+                for row in range(k):
+                    i = np.uint64(row)
                     if np.isfinite(curvature):
                         x[i, 0], x[i, 1], x[i, 2] = t[i, 0], t[i, 1], t[i, 2]
                     else:  # M has left the range of numbers: block Jacobi's direction

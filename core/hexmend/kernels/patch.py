@@ -32,6 +32,7 @@ _HEXES, _LANES = np.uint64(HEXES), np.uint64(LANES)
 #: Rows of one value a hex: coordinates of its corners; the sum of eta over the tetrahedra that do not hold the node,
 #: eta(H), sums of derivatives. All rows lie in one array, at known distances (see `lanes`).
 _X = tuple(np.uint64(HEXES * i) for i in range(24))
+C0, C1, C2, C3, C4, C5, C6, C7 = _X[::3]  # numbers in the text would each be compiled for themselves
 _REST, _ENERGY = np.uint64(HEXES * 24), np.uint64(HEXES * 25)
 _SUM = tuple(np.uint64(HEXES * i) for i in range(26, 35))
 
@@ -93,13 +94,19 @@ def load(points, hexes, corners, begin, size, table):
 
 
 @formula
+def _edge(table, i, a, b):
+    """From the corner whose rows begin at a to that whose rows begin at b."""
+    return (
+        table[i + b] - table[i + a],
+        table[i + b + _X[1]] - table[i + a + _X[1]],
+        table[i + b + _X[2]] - table[i + a + _X[2]],
+    )
+
+
+@formula
 def _far(table, i, a, b):
     """Distance of two corners."""
-    dx, dy, dz = (
-        table[i + _X[3 * a]] - table[i + _X[3 * b]],
-        table[i + _X[3 * a + 1]] - table[i + _X[3 * b + 1]],
-        table[i + _X[3 * a + 2]] - table[i + _X[3 * b + 2]],
-    )
+    dx, dy, dz = _edge(table, i, a, b)
     return np.sqrt(dx * dx + dy * dy + dz * dz)
 
 
@@ -114,9 +121,9 @@ def rescale(table, size):
         at, count = _block(size, block)
         for s in range(_HEXES):
             i = at + s
-            along_x = _far(table, i, 0, 1) + _far(table, i, 3, 2) + _far(table, i, 4, 5) + _far(table, i, 7, 6)
-            along_y = _far(table, i, 0, 3) + _far(table, i, 1, 2) + _far(table, i, 4, 7) + _far(table, i, 5, 6)
-            along_z = _far(table, i, 0, 4) + _far(table, i, 1, 5) + _far(table, i, 3, 7) + _far(table, i, 2, 6)
+            along_x = _far(table, i, C0, C1) + _far(table, i, C3, C2) + _far(table, i, C4, C5) + _far(table, i, C7, C6)
+            along_y = _far(table, i, C0, C3) + _far(table, i, C1, C2) + _far(table, i, C4, C7) + _far(table, i, C5, C6)
+            along_z = _far(table, i, C0, C4) + _far(table, i, C1, C5) + _far(table, i, C3, C7) + _far(table, i, C2, C6)
             table[i + _ENERGY] = along_x + along_y + along_z
         for s in range(count):
             total += table[at + _ENERGY + np.uint64(s)]
@@ -126,16 +133,6 @@ def rescale(table, size):
         for i in range(_REST):
             table[at + i] *= scale
     return scale
-
-
-@formula
-def _edge(table, i, a, b):
-    """From corner a to corner b."""
-    return (
-        table[i + _X[3 * b]] - table[i + _X[3 * a]],
-        table[i + _X[3 * b + 1]] - table[i + _X[3 * a + 1]],
-        table[i + _X[3 * b + 2]] - table[i + _X[3 * a + 2]],
-    )
 
 
 @formula
@@ -161,7 +158,7 @@ def _tabulate_own(table, i, t):
 @formula
 def _tabulate_neighbour(table, i, a, b, c, t):
     """A neighbour's tetrahedron: S = [y - a, u, v], u and v being its edges to b and c."""
-    ax, ay, az = table[i + _X[3 * a]], table[i + _X[3 * a + 1]], table[i + _X[3 * a + 2]]
+    ax, ay, az = table[i + a], table[i + a + _X[1]], table[i + a + _X[2]]
     ux, uy, uz = _edge(table, i, a, b)
     vx, vy, vz = _edge(table, i, a, c)
     gx, gy, gz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
@@ -204,13 +201,13 @@ def tabulate(table, size, delta):
         for s in range(_HEXES):  # corner tetrahedra as in CORNER_TETRAHEDRA, neighbours' beginning with the node
             i = t = to + s
             _tabulate_own(table, i, t)
-            _tabulate_neighbour(table, i, 1, 5, 2, t + _X[1])
-            _tabulate_neighbour(table, i, 3, 2, 7, t + _X[2])
-            _tabulate_neighbour(table, i, 4, 7, 5, t + _X[3])
-            _tabulate_apart(table, i, 2, 1, 6, 3, t)
-            _tabulate_apart(table, i, 5, 4, 6, 1, t + _X[1])
-            _tabulate_apart(table, i, 6, 5, 7, 2, t + _X[2])
-            _tabulate_apart(table, i, 7, 6, 4, 3, t + _X[3])
+            _tabulate_neighbour(table, i, C1, C5, C2, t + _X[1])
+            _tabulate_neighbour(table, i, C3, C2, C7, t + _X[2])
+            _tabulate_neighbour(table, i, C4, C7, C5, t + _X[3])
+            _tabulate_apart(table, i, C2, C1, C6, C3, t)
+            _tabulate_apart(table, i, C5, C4, C6, C1, t + _X[1])
+            _tabulate_apart(table, i, C6, C5, C7, C2, t + _X[2])
+            _tabulate_apart(table, i, C7, C6, C4, C3, t + _X[3])
         for lane in range(_LANES):
             t = to + lane
             table[t + _ETA], _ = _energy(table[t + _R], table[t + _ETA], delta)

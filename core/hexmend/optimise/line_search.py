@@ -6,7 +6,6 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 
-
 #: Less descent than this share of the value cannot be told from rounding, and shorter steps descend less.
 ROUNDING = 4 * sys.float_info.epsilon
 
