@@ -238,7 +238,7 @@ class Window(QMainWindow):
             self.canvas.rest()
         if phase is Phase.PREPARING:
             self.smoothing_panel.set_status(
-                sentence="Preparing the method. Its kernels are compiled the first time, which takes up to two minutes."
+                sentence="Preparing the method. Its kernels are compiled the first time, which takes about a minute."
             )
         self._enable()
 

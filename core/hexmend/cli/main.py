@@ -94,7 +94,7 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
 
 
 def _compiling() -> None:
-    print("hexmend: compiling the numerical kernels. This takes a minute or two, once.", file=sys.stderr, flush=True)
+    print("hexmend: compiling the numerical kernels. This takes about a minute, once.", file=sys.stderr, flush=True)
 
 
 def _looks_like_a_command(word: str) -> bool:
