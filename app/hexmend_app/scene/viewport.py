@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkCellPicker
 
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality
+from hexmend.quality import METRICS, ElementQuality, corner_qualities
 from hexmend_app.scene import cut, sides
 from hexmend_app.scene.colours import colours
 from hexmend_app.scene.fitting import fit
+from hexmend_app.scene.flight import Flight
+from hexmend_app.scene.highlight import Highlight
 from hexmend_app.scene.skin import Skin
-from hexmend_app.scene.surface import Surface, quads, set_colours, set_points
+from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
 from hexmend_app.state.look import Look
 
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
@@ -51,6 +54,12 @@ class Viewport:
         self._skin_surface = Surface(plotter, "skin")
         self._section_surface = Surface(plotter, "section")
         self._outline = None
+        self._highlight = Highlight(plotter)
+        self._selected: int | None = None
+        self._picker = vtkCellPicker()
+        self._picker.PickFromListOn()
+        for surface in (self._skin_surface, self._section_surface):
+            self._picker.AddPickList(surface.actor)
         plotter.add_axes(line_width=2, labels_off=False, viewport=(0, 0, 0.13, 0.18), color="#39414d")
 
     # What is drawn
@@ -59,6 +68,7 @@ class Viewport:
         """Draw another mesh, seen whole from a corner."""
         self._mesh, self._figures, self._points = mesh, figures, mesh.points
         self._skin = Skin(mesh)
+        self.select(None)
         self._add_outline()
         self._cull()
         self._choose_uncut()
@@ -76,6 +86,7 @@ class Viewport:
         """
         self._points, self._figures = points, figures
         self._cull()
+        self._show_selected()
         if self._look.quality_range is None:
             self._move()
         else:
@@ -90,6 +101,54 @@ class Viewport:
             if look.clip != before.clip:
                 self._choose_uncut()
             self._rebuild()
+
+    # What is pointed at
+
+    def pick(self, x: float, y: float) -> tuple[int, int] | None:
+        """The hex that is seen at a place, and the node of it that is nearest there; None beside the mesh.
+
+        Parameters
+        ----------
+        x, y : float
+            In pixels of the picture, from its lower left corner.
+        """
+        if self._mesh is None:
+            return None
+        for surface in (self._skin_surface, self._section_surface):
+            surface.actor.SetPickable(True)
+        self._picker.Pick(x, y, 0, self._plotter.renderer)
+        for surface in (self._skin_surface, self._section_surface):
+            surface.actor.SetPickable(False)
+        cell = self._picker.GetCellId()
+        if cell < 0:
+            return None
+        h = hex_of(pv.wrap(self._picker.GetDataSet()), cell)
+        nodes = self._mesh.hexes[h]
+        away = np.square(self._points[nodes] - self._picker.GetPickPosition()).sum(axis=1)
+        return h, int(nodes[away.argmin()])
+
+    def select(self, h: int | None, corners: bool = False) -> None:
+        """Mark one hex, with the quality at each of its corners or without; None marks none."""
+        self._selected, self._with_corners = h, corners
+        self._show_selected()
+
+    def _show_selected(self) -> None:
+        if self._selected is None:
+            self._highlight.hide()
+            return
+        nodes = self._mesh.hexes[self._selected]
+        values = corner_qualities(self._points, nodes[None])[0] if self._with_corners else None
+        self._highlight.show(self._points[nodes], values)
+
+    def flight_to(self, h: int) -> Flight:
+        """The camera's way to a hex."""
+        corners = self._points[self._mesh.hexes[h]]
+        centre = corners.mean(axis=0)
+        return Flight(self.camera, centre, float(np.sqrt(np.square(corners - centre).sum(axis=1).max())))
+
+    def reset_depth(self) -> None:
+        """Fit what is near and far enough to be drawn to where the camera is."""
+        self._plotter.renderer.ResetCameraClippingRange()
 
     @property
     def bounds(self) -> tuple[float, float, float, float, float, float]:
@@ -120,7 +179,8 @@ class Viewport:
         """Find the visible faces anew."""
         keep = self._kept()
         self._faces = self._skin.visible(keep)
-        self._whole = quads(self._points[self._faces.nodes], self._faces.quads, self._face_colours())
+        faces = self._faces
+        self._whole = quads(self._points[faces.nodes], faces.quads, self._face_colours(), faces.hexes)
         self._cut(keep)
         if self._outline is not None:
             hidden = self._look.clip is not None or self._look.quality_range is not None

@@ -1,0 +1,62 @@
+"""Finding and looking at elements in the window, with mouse and keys."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+
+from tests.app.driving import LEFT, click, drag
+from tests.said import FIRST_RUN
+
+
+def centre(window):
+    return window.canvas.interactor.rect().center()
+
+
+def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtbot):
+    QTest.mouseClick(window.canvas.interactor, LEFT, pos=centre(window))
+    chosen = window.selection.hex
+    assert chosen is not None
+    neighbours = window.document.now.mesh.topology.face_neighbours[chosen]
+    assert (neighbours < 0).any()  # what is seen lies at the surface
+    assert window.element_dock.isVisible()
+    QTest.mouseClick(window.canvas.interactor, LEFT, pos=QPoint(3, 3))
+    assert window.selection.hex is None
+    drag(window.canvas.interactor, centre(window), centre(window) + QPoint(40, 0))
+    assert window.selection.hex is None
+
+
+def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
+    camera = window.canvas.viewport.camera
+    before = np.array(camera.GetFocalPoint())
+    QTest.keyClick(window, Qt.Key.Key_N)
+    worst = window.selection.hex
+    assert worst == window.worst_list.elements[0]
+    middle = window.document.now.mesh.points[window.document.now.mesh.hexes[worst]].mean(axis=0)
+    qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=5000)
+    assert not np.allclose(before, middle)
+    QTest.keyClick(window, Qt.Key.Key_N)
+    QTest.keyClick(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
+    assert window.selection.hex == worst
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert window.selection.hex is None
+
+
+def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
+    QTest.keyClick(window, Qt.Key.Key_N)
+    worst = window.selection.hex
+    window.smoothing_panel.stop_form.set_values({"tolerance": 1e-2})
+    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+        click(window, "Run")
+    assert window.selection.hex == worst
+    assert not window.document.now.figures.inverted[worst]
+    assert window.worst_list.elements[0] == window.document.now.figures.q.argmin()
+
+
+def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
+    assert window.save_worst(tmp_path / "worst.csv")
+    lines = (tmp_path / "worst.csv").read_text().splitlines()
+    assert len(lines) == 1 + len(window.worst_list.elements)
+    assert not window.save_worst(tmp_path / "nowhere" / "worst.csv")
+    assert window.messages.messages()[-1][0] == "error"
