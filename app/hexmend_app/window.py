@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 from hexmend.errors import FileError, HexmendError
 from hexmend.io.atomic import replacing
 from hexmend.parameters import declared
-from hexmend.quality import element
+from hexmend.quality import element, node
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
@@ -202,6 +202,8 @@ class Window(QMainWindow):
         self.element_panel.chosen.connect(self._go_to)
         self.element_panel.fly_requested.connect(lambda: self._go_to(self.selection.hex))
         self.element_panel.corners_toggled.connect(self._show_selected)
+        self.element_panel.node_chosen.connect(lambda node: self.selection.choose(self.selection.hex, node))
+        self.element_panel.pin_toggled.connect(self.commands.pin)
         self.welcome.open_requested.connect(self._on_open)
         self.welcome.demo_requested.connect(self._on_open_demo)
 
@@ -238,14 +240,17 @@ class Window(QMainWindow):
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
 
     def _show_selected(self) -> None:
-        if self.canvas is not None:
-            self.canvas.select(self.selection.hex, self.element_panel.corners_in_view)
         self.worst_list.set_selected(self.selection.hex)
         self._show_element()
 
     def _show_element(self) -> None:
-        chosen = self.selection.hex
-        self.element_panel.show_element(None if chosen is None else element(self.document.now.mesh, chosen))
+        """Show what is looked at as it is now."""
+        chosen, mesh = self.selection, self.document.now.mesh
+        self.element_panel.show_element(None if chosen.hex is None else element(mesh, chosen.hex))
+        at = None if chosen.node is None else node(mesh, chosen.node)
+        self.element_panel.show_node(at, self.smoothing.busy)
+        if self.canvas is not None:
+            self.canvas.select(chosen.hex, self.element_panel.corners_in_view, at)
 
     def _on_look_changed(self) -> None:
         look = self.view.look
@@ -362,7 +367,7 @@ class Window(QMainWindow):
         return True
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
-        self.selection.choose(None if hit is None else hit[0])
+        self.selection.choose(*(hit or (None, None)))
         if hit is not None:
             self.element_dock.raise_()
 

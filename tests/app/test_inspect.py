@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox
 
 from tests.app.driving import LEFT, click, drag
 from tests.said import FIRST_RUN
@@ -60,3 +61,36 @@ def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
     assert len(lines) == 1 + len(window.worst_list.elements)
     assert not window.save_worst(tmp_path / "nowhere" / "worst.csv")
     assert window.messages.messages()[-1][0] == "error"
+
+
+def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
+    mesh = window.document.now.mesh
+    inner = int(np.flatnonzero(mesh.free)[50])
+    h = int(np.flatnonzero((mesh.hexes == inner).any(axis=1))[0])
+    window.selection.choose(h)
+    window.element_panel.node_chosen.emit(inner)
+    assert window.selection.node == inner
+    window.element_dock.raise_()
+    qtbot.wait(50)
+    pin = next(b for b in window.element_panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    assert not pin.isChecked()
+    QTest.mouseClick(pin, LEFT, pos=QPoint(8, pin.height() // 2))
+    assert window.document.now.mesh.pinned[inner]
+    assert window.document.undo_title == "pin"
+    window.smoothing_panel.set_method("laplacian")
+    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+        click(window, "Run")
+    np.testing.assert_array_equal(window.document.now.mesh.points[inner], mesh.points[inner])
+    window.commands.undo()
+    assert pin.isChecked()
+    window.commands.undo()
+    assert window.document.now.mesh.free[inner]
+    assert not pin.isChecked()
+
+
+def test_a_node_of_the_boundary_cannot_be_let_go(window):
+    mesh = window.document.now.mesh
+    window.selection.choose(0, int(mesh.hexes[0, 0]))
+    pin = next(b for b in window.element_panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    assert pin.isChecked()
+    assert not pin.isEnabled()

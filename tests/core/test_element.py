@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.quality import ElementQuality, element, measure, worst
+from hexmend.energy import MeshEnergy
+from hexmend.quality import ElementQuality, element, measure, node, worst
 from tests.core.grids import grid, scrambled
 
 
@@ -35,3 +36,25 @@ def test_the_worst_are_the_first_of_all_in_order(seed, count, better):
         range(30), key=lambda h: (sigma[h] > 0, jacobian[h] if sigma[h] <= 0 else better * values[h], h)
     )
     assert got.tolist() == everything[:count]
+
+
+def test_a_node_says_what_the_mesh_says_of_it():
+    mesh = scrambled(grid(4), 0.2, 1)
+    pinned = np.zeros(mesh.n_nodes, bool)
+    inner = np.flatnonzero(mesh.free)
+    pinned[inner[3]] = True
+    mesh = mesh.replace(pinned=pinned)
+    energy = MeshEnergy(mesh)
+    gradient = energy.gradient(energy.scaled(mesh.points))
+    for k, i in enumerate(energy.nodes):
+        one = node(mesh, int(i))
+        assert one.kind == "free"
+        np.testing.assert_array_equal(np.sort(one.ring), np.flatnonzero((mesh.hexes == i).any(axis=1)))
+        np.testing.assert_allclose(one.downhill, -gradient[k], atol=1e-12)
+        assert one.energy == pytest.approx(np.square(measure(mesh.points, mesh.hexes).eta[one.ring]).sum())
+    assert node(mesh, int(inner[3])).kind == "pinned"
+    assert node(mesh, 0).kind == "boundary"
+    tangled = scrambled(grid(4), 2.0, 1)
+    one = node(tangled, int(tangled.hexes[measure(tangled.points, tangled.hexes).inverted][0, 0]))
+    assert one.energy == np.inf
+    assert (one.downhill == 0).all()

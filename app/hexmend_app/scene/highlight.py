@@ -8,7 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkPo
 
 from hexmend.hexahedron import EDGES
 
-_LINE, _HALO = "#ffffff", "#11151c"
+_LINE, _HALO, _ARROW = "#ffffff", "#11151c", "#ff8c00"
 _LINES = np.column_stack([np.full(12, 2), EDGES]).ravel()
 
 #: Radius of a hex in pixels from which on there is room for figures at its corners.
@@ -35,17 +35,25 @@ class Highlight:
         self._box = pv.PolyData(np.zeros((8, 3)), lines=_LINES)
         self._actors = [self._lines(colour, width) for colour, width in ((_HALO, 5), (_LINE, 2))]
         self._texts = [self._text() for _ in range(8)]
+        self._point = self._add(pv.PolyData(np.zeros((1, 3))), _LINE)
+        self._point.GetProperty().SetPointSize(12)
+        self._point.GetProperty().RenderPointsAsSpheresOn()
+        self._arrow = self._add(pv.PolyData(), _ARROW)
         self._with_values = False
         self._layer.AddObserver("StartEvent", self._fit_texts)
         self.hide()
 
     def _lines(self, colour: str, width: int) -> vtkActor:
+        actor = self._add(self._box, colour)
+        actor.GetProperty().SetLineWidth(width)
+        return actor
+
+    def _add(self, poly: pv.PolyData, colour: str) -> vtkActor:
         mapper = vtkPolyDataMapper()
-        mapper.SetInputData(self._box)
+        mapper.SetInputData(poly)
         actor = vtkActor()
         actor.SetMapper(mapper)
         actor.GetProperty().SetColor(*pv.Color(colour).float_rgb)
-        actor.GetProperty().SetLineWidth(width)
         actor.GetProperty().LightingOff()
         self._layer.AddActor(actor)
         return actor
@@ -81,6 +89,18 @@ class Highlight:
             if values is not None:
                 text.SetInput(f"{values[k]:.2f}")
                 text.SetPosition(*outside[k])
+
+    def show_node(self, point: np.ndarray | None, arrow: np.ndarray | None = None) -> None:
+        """Mark a node beside the hex, and an arrow (3,) from it, as long as it is to be drawn; None marks none."""
+        self._point.SetVisibility(point is not None)
+        self._arrow.SetVisibility(point is not None and arrow is not None)
+        if point is not None:
+            self._point.GetMapper().SetInputData(pv.PolyData(point[None]))
+            if arrow is not None:
+                drawn = pv.Arrow(
+                    start=point, direction=arrow, tip_radius=0.09, shaft_radius=0.03, scale=float(np.linalg.norm(arrow))
+                )
+                self._arrow.GetMapper().SetInputData(drawn)
 
     def _fit_texts(self, *_: object) -> None:
         """Show the figures where the hex is large enough for them to stand apart."""

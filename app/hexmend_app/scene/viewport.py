@@ -7,7 +7,7 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkCellPicker
 
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality, corner_qualities
+from hexmend.quality import METRICS, ElementQuality, Node, corner_qualities
 from hexmend_app.scene import cut, sides
 from hexmend_app.scene.colours import colours
 from hexmend_app.scene.fitting import fit
@@ -127,10 +127,23 @@ class Viewport:
         away = np.square(self._points[nodes] - self._picker.GetPickPosition()).sum(axis=1)
         return h, int(nodes[away.argmin()])
 
-    def select(self, h: int | None, corners: bool = False) -> None:
-        """Mark one hex, with the quality at each of its corners or without; None marks none."""
+    def select(self, h: int | None, corners: bool = False, node: Node | None = None) -> None:
+        """Mark one hex, with the quality at each of its corners or without, and one of its nodes; None marks none."""
         self._selected, self._with_corners = h, corners
         self._show_selected()
+        if h is not None:
+            self.mark_node(node)
+
+    def mark_node(self, node: Node | None) -> None:
+        """Mark a node where it is now, and which way the energy around it falls, if it may go there."""
+        if node is None:
+            self._highlight.show_node(None)
+            return
+        steepness = float(np.linalg.norm(node.downhill))
+        corners = self._points[self._mesh.hexes[self._selected]]
+        length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
+        goes = node.kind == "free" and steepness > 0
+        self._highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
 
     def _show_selected(self) -> None:
         if self._selected is None:

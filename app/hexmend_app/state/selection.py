@@ -1,4 +1,4 @@
-"""The element that is looked at."""
+"""The element and the node that are looked at."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from PySide6.QtCore import QObject, Signal
 
 
 class Selection(QObject):
-    """One element of the open mesh, or none.
+    """One element of the open mesh and one of its nodes, or none.
 
     Signals
     -------
@@ -18,9 +18,10 @@ class Selection(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.hex: int | None = None
+        self.node: int | None = None
 
-    def choose(self, hex: int | None) -> None:
-        """Look at another element, or at none; says nothing where nothing changes."""
-        if hex != self.hex:
-            self.hex = hex
+    def choose(self, hex: int | None, node: int | None = None) -> None:
+        """Look at another element and node, or at none; says nothing where nothing changes."""
+        if (hex, node) != (self.hex, self.node):
+            self.hex, self.node = hex, node
             self.changed.emit()

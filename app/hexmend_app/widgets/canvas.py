@@ -12,7 +12,7 @@ from pyvistaqt import QtInteractor
 
 from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
-from hexmend.quality import ElementQuality
+from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.colours import INVERTED, table
 from hexmend_app.scene.flight import Flight
 from hexmend_app.scene.picture import picture
@@ -113,9 +113,9 @@ class Canvas(QWidget):
         self.viewport.set_parallel(on)
         self._changed()
 
-    def select(self, h: int | None, corners: bool) -> None:
-        """Mark an element, with its corners' qualities or without; None marks none."""
-        self.viewport.select(h, corners)
+    def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
+        """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
+        self.viewport.select(h, corners, node)
         self._changed()
 
     def fly_to(self, h: int) -> None:

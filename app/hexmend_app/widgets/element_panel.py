@@ -16,10 +16,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.quality import METRICS, Element
+from hexmend.quality import METRICS, Element, Node
 from hexmend_app.widgets.metrics import metrics_offered
 from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, TEXT, WORSE, explain, icon, note, tabular, tint
-from hexmend_app.widgets.wording import figure
+from hexmend_app.widgets.wording import counted, figure
 
 _FACES = ("x−", "x+", "y−", "y+", "z−", "z+")
 _HINT = (
@@ -39,11 +39,17 @@ class ElementPanel(QWidget):
         The user wants the element before the camera.
     corners_toggled(bool)
         The user wants the corners' qualities in the view, or not.
+    node_chosen(int)
+        The user wants to see this node of the element.
+    pin_toggled(int, bool)
+        The user wants this node pinned, or free.
     """
 
     chosen = Signal(int)
     fly_requested = Signal()
     corners_toggled = Signal(bool)
+    node_chosen = Signal(int)
+    pin_toggled = Signal(int, bool)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -76,6 +82,26 @@ class ElementPanel(QWidget):
         )
         explain(self._neighbours, "Neighbours", "The elements across its six faces; a click goes there.")
         self._neighbours.linkActivated.connect(lambda link: self.chosen.emit(int(link)))
+        self._node: Node | None = None
+        self._about_node = QLabel()
+        self._about_node.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        explain(
+            self._about_node,
+            "Node",
+            "The energy of its hexes is the sum of η(H)² (3.3). The arrow in the view points where that falls fastest: "
+            "minus its gradient, whose size is given in mean edge lengths.",
+        )
+        self._pin = QCheckBox("Pinned")
+        explain(
+            self._pin, "Pinned", "Keep this node where it is, whatever smooths the mesh. Boundary nodes always are."
+        )
+        self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
+        for node, _, _ in self._corners:
+            node.setTextFormat(Qt.TextFormat.RichText)
+            node.setTextInteractionFlags(
+                Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
+            )
+            node.linkActivated.connect(lambda link: self.node_chosen.emit(int(link)))
         self._lay_out(page)
 
     def _number(self) -> QLabel:
@@ -121,6 +147,11 @@ class ElementPanel(QWidget):
         column.addLayout(head)
         column.addLayout(middle, 1)
         column.addWidget(self._neighbours)
+        foot = QHBoxLayout()
+        foot.addWidget(self._about_node)
+        foot.addStretch()
+        foot.addWidget(self._pin)
+        column.addLayout(foot)
 
     @property
     def corners_in_view(self) -> bool:
@@ -143,7 +174,7 @@ class ElementPanel(QWidget):
             tint(label, TEXT if good else WORSE)
         worst = int(one.corners.argmin()) if np.ptp(one.corners) > 1e-9 else -1
         for k, (node, kind, quality) in enumerate(self._corners):
-            node.setText(f"{one.nodes[k]:,}")
+            node.setText(f'<a href="{one.nodes[k]}">{one.nodes[k]:,}</a>')
             kind.setText("fixed" if one.fixed[k] else "free")
             tint(kind, MUTED)
             quality.setText(figure(float(one.corners[k]), 3))
@@ -153,3 +184,19 @@ class ElementPanel(QWidget):
             for face, h in zip(_FACES, one.neighbours.tolist(), strict=True)
         )
         self._neighbours.setText("Neighbours: " + "&nbsp;&nbsp; ".join(links))
+
+    def show_node(self, one: Node | None, busy: bool = False) -> None:
+        """Show a node of the element, or how to choose one; nothing can be pinned while a run is `busy`."""
+        self._node = one
+        self._pin.setVisible(one is not None)
+        if one is None:
+            self._about_node.setText("Click nearer to a corner, or on a node's number, to see that node.")
+            return
+        parts = [f"Node {one.number:,}: {one.kind}", counted(one.ring.size, "hex", "hexes")]
+        if np.isfinite(one.energy):
+            parts.append(f"energy {figure(one.energy)}, gradient {figure(float(np.linalg.norm(one.downhill)))}")
+        else:
+            parts.append("energy infinite: a hex here is inverted")
+        self._about_node.setText(", ".join(parts))
+        self._pin.setChecked(one.kind != "free")
+        self._pin.setEnabled(one.kind in ("free", "pinned") and not busy)

@@ -1,6 +1,6 @@
 """Quality of hexes and of meshes: one metric a file, and the summary."""
 
-from hexmend.quality.element import Element, element, worst
+from hexmend.quality.element import Element, Node, element, node, worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked, measure
 from hexmend.quality.metric import METRICS, Metric
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
@@ -13,6 +13,7 @@ __all__ = [
     "Element",
     "ElementQuality",
     "Metric",
+    "Node",
     "Q",
     "Summary",
     "corner_determinants",
@@ -20,6 +21,7 @@ __all__ = [
     "element",
     "locked",
     "measure",
+    "node",
     "objective",
     "summarise",
     "worst",

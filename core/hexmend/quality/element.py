@@ -1,4 +1,4 @@
-"""One element looked at closely, and which elements are the worst."""
+"""One element and one node looked at closely, and which elements are the worst."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.kernels.objective import gradient
 from hexmend.mesh import Mesh
-from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure
+from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure, read_only
 from hexmend.quality.metric import METRICS
 
 
@@ -68,6 +69,63 @@ def element(mesh: Mesh, number: int) -> Element:
         inverted=bool(figures.inverted[0]),
         locked=bool(locked(mesh.points, hexes, mesh.fixed, figures.inverted)[0]),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """What there is to know of one node.
+
+    Parameters
+    ----------
+    number : int
+    point : (3,) float64
+    kind : {"free", "boundary", "pinned", "unused"}
+        Why smoothing moves it, or does not.
+    ring : (k,) int32
+        The hexes that it is a corner of.
+    energy : float
+        Sum of eta(H)^2 over them, (3.3); +inf while one of them is inverted.
+    downhill : (3,) float64
+        Minus the gradient of that energy by the node's place, in mean edge lengths of the mesh; 0 where the energy is
+        infinite.
+    """
+
+    number: int
+    point: np.ndarray
+    kind: str
+    ring: np.ndarray
+    energy: float
+    downhill: np.ndarray
+
+
+def node(mesh: Mesh, number: int) -> Node:
+    """Look at a node of a mesh.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> one = node(make("cube", size=8), 13)
+    >>> one.kind, one.ring.size, round(one.energy, 9)
+    ('free', 8, 0.0)
+    """
+    corners = mesh.topology.node_corners
+    places = corners.items[corners.start[number] : corners.start[number + 1]]
+    ring = places // 8
+    kind = "free"
+    if not ring.size:
+        kind = "unused"
+    elif mesh.topology.boundary[number]:
+        kind = "boundary"
+    elif mesh.fixed[number]:
+        kind = "pinned"
+    x, hexes = mesh.points / (mesh.mean_edge_length or 1.0), np.ascontiguousarray(mesh.hexes[ring])
+    energy = float(np.square(measure(x, hexes).eta).sum()) if ring.size else 0.0
+    downhill = np.zeros(3)
+    if ring.size and np.isfinite(energy):
+        shares = np.empty((ring.size, 8, 3))
+        gradient(read_only(x), read_only(hexes), 0.0, 2.0, np.zeros(ring.size, np.uint8), shares)
+        downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
+    return Node(number, mesh.points[number], kind, ring, energy, downhill)
 
 
 def worst(values: np.ndarray, figures: ElementQuality, count: int, better: int = 1) -> np.ndarray:
