@@ -109,5 +109,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "previous_worst", "&Previous worst element", "&Inspect", "Shift+N", "chevron-up", "Go back in the list."
     ),
     ActionSpec("deselect", "&Look at none", "&Inspect", "Esc", help="Mark no element any more."),
+    ActionSpec(
+        "commands",
+        "&Commands…",
+        "&Help",
+        "Ctrl+Shift+P",
+        "magnify",
+        "Find any command by its name.",
+        needs_mesh=False,
+    ),
     ActionSpec("about", "&About Hexmend", "&Help", help="Version, licence and sources.", needs_mesh=False),
 )

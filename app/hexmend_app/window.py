@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSettings, Qt, QTimer
+from PySide6.QtCore import QPoint, QSettings, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -34,6 +34,7 @@ from hexmend_app.state.run import Frame, Phase, Smoothing
 from hexmend_app.state.selection import Selection
 from hexmend_app.state.view import View
 from hexmend_app.widgets.clip_panel import ClipPanel
+from hexmend_app.widgets.command_palette import CommandPalette
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.message_bar import MessageBar
@@ -450,6 +451,13 @@ class Window(QMainWindow):
     def _on_clip(self, on: bool) -> None:
         if on != (self.view.look.clip is not None):
             self.view.set_clip(self.clip_panel.plane() if on else None)
+
+    def _on_commands(self) -> None:
+        others = [action for id, action in self.actions_by_id.items() if id != "commands"]
+        palette = CommandPalette(others, self)
+        palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        palette.move(self.mapToGlobal(QPoint((self.width() - palette.width()) // 2, 90)))
+        palette.open()
 
     def _on_about(self) -> None:
         from hexmend import __version__

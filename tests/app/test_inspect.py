@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox
+from PySide6.QtWidgets import QCheckBox, QLineEdit
 
+from hexmend_app.widgets.command_palette import CommandPalette
 from tests.app.driving import LEFT, click, drag
 from tests.said import FIRST_RUN
 
@@ -94,3 +95,13 @@ def test_a_node_of_the_boundary_cannot_be_let_go(window):
     pin = next(b for b in window.element_panel.findChildren(QCheckBox) if b.text() == "Pinned")
     assert pin.isChecked()
     assert not pin.isEnabled()
+
+
+def test_every_command_is_found_by_name(window, qtbot):
+    QTest.keyClick(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    palette = window.findChild(CommandPalette)
+    qtbot.waitExposed(palette)
+    assert any("Isometric" in text for text in palette.found())
+    QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
+    QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
+    assert window.selection.hex == window.worst_list.elements[0]
