@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,9 +20,9 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.errors import FileError, HexmendError
-from hexmend.io.atomic import replacing
 from hexmend.parameters import declared
 from hexmend.quality import element, node
+from hexmend.report.documents import write_text
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
@@ -36,11 +37,12 @@ from hexmend_app.state.view import View
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.command_palette import CommandPalette
 from hexmend_app.widgets.element_panel import ElementPanel
-from hexmend_app.widgets.histogram import QualityHistogram
+from hexmend_app.widgets.histogram import QualityHistogram, write_histogram
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
 from hexmend_app.widgets.questions import (
     Answer,
+    ask_histogram,
     ask_list,
     ask_mesh,
     ask_target,
@@ -185,6 +187,7 @@ class Window(QMainWindow):
         self.smoothing.iterated.connect(self._on_iterated)
         self.smoothing.ended.connect(self._on_ended)
         self.smoothing.failed.connect(self._on_failed)
+        self.histogram.save_requested.connect(self._on_save_histogram)
         self.histogram.range_changed.connect(lambda chosen: self.view.change(quality_range=chosen))
         self.clip_panel.clip_changed.connect(self.view.set_clip)
         self.clip_panel.plane_shown_changed.connect(self.view.set_plane_shown)
@@ -394,13 +397,31 @@ class Window(QMainWindow):
 
     def save_worst(self, path: str | Path) -> bool:
         """Write the list of the worst elements as CSV; say so, or say why not."""
+        saved = self._said("The list was not saved", lambda: write_text(Path(path), self.worst_list.text()))
+        if saved:
+            self.messages.show_info(f"{counted(len(self.worst_list.elements), 'element')} saved to {path}")
+        return saved
+
+    def _on_save_histogram(self) -> None:
+        path = ask_histogram(self, self.document.path.stem if self.document.path else "mesh")
+        if path:
+            self.save_histogram(path)
+
+    def save_histogram(self, path: str | Path) -> bool:
+        """Write the histogram as figure, or its counts as CSV, by the suffix; say so, or say why not."""
+        name = self.document.name
+        saved = self._said("The histogram was not saved", lambda: write_histogram(Path(path), self.histogram, name))
+        if saved:
+            self.messages.show_info(f"Histogram saved to {path}")
+        return saved
+
+    def _said(self, title: str, act: Callable[[], object]) -> bool:
+        """Do something; what goes wrong is said under this title."""
         try:
-            with replacing(Path(path)) as temporary:
-                temporary.write_text(self.worst_list.text(), encoding="utf-8")
+            act()
         except HexmendError as error:
-            self.messages.show_error("The list was not saved", str(error))
+            self.messages.show_error(title, str(error))
             return False
-        self.messages.show_info(f"{counted(len(self.worst_list.elements), 'element')} saved to {path}")
         return True
 
     def _on_quit(self) -> None:

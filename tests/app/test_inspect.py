@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLineEdit
@@ -105,3 +106,23 @@ def test_every_command_is_found_by_name(window, qtbot):
     QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
     QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
     assert window.selection.hex == window.worst_list.elements[0]
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
+def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix):
+    path = tmp_path / f"histogram{suffix}"
+    assert window.save_histogram(path)
+    starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"from,to,at the start,now"}
+    assert path.read_bytes().startswith(starts[suffix])
+    if suffix == ".csv":
+        rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
+        assert sum(int(row[3]) for row in rows) == window.document.now.mesh.n_hexes
+        assert int(rows[0][3]) == window.document.now.summary.inverted
+
+
+def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
+    assert not window.save_histogram(tmp_path / "histogram.txt")
+    kind, title, text = window.messages.messages()[-1]
+    assert (kind, title) == ("error", "The histogram was not saved")
+    assert ".svg, .pdf, .png" in text
+    assert list(tmp_path.glob("histogram*")) == []
