@@ -146,7 +146,7 @@ def test_metrics_declare_what_they_are_and_stay_in_range():
         assert metric.name == name
         assert metric.formula
         assert metric.source
-        values = metric.of(figures)
+        values = metric.of(mesh.points, mesh.hexes, figures)
         assert values.shape == (27,)
         assert (values >= metric.full_range[0] - 1e-12).all()
         assert (values <= metric.full_range[1] + 1e-12).all()

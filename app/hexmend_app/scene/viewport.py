@@ -225,7 +225,7 @@ class Viewport:
 
     def _colours(self, hexes: np.ndarray | slice) -> np.ndarray:
         look, figures = self._look, self._figures
-        values = METRICS[look.metric].of(figures)[hexes]
+        values = METRICS[look.metric].of(self._points, self._mesh.hexes, figures)[hexes]
         return colours(values, figures.inverted[hexes], look.colour_range, look.colour_map)
 
     def _add_outline(self) -> None:

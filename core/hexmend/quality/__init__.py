@@ -1,11 +1,20 @@
-"""Quality of hexes and of meshes: one metric a file, and the summary."""
+"""Quality of hexes and of meshes: one metric a file, each announcing itself in METRICS, and the summary.
+
+A file added to this folder is imported here, and its metric is with that in the command line, the viewer and the tests.
+"""
+
+import importlib
+import pkgutil
 
 from hexmend.quality.element import Element, Node, element, node, worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked, measure
 from hexmend.quality.metric import METRICS, Metric
+from hexmend.quality.q import Q
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
-from hexmend.quality.shape import Q
 from hexmend.quality.summary import Summary, objective, summarise
+
+for _module in pkgutil.iter_modules(__path__):
+    importlib.import_module(f"{__name__}.{_module.name}")
 
 __all__ = [
     "METRICS",

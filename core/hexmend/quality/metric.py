@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+import numpy as np
+
+from hexmend.quality.measure import ElementQuality, read_only
 from hexmend.registry import Registry
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy as np
-
-    from hexmend.quality.measure import ElementQuality
+#: Values (m,) from points (n, 3), hexes (m, 8) and the figures measured of them.
+Values = Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -22,12 +22,20 @@ class Metric:
     Parameters
     ----------
     name, title, formula, source : str
+        The title is short enough for a colour bar.
     full_range : (low, high)
-        Values that it can take.
+        Values that it can take; a hex for which the formula has no value has the worse end of it.
     acceptable : (low, high)
         Values that solvers are usually content with.
+    better : int
+        1 where higher values are better, -1 where lower ones are, 0 where neither is.
+    meaning : str
+        What a bad value means for a solver, in a sentence.
     of : callable
-        Picks the (m,) values from an `ElementQuality`.
+        Gives the values, (m,) float64, from `points` (n, 3), `hexes` (m, 8) and the `ElementQuality` measured of them.
+        None is NaN if the points are finite.
+    unit : str
+        "" for a mere number.
     """
 
     name: str
@@ -36,7 +44,40 @@ class Metric:
     source: str
     full_range: tuple[float, float]
     acceptable: tuple[float, float]
-    of: Callable[[ElementQuality], np.ndarray]
+    better: int
+    meaning: str
+    of: Values
+    unit: str = ""
+
+    def unacceptable(self, values: np.ndarray) -> np.ndarray:
+        """True for each value that is worse than the acceptable range, or outside it where neither way is better."""
+        low, high = self.acceptable
+        return ~(values >= low) & (self.better >= 0) | ~(values <= high) & (self.better <= 0)
+
+
+def by_kernel(kernel: str, rows: int, row: int, worst: float) -> Values:
+    """Values by a kernel that writes several figures in one pass.
+
+    Parameters
+    ----------
+    kernel : str
+        Its module in `hexmend.kernels` and its name; it takes points, hexes and so many arrays (m,) as it writes. It is
+        imported as it is first used: a command that shows no metric does not wait for it.
+    rows, row : int
+        How many these are, and which of them is meant.
+    worst : float
+        Stands for what is no number: of a hex so large that the squares of its lengths overflow.
+    """
+
+    def of(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
+        module, name = kernel.split(".")
+        values = np.empty((rows, len(hexes)))
+        write = getattr(importlib.import_module(f"hexmend.kernels.{module}"), name)
+        write(read_only(points), read_only(hexes), *values)
+        values[row][np.isnan(values[row])] = worst
+        return values[row]
+
+    return of
 
 
 METRICS: Registry[Metric] = Registry("metric")

@@ -11,6 +11,8 @@ SCALED_JACOBIAN = METRICS.add(
         source="Knupp 2000; Verdict Library Reference Manual",
         full_range=(-1.0, 1.0),
         acceptable=(0.2, 1.0),
-        of=lambda figures: figures.scaled_jacobian,
+        better=1,
+        meaning="At 0 and below the element is inverted at a corner: most solvers refuse it.",
+        of=lambda points, hexes, figures: figures.scaled_jacobian,
     ),
 )
