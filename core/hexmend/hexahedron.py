@@ -43,6 +43,9 @@ EDGES = np.array(
     [[0, 1], [3, 2], [4, 5], [7, 6], [0, 3], [1, 2], [4, 7], [5, 6], [0, 4], [1, 5], [3, 7], [2, 6]], dtype=np.int64
 )
 
+#: The four diagonals through the inside, (4, 2).
+DIAGONALS = np.array([[0, 6], [1, 7], [2, 4], [3, 5]], dtype=np.int64)
+
 #: The six faces, (6, 4), each seen counter-clockwise from outside: x-, x+, y-, y+, z-, z+.
 FACES = np.array([[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]], dtype=np.int64)
 

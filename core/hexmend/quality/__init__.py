@@ -11,6 +11,7 @@ from hexmend.quality.measure import ElementQuality, corner_determinants, corner_
 from hexmend.quality.metric import METRICS, Metric
 from hexmend.quality.q import Q
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
+from hexmend.quality.spread import Spread, spreads
 from hexmend.quality.summary import Summary, objective, summarise
 
 for _module in pkgutil.iter_modules(__path__):
@@ -24,6 +25,7 @@ __all__ = [
     "Metric",
     "Node",
     "Q",
+    "Spread",
     "Summary",
     "corner_determinants",
     "corner_qualities",
@@ -32,6 +34,7 @@ __all__ = [
     "measure",
     "node",
     "objective",
+    "spreads",
     "summarise",
     "worst",
 ]

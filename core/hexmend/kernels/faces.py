@@ -1,0 +1,138 @@
+"""Metrics of every hex by its six faces: angles, warpage, and the volume that they enclose."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from hexmend.hexahedron import FACES
+from hexmend.kernels import CHUNK, parallel, serial
+from hexmend.kernels.elements import load
+from hexmend.kernels.hexahedron import corner_edges
+from hexmend.kernels.metrics import load_from_first
+
+
+@serial
+def _cosines(x):
+    """Least and greatest cosine of the angle of two edges at a corner, over the 24 of the hex with corners x (8, 3).
+
+    An edge of no length makes every angle: -1 and 1.
+    """
+    least, greatest = 1.0, -1.0
+    for t in range(8):
+        ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
+        u = np.sqrt(ux * ux + uy * uy + uz * uz)
+        v = np.sqrt(vx * vx + vy * vy + vz * vz)
+        w = np.sqrt(wx * wx + wy * wy + wz * wz)
+        product = u * v * w
+        if not 0 < product < np.inf:
+            return -1.0, 1.0
+        one = 1 / product
+        uv = (ux * vx + uy * vy + uz * vz) * w * one
+        vw = (vx * wx + vy * wy + vz * wz) * u * one
+        wu = (wx * ux + wy * uy + wz * uz) * v * one
+        least, greatest = min(least, uv, vw, wu), max(greatest, uv, vw, wu)
+    return max(least, -1.0), min(greatest, 1.0)
+
+
+@parallel
+def angles(points, hexes, smallest, largest):
+    """Angles between adjacent edges of the faces, four corners of six faces.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    smallest, largest : (m,) float64, written
+        In degrees; 0 and 180 where an edge has no length.
+    """
+    m = hexes.shape[0]
+    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
+        x = np.empty((8, 3))
+        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
+            load(points, hexes, h, x)
+            least, greatest = _cosines(x)
+            smallest[h], largest[h] = np.arccos(greatest) * (180 / np.pi), np.arccos(least) * (180 / np.pi)
+
+
+@serial
+def _cosine(ax, ay, az, bx, by, bz, cx, cy, cz, dx, dy, dz):
+    """Cosine of the angle of a x b and c x d; -1 where one of them has no length."""
+    mx, my, mz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+    nx, ny, nz = cy * dz - cz * dy, cz * dx - cx * dz, cx * dy - cy * dx
+    product = np.sqrt(mx * mx + my * my + mz * mz) * np.sqrt(nx * nx + ny * ny + nz * nz)
+    return (mx * nx + my * ny + mz * nz) / product if 0 < product < np.inf else -1.0
+
+
+@serial
+def _warpage(x):
+    """Warpage of the hex with corners x (8, 3)."""
+    least = 1.0
+    for f in range(6):
+        a, b, c, d = FACES[f, 0], FACES[f, 1], FACES[f, 2], FACES[f, 3]
+        px, py, pz = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2]
+        qx, qy, qz = x[c, 0] - x[b, 0], x[c, 1] - x[b, 1], x[c, 2] - x[b, 2]
+        rx, ry, rz = x[d, 0] - x[c, 0], x[d, 1] - x[c, 1], x[d, 2] - x[c, 2]
+        sx, sy, sz = x[a, 0] - x[d, 0], x[a, 1] - x[d, 1], x[a, 2] - x[d, 2]
+        least = min(
+            least,
+            _cosine(sx, sy, sz, px, py, pz, qx, qy, qz, rx, ry, rz),
+            _cosine(px, py, pz, qx, qy, qz, rx, ry, rz, sx, sy, sz),
+        )
+    least = max(least, -1.0)
+    return 1 - least * least * least
+
+
+@parallel
+def warpage(points, hexes, worst):
+    """Warpage of the worst face.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    worst : (m,) float64, written
+        Greatest over the faces of 1 - min((n0 . n2)^3, (n1 . n3)^3), n the unit normals at the face's corners; 2 where
+        a corner of a face has no normal.
+    """
+    m = hexes.shape[0]
+    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
+        x = np.empty((8, 3))
+        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
+            load(points, hexes, h, x)
+            worst[h] = _warpage(x)
+
+
+@serial
+def _volume(x):
+    """Volume of the hex with corners x (8, 3): of a face a, b, c, d, (a + b + c + d) . (c - a) x (d - b) / 24."""
+    total = 0.0
+    for f in range(6):
+        a, b, c, d = FACES[f, 0], FACES[f, 1], FACES[f, 2], FACES[f, 3]
+        ux, uy, uz = x[c, 0] - x[a, 0], x[c, 1] - x[a, 1], x[c, 2] - x[a, 2]
+        vx, vy, vz = x[d, 0] - x[b, 0], x[d, 1] - x[b, 1], x[d, 2] - x[b, 2]
+        total += (
+            (x[a, 0] + x[b, 0] + x[c, 0] + x[d, 0]) * (uy * vz - uz * vy)
+            + (x[a, 1] + x[b, 1] + x[c, 1] + x[d, 1]) * (uz * vx - ux * vz)
+            + (x[a, 2] + x[b, 2] + x[c, 2] + x[d, 2]) * (ux * vy - uy * vx)
+        )
+    return total / 24
+
+
+@parallel
+def volume(points, hexes, enclosed):
+    """Volume inside the six bilinear faces, that of Verdict's 24 tetrahedra: negative for a hex turned inside out.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    enclosed : (m,) float64, written
+        In the cube of the mesh's unit of length.
+    """
+    m = hexes.shape[0]
+    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
+        x = np.empty((8, 3))
+        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
+            load_from_first(points, hexes, h, x)
+            enclosed[h] = _volume(x)

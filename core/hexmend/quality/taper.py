@@ -1,0 +1,23 @@
+"""Taper: how much the axes change from one side to the other; +inf where an axis has no length."""
+
+import math
+
+from hexmend.quality.metric import METRICS, Metric, by_kernel
+
+TAPER = METRICS.add(
+    "taper",
+    Metric(
+        name="taper",
+        title="Taper",
+        formula="greatest |Xᵢⱼ| / min(|Xᵢ|, |Xⱼ|), Xᵢⱼ the cross derivatives, ∞ with an axis of no length",
+        source="Verdict, SAND2007-1751",
+        full_range=(0.0, math.inf),
+        acceptable=(0.0, 0.5),
+        better=-1,
+        meaning=(
+            "High values mean opposite faces of different size: the map to the element is far from linear, "
+            "and quadrature errs."
+        ),
+        of=by_kernel("metrics.axes", rows=3, row=2, worst=math.inf),
+    ),
+)
