@@ -8,7 +8,9 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.main import commands, main
-from hexmend.quality import summarise
+from hexmend.hexahedron import UNIT_CUBE
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, spreads, summarise
 
 SUMMARY = [
     "hexes", "nodes", "free_nodes", "inverted", "locked_inverted", "q_min", "q_mean", "q_max", "q_std", "q_norm",
@@ -39,6 +41,24 @@ def test_info_prints_json_with_the_agreed_keys(mesh, capsys):
 def test_info_prints_a_table(mesh, capsys):
     assert main(["info", str(mesh)]) == 0
     assert "Scaled Jacobian min" in capsys.readouterr().out
+
+
+def test_info_adds_every_metric_on_demand(mesh, capsys):
+    assert main(["info", str(mesh), "--metrics", "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    assert list(figures) == [*SUMMARY, "metrics"]
+    assert figures["metrics"] == {name: spread.to_dict() for name, spread in spreads(io.read(mesh)).items()}
+    assert figures["metrics"]["q"]["min"] == figures["q_min"]
+    assert main(["info", str(mesh), "--metrics"]) == 0
+    table = capsys.readouterr().out
+    assert all(f" {name} " in table for name in METRICS)
+
+
+def test_info_of_a_flat_hex_has_no_number_that_json_cannot_hold(tmp_path, capsys):
+    io.write(tmp_path / "flat.vtu", Mesh(UNIT_CUBE * [1, 1, 0], [range(8)]))
+    assert main(["info", str(tmp_path / "flat.vtu"), "--metrics", "--json"]) == 0
+    edge_ratio = json.loads(capsys.readouterr().out)["metrics"]["edge-ratio"]
+    assert edge_ratio == {"min": None, "mean": None, "max": None, "infinite": 1, "unacceptable": 1}
 
 
 def test_smooth_writes_mesh_report_and_history(mesh, tmp_path, capsys):

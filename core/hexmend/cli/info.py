@@ -14,6 +14,7 @@ class Info:
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+        parser.add_argument("--metrics", action="store_true", help="add least, mean and greatest value of every metric")
         parser.add_argument("--json", action="store_true", help="print JSON for other programs")
 
     def run(self, args: argparse.Namespace) -> int:
@@ -25,18 +26,25 @@ class Info:
 
     def _run(self, args: argparse.Namespace) -> int:
         from hexmend.io import doctor, read
-        from hexmend.quality import summarise
+        from hexmend.quality import measure, spreads, summarise
 
         mesh = read(args.mesh)
-        summary = summarise(mesh)
+        figures = measure(mesh.points, mesh.hexes)
+        summary = summarise(mesh, figures)
+        metrics = spreads(mesh, figures) if args.metrics else {}
         if args.json:
             from hexmend.report import to_json
 
-            print(to_json(summary.to_dict()))
+            answer = summary.to_dict()
+            if args.metrics:
+                answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
+            print(to_json(answer))
             return 0
-        from hexmend.cli.tables import print_summaries
+        from hexmend.cli.tables import print_spreads, print_summaries
 
         print_summaries(args.mesh, [""], [summary])
+        if args.metrics:
+            print_spreads(metrics)
         for finding in doctor.examine(mesh):
             print(f"note: {finding.message} {finding.remedy}".rstrip())
         return 0

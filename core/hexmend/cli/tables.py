@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hexmend.quality import Summary
+    from hexmend.quality import Spread, Summary
 
 #: Rows of a summary: field, label.
 ROWS = (
@@ -47,4 +47,24 @@ def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summar
     for field, label in ROWS:
         table.add_row(label, *(figure(getattr(summary, field)) for summary in summaries))
     print(title)
+    Console(highlight=False).print(table)
+
+
+def print_spreads(spreads: Mapping[str, Spread]) -> None:
+    """Print what every metric's values are, and how many hexes have one that is not acceptable."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    from hexmend.quality import METRICS
+
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    table.add_column("Metric", no_wrap=True)
+    for head in ("Min", "Mean", "Max", "Acceptable", "Outside", "Infinite"):
+        table.add_column(head, justify="right", no_wrap=True)
+    for name, spread in spreads.items():
+        low, high = METRICS[name].acceptable
+        values = ("–" if value is None else f"{value:.3g}" for value in (spread.min, spread.mean, spread.max))
+        acceptable = f"{low:g} to {high:g}".replace("inf", "∞")
+        table.add_row(name, *values, acceptable, figure(spread.unacceptable), figure(spread.infinite))
     Console(highlight=False).print(table)
