@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
+    from hexmend.quality import ElementQuality, Metric
     from hexmend_app.state.look import ClipPlane
 
 
@@ -30,7 +31,9 @@ class Render:
         cut.add_argument("--crinkle", action="store_true", help="show elements whole (the default)")
         cut.add_argument("--smooth", action="store_true", help="cut through the elements")
         parser.add_argument("--size", metavar="WxH", default="1600x1000", help="in pixels (default %(default)s)")
-        parser.add_argument("--metric", metavar="NAME", default="q", help="q or scaled-jacobian (default %(default)s)")
+        parser.add_argument(
+            "--metric", metavar="NAME", default="q", help="q, scaled-jacobian, edge-ratio, ... (default %(default)s)"
+        )
         parser.add_argument("--colour-range", metavar="LOW,HIGH", help="values at the ends of the colours")
         parser.add_argument("--colour-map", metavar="NAME", default="viridis", help="viridis, cividis, plasma, inferno")
         parser.add_argument("--quality-range", metavar="LOW,HIGH", help="show only elements of a q in this range")
@@ -49,7 +52,7 @@ class Render:
         size = _size(args.size)
         mesh = read(args.mesh)
         figures = measure(mesh.points, mesh.hexes)
-        look = _look(args, mesh)
+        look = _look(args, mesh, figures)
         view = args.view if args.view in _NAMED else _direction(args.view, "--view")
         from hexmend_app.scene.graphics import prepare_off_screen
 
@@ -68,7 +71,7 @@ _NAMED = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
-def _look(args: argparse.Namespace, mesh: Mesh):
+def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
     from hexmend.quality import METRICS
     from hexmend_app.scene.colours import MAPS
     from hexmend_app.state.look import Look
@@ -76,15 +79,33 @@ def _look(args: argparse.Namespace, mesh: Mesh):
     if args.colour_map not in MAPS:
         raise _wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
     metric = METRICS[args.metric]
-    low, high = metric.full_range
+    chosen = _range(args.colour_range, "--colour-range") if args.colour_range else None
     return Look(
         clip=plane(args.clip, mesh, crinkle=not args.smooth, flip=args.flip) if args.clip else None,
         quality_range=_range(args.quality_range, "--quality-range") if args.quality_range else None,
-        colour_range=_range(args.colour_range, "--colour-range") if args.colour_range else (max(low, 0.0), high),
+        colour_range=chosen or _own_range(metric, mesh, figures),
         colour_map=args.colour_map,
         edges=not args.no_edges,
         metric=metric.name,
     )
+
+
+def _own_range(metric: Metric, mesh: Mesh, figures: ElementQuality) -> tuple[float, float]:
+    """The values at the ends of the colours: the metric's range from 0 up, or, where that is infinite, those there are.
+
+    Inverted hexes have a colour of their own, and their values do not count.
+    """
+    import numpy as np
+
+    low, high = metric.full_range
+    if np.isfinite((low, high)).all():
+        return max(low, 0.0), high
+    values = metric.of(mesh.points, mesh.hexes, figures)
+    values = values[np.isfinite(values) & ~figures.inverted]
+    if not values.size:
+        return 0.0, 1.0
+    low, high = float(values.min()), float(values.max())
+    return (low, high) if low < high else (low, low + max(abs(low), 1.0))
 
 
 def plane(text: str, mesh: Mesh, *, crinkle: bool, flip: bool) -> ClipPlane:

@@ -11,8 +11,8 @@ from PIL import Image
 
 from hexmend.io import write
 from hexmend.mesh import Mesh
-from hexmend.quality import measure
-from hexmend_app.cli.render import command, plane
+from hexmend.quality import METRICS, measure
+from hexmend_app.cli.render import _look, command, plane
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.picture import picture
 from hexmend_app.state.look import ClipPlane, Look
@@ -67,6 +67,24 @@ def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
 
 def test_a_quality_range_hides_the_others(pictures):
     assert ink(pictures("--quality-range", "0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_every_metric_has_a_range_of_colours(name):
+    parser = argparse.ArgumentParser()
+    command.arguments(parser)
+    args = parser.parse_args(["a.vtk", "-o", "a.png", "--metric", name])
+    for mesh in (grid(2), scrambled(grid(3), 0.6), scrambled(grid(1), 0), grid(2).with_points(grid(2).points * 0)):
+        low, high = _look(args, mesh, measure(mesh.points, mesh.hexes)).colour_range
+        assert np.isfinite((low, high)).all()
+        assert low < high
+    assert _look(args, mesh, measure(mesh.points, mesh.hexes)).metric == name
+
+
+def test_a_metric_other_than_q_is_drawn(pictures):
+    drawn, q = pictures("--metric", "max-angle"), pictures("--metric", "q")
+    assert ink(drawn) > 0.15
+    assert (drawn[:200] != q[:200]).any()
 
 
 @pytest.mark.parametrize(
