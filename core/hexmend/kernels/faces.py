@@ -6,33 +6,36 @@ import numba
 import numpy as np
 
 from hexmend.hexahedron import FACES
-from hexmend.kernels import CHUNK, parallel, serial
+from hexmend.kernels import CHUNK, lanes, parallel, serial
 from hexmend.kernels.elements import load
-from hexmend.kernels.hexahedron import corner_edges
+from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, WORK, S
 from hexmend.kernels.metrics import load_from_first
+
+#: Rows in which `angles` keeps the least and the greatest cosine of each hex.
+_LEAST, _GREATEST = ROW[9], ROW[10]
 
 
 @serial
-def _cosines(x):
-    """Least and greatest cosine of the angle of two edges at a corner, over the 24 of the hex with corners x (8, 3).
+def _judge(w):
+    """Take the angles of the tetrahedra in S at their apex into the extremes of their hexes.
 
     An edge of no length makes every angle: -1 and 1.
     """
-    least, greatest = 1.0, -1.0
-    for t in range(8):
-        ux, uy, uz, vx, vy, vz, wx, wy, wz = corner_edges(x, t)
-        u = np.sqrt(ux * ux + uy * uy + uz * uz)
-        v = np.sqrt(vx * vx + vy * vy + vz * vz)
-        w = np.sqrt(wx * wx + wy * wy + wz * wz)
-        product = u * v * w
-        if not 0 < product < np.inf:
-            return -1.0, 1.0
-        one = 1 / product
-        uv = (ux * vx + uy * vy + uz * vz) * w * one
-        vw = (vx * wx + vy * wy + vz * wz) * u * one
-        wu = (wx * ux + wy * uy + wz * uz) * v * one
-        least, greatest = min(least, uv, vw, wu), max(greatest, uv, vw, wu)
-    return max(least, -1.0), min(greatest, 1.0)
+    for i in range(ALL):
+        ux, uy, uz = w[ROW[0] + i], w[ROW[1] + i], w[ROW[2] + i]
+        vx, vy, vz = w[ROW[3] + i], w[ROW[4] + i], w[ROW[5] + i]
+        wx, wy, wz = w[ROW[6] + i], w[ROW[7] + i], w[ROW[8] + i]
+        a = np.sqrt(ux * ux + uy * uy + uz * uz)
+        b = np.sqrt(vx * vx + vy * vy + vz * vz)
+        c = np.sqrt(wx * wx + wy * wy + wz * wz)
+        product = a * b * c
+        sound = (product > 0) & (product < np.inf)
+        one = 1 / product if sound else 0.0
+        uv = (ux * vx + uy * vy + uz * vz) * c * one
+        vw = (vx * wx + vy * wy + vz * wz) * a * one
+        wu = (wx * ux + wy * uy + wz * uz) * b * one
+        w[_LEAST + i] = min(w[_LEAST + i], uv, vw, wu) if sound else -1.0
+        w[_GREATEST + i] = max(w[_GREATEST + i], uv, vw, wu) if sound else 1.0
 
 
 @parallel
@@ -47,12 +50,21 @@ def angles(points, hexes, smallest, largest):
         In degrees; 0 and 180 where an edge has no length.
     """
     m = hexes.shape[0]
-    for chunk in numba.prange((m + CHUNK - 1) // CHUNK):
-        x = np.empty((8, 3))
-        for h in range(chunk * CHUNK, min(m, (chunk + 1) * CHUNK)):
-            load(points, hexes, h, x)
-            least, greatest = _cosines(x)
-            smallest[h], largest[h] = np.arccos(greatest) * (180 / np.pi), np.arccos(least) * (180 / np.pi)
+    for chunk in numba.prange((m + lanes.CHUNK - 1) // lanes.CHUNK):
+        x, w = np.empty(CORNERS), np.empty(WORK)
+        end = min(m, (chunk + 1) * lanes.CHUNK)
+        for begin in range(chunk * lanes.CHUNK, end, LANES):
+            count = min(LANES, end - begin)
+            lanes.load(points, hexes, begin, count, x)
+            lanes.fill(w, _LEAST, _LEAST + ALL, 1.0)
+            lanes.fill(w, _GREATEST, _GREATEST + ALL, -1.0)
+            for t in range(8):
+                lanes.edges(x, t, w, S)
+                _judge(w)
+            for k in range(count):
+                i, h = np.uint64(k), begin + k
+                smallest[h] = np.arccos(min(w[_GREATEST + i], 1.0)) * (180 / np.pi)
+                largest[h] = np.arccos(max(w[_LEAST + i], -1.0)) * (180 / np.pi)
 
 
 @serial
