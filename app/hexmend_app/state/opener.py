@@ -8,6 +8,8 @@ from PySide6.QtCore import QObject, QThread, Signal
 
 from hexmend.errors import HexmendError
 from hexmend.io import read
+from hexmend.mesh import Mesh
+from hexmend.quality import element, node
 from hexmend_app.state.document import Document, State
 
 
@@ -26,10 +28,17 @@ class _Reading(QThread):
         try:
             self.state = State.of(read(self.path))
             _ = self.state.mesh.topology.face_neighbours  # what the view draws from
+            _make_ready(self.state.mesh)
         except HexmendError as error:
             self.error = error
         except Exception as error:  # a reader that fails in a way of its own must not take the window down
             self.error = HexmendError(f"{self.path.name}: cannot be read ({type(error).__name__}: {error}).")
+
+
+def _make_ready(mesh: Mesh) -> None:
+    """Load what a click on an element needs: its kernels are compiled the first time, and the window would stand."""
+    element(mesh, 0)
+    node(mesh, int(mesh.hexes[0, 0]))
 
 
 class Opener(QObject):

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.quality import METRICS, Element, Node
-from hexmend_app.widgets.metrics import metrics_offered
+from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, TEXT, WORSE, explain, icon, note, tabular, tint
 from hexmend_app.widgets.wording import counted, figure
 
@@ -120,12 +120,15 @@ class ElementPanel(QWidget):
             head.addWidget(part)
         figures = QGridLayout()
         figures.setVerticalSpacing(2)
-        for row, metric in enumerate(metrics_offered()):
+        half = -(-len(METRICS) // 2)
+        for at, metric in enumerate(metrics_offered()):
+            row, column = at % half, 3 * (at // half)
             title = QLabel(metric.title)
-            explain(title, metric.title, f"<b>{metric.title}</b>: {metric.formula}. {metric.source}")
-            figures.addWidget(title, row, 0)
-            figures.addWidget(self._values[metric.name], row, 1)
-        figures.setRowStretch(len(METRICS), 1)
+            explain(title, metric.title, described(metric).removeprefix("<qt>").removesuffix("</qt>"))
+            figures.addWidget(title, row, column)
+            figures.addWidget(self._values[metric.name], row, column + 1)
+        figures.setColumnMinimumWidth(2, 10)
+        figures.setRowStretch(half, 1)
         corners = QGridLayout()
         corners.setVerticalSpacing(2)
         corners.setHorizontalSpacing(14)
@@ -167,11 +170,9 @@ class ElementPanel(QWidget):
         state = "inverted, and its fixed nodes keep it so" if one.locked else "inverted" if one.inverted else ""
         self._state.setText(state)
         for name, label in self._values.items():
-            low, high = METRICS[name].acceptable
-            good = low <= one.values[name] <= high
-            label.setText(figure(one.values[name]))
-            label.setToolTip("" if good else f"<qt>Solvers are usually content from {low:g} to {high:g}.</qt>")
-            tint(label, TEXT if good else WORSE)
+            bad = bool(METRICS[name].unacceptable(np.array(one.values[name])))
+            label.setText("∞" if one.values[name] == np.inf else figure(one.values[name]))
+            tint(label, WORSE if bad else TEXT)
         worst = int(one.corners.argmin()) if np.ptp(one.corners) > 1e-9 else -1
         for k, (node, kind, quality) in enumerate(self._corners):
             node.setText(f'<a href="{one.nodes[k]}">{one.nodes[k]:,}</a>')

@@ -8,3 +8,12 @@ from hexmend.quality import METRICS, Metric
 def metrics_offered() -> list[Metric]:
     """Every metric, the thesis's own first."""
     return sorted(METRICS.values(), key=lambda metric: metric.name != "q")
+
+
+def described(metric: Metric) -> str:
+    """Formula, meaning, ranges and source of a metric, as a tooltip."""
+    low, high = metric.acceptable
+    return (
+        f"<qt><b>{metric.title}</b>: {metric.formula}.<br>{metric.meaning}<br>"
+        f"Acceptable from {low:g} to {high:g} {metric.unit}. <i>{metric.source}</i></qt>"
+    )

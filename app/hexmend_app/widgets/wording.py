@@ -38,8 +38,8 @@ def short_number(value: float) -> str:
 def figure(value: float | None, decimals: int = 4) -> str:
     """A figure for the eye: counts with separators, fractions with fixed decimals, large values with six digits.
 
-    >>> figure(32735), figure(0.5), figure(1325.2907), figure(None), figure(3.2e11)
-    ('32,735', '0.5000', '1,325.29', '–', '3.2e+11')
+    >>> figure(32735), figure(0.5), figure(1325.2907), figure(None), figure(3.2e11), figure(-2.5e-7)
+    ('32,735', '0.5000', '1,325.29', '–', '3.2e+11', '−2.5e−07')
     """
     if value is None or not math.isfinite(value):
         return "–"
@@ -49,6 +49,8 @@ def figure(value: float | None, decimals: int = 4) -> str:
         text = f"{value:.4g}"
     elif abs(value) >= 10:
         text = f"{value:,.{max(0, 5 - math.floor(math.log10(abs(value))))}f}"
+    elif 0 < abs(value) < 0.5 * 10**-decimals:  # not nothing
+        text = f"{value:.2g}"
     else:
         text = f"{value:.{decimals}f}"
     return text.replace("-", "−")

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked, worst
-from hexmend_app.widgets.metrics import metrics_offered
+from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, PANEL, explain, icon, note, tabular
 from hexmend_app.widgets.wording import counted, figure
 
@@ -112,8 +112,7 @@ class WorstList(QWidget):
         self._metric = QComboBox()
         for metric in metrics_offered():
             self._metric.addItem(metric.title, metric.name)
-            tip = f"<qt><b>{metric.title}</b><br>{metric.formula}<br>{metric.source}</qt>"
-            self._metric.setItemData(self._metric.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+            self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
         explain(
             self._metric, "Worst by", "The figure that the list is ordered by. Inverted elements always come first."
         )
@@ -239,8 +238,8 @@ class WorstList(QWidget):
             self._text.setText("No mesh is open.")
             return
         metric = METRICS[self._metric.currentData()]
-        values = metric.of(figures)
-        chosen = worst(values, figures, min(MOST, values.size))
+        values = metric.of(mesh.points, mesh.hexes, figures)
+        chosen = worst(values, figures, min(MOST, values.size), metric.better or 1)
         inverted = figures.inverted[chosen]
         held = locked(mesh.points, mesh.hexes[chosen], mesh.fixed, inverted)
         states = ["locked" if h else "inverted" if i else "" for i, h in zip(inverted, held, strict=True)]

@@ -64,7 +64,7 @@ def element(mesh: Mesh, number: int) -> Element:
         points=mesh.points[nodes],
         fixed=mesh.fixed[nodes],
         corners=corner_qualities(mesh.points, hexes)[0],
-        values={metric.name: float(metric.of(figures)[0]) for metric in METRICS.values()},
+        values={metric.name: float(metric.of(mesh.points, hexes, figures)[0]) for metric in METRICS.values()},
         neighbours=mesh.topology.face_neighbours[number],
         inverted=bool(figures.inverted[0]),
         locked=bool(locked(mesh.points, hexes, mesh.fixed, figures.inverted)[0]),
