@@ -25,7 +25,8 @@ class _Reading(QThread):
         """What the thread does."""
         try:
             self.state = State.of(read(self.path))
-            _ = self.state.mesh.topology.face_neighbours  # what the view draws from
+            topology = self.state.mesh.topology
+            _ = topology.face_neighbours, topology.layers, topology.node_corners  # what the view draws from
         except HexmendError as error:
             self.error = error
         except Exception as error:  # a reader that fails in a way of its own must not take the window down
