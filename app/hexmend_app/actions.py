@@ -96,5 +96,27 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Clip",
         checkable=True,
     ),
+    ActionSpec(
+        "next_worst",
+        "&Next worst element",
+        "&Inspect",
+        "N",
+        "chevron-down",
+        "Go to the next element of the list of the worst, from the worst on.",
+        "Worst",
+    ),
+    ActionSpec(
+        "previous_worst", "&Previous worst element", "&Inspect", "Shift+N", "chevron-up", "Go back in the list."
+    ),
+    ActionSpec("deselect", "&Look at none", "&Inspect", "Esc", help="Mark no element any more."),
+    ActionSpec(
+        "commands",
+        "&Commands…",
+        "&Help",
+        "Ctrl+Shift+P",
+        "magnify",
+        "Find any command by its name.",
+        needs_mesh=False,
+    ),
     ActionSpec("about", "&About Hexmend", "&Help", help="Version, licence and sources.", needs_mesh=False),
 )

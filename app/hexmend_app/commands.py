@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from hexmend.io import write
 from hexmend.parameters import declared
+from hexmend.quality import summarise
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
-from hexmend_app.state.document import Document
+from hexmend_app.state.document import Document, State
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.view import View
@@ -59,6 +62,16 @@ class Commands:
         """End a run and put the nodes back to where they were when the mesh was opened."""
         self.smoothing.end_now()
         self.document.reset()
+
+    def pin(self, node: int, on: bool) -> None:
+        """Keep a node where it is whatever smooths the mesh, or let it go; not while a run is under way."""
+        if self.smoothing.busy:
+            return
+        now = self.document.now
+        pinned = np.zeros(now.mesh.n_nodes, bool) if now.mesh.pinned is None else now.mesh.pinned.copy()
+        pinned[node] = on
+        mesh = now.mesh.replace(pinned=pinned)
+        self.document.commit("pin" if on else "unpin", State(mesh, now.figures, summarise(mesh, now.figures)))
 
     def undo(self) -> None:
         """Take back the last change, unless a run is under way."""

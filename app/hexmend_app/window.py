@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSettings, Qt, QTimer
+from PySide6.QtCore import QPoint, QSettings, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -20,6 +21,8 @@ from PySide6.QtWidgets import (
 
 from hexmend.errors import FileError, HexmendError
 from hexmend.parameters import declared
+from hexmend.quality import element, node
+from hexmend.report.documents import write_text
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
@@ -29,16 +32,30 @@ from hexmend_app.resources import demo_mesh
 from hexmend_app.state.document import Document
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Frame, Phase, Smoothing
+from hexmend_app.state.selection import Selection
 from hexmend_app.state.view import View
 from hexmend_app.widgets.clip_panel import ClipPanel
-from hexmend_app.widgets.histogram import QualityHistogram
+from hexmend_app.widgets.command_palette import CommandPalette
+from hexmend_app.widgets.element_panel import ElementPanel
+from hexmend_app.widgets.histogram import QualityHistogram, write_histogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
-from hexmend_app.widgets.questions import Answer, ask_mesh, ask_target, ask_unsaved, remember_folder, show_about
+from hexmend_app.widgets.questions import (
+    Answer,
+    ask_histogram,
+    ask_list,
+    ask_mesh,
+    ask_target,
+    ask_unsaved,
+    remember_folder,
+    show_about,
+)
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
 from hexmend_app.widgets.welcome import Welcome
+from hexmend_app.widgets.wording import counted
+from hexmend_app.widgets.worst_list import WorstList
 
 if TYPE_CHECKING:
     from hexmend.optimise import Result
@@ -57,6 +74,7 @@ class Window(QMainWindow):
         self.setAcceptDrops(True)
         self.document = Document(self)
         self.view = View(self)
+        self.selection = Selection(self)
         self.smoothing = Smoothing(self.document, self)
         self.opener = Opener(self.document, self)
         self.commands = Commands(self.document, self.view, self.smoothing, self.opener)
@@ -66,6 +84,8 @@ class Window(QMainWindow):
         self.welcome = Welcome()
         self.histogram = QualityHistogram()
         self.statistics = StatisticsTable()
+        self.worst_list = WorstList()
+        self.element_panel = ElementPanel()
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
@@ -120,6 +140,11 @@ class Window(QMainWindow):
         histogram = self._dock("histogram", "Distribution of quality", self.histogram, areas.BottomDockWidgetArea)
         quality = self._dock("quality", "Quality", self.statistics, areas.BottomDockWidgetArea)
         self.splitDockWidget(histogram, quality, Qt.Orientation.Horizontal)
+        self.worst_dock = self._dock("worst", "Worst elements", self.worst_list, areas.BottomDockWidgetArea)
+        self.element_dock = self._dock("element", "Element", self.element_panel, areas.BottomDockWidgetArea)
+        self.tabifyDockWidget(quality, self.worst_dock)
+        self.tabifyDockWidget(self.worst_dock, self.element_dock)
+        quality.raise_()
         self.resizeDocks([histogram, quality], [620, 360], Qt.Orientation.Horizontal)
         self.resizeDocks([histogram], [270], Qt.Orientation.Vertical)
 
@@ -144,6 +169,7 @@ class Window(QMainWindow):
         self.canvas = Canvas()
         self._centre.addWidget(self.canvas, 1)
         self.canvas.clip_dragged.connect(self.view.set_clip)
+        self.canvas.clicked.connect(self._on_clicked)
         self.canvas.setVisible(self.document.is_open)
         self.canvas.set_look(self.view.look, self.view.plane_shown)
         if self.document.is_open:
@@ -163,6 +189,7 @@ class Window(QMainWindow):
         self.smoothing.iterated.connect(self._on_iterated)
         self.smoothing.ended.connect(self._on_ended)
         self.smoothing.failed.connect(self._on_failed)
+        self.histogram.save_requested.connect(self._on_save_histogram)
         self.histogram.range_changed.connect(lambda chosen: self.view.change(quality_range=chosen))
         self.clip_panel.clip_changed.connect(self.view.set_clip)
         self.clip_panel.plane_shown_changed.connect(self.view.set_plane_shown)
@@ -179,6 +206,17 @@ class Window(QMainWindow):
         self.smoothing_panel.resume_requested.connect(self.smoothing.resume)
         self.smoothing_panel.stop_requested.connect(self.smoothing.stop)
         self.smoothing_panel.reset_requested.connect(self.commands.reset)
+        self.selection.changed.connect(self._show_selected)
+        self.selection.changed.connect(self._enable)
+        self.messages.filled.connect(self._enable)
+        self.messages.emptied.connect(self._enable)
+        self.worst_list.chosen.connect(self._go_to)
+        self.worst_list.save_requested.connect(self._on_save_worst)
+        self.element_panel.chosen.connect(self._go_to)
+        self.element_panel.fly_requested.connect(lambda: self._go_to(self.selection.hex))
+        self.element_panel.corners_toggled.connect(self._show_selected)
+        self.element_panel.node_chosen.connect(lambda node: self.selection.choose(self.selection.hex, node))
+        self.element_panel.pin_toggled.connect(self.commands.pin)
         self.welcome.open_requested.connect(self._on_open)
         self.welcome.demo_requested.connect(self._on_open_demo)
 
@@ -189,6 +227,7 @@ class Window(QMainWindow):
         self.welcome.setVisible(self.canvas is None)
         self.view.show_another()
         self.inside_panel.set_layers(int(now.mesh.topology.layers.max()))
+        self.selection.choose(None)
         low, high = now.mesh.points.min(axis=0), now.mesh.points.max(axis=0)
         self.clip_panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
         self.histogram.set_initial(start.figures.q, start.figures.inverted)
@@ -209,6 +248,8 @@ class Window(QMainWindow):
         start, now = self.document.start, self.document.now
         self.histogram.set_current(now.figures.q, now.figures.inverted)
         self.statistics.set_summaries(start.summary, now.summary)
+        self.worst_list.set_figures(now.mesh, now.figures)
+        self._show_element()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
         self._show_shown()
@@ -216,6 +257,19 @@ class Window(QMainWindow):
     def _show_shown(self) -> None:
         if self.canvas is not None and self.document.is_open:
             self.inside_panel.set_shown(self.canvas.viewport.shown, self.document.now.mesh.n_hexes)
+
+    def _show_selected(self) -> None:
+        self.worst_list.set_selected(self.selection.hex)
+        self._show_element()
+
+    def _show_element(self) -> None:
+        """Show what is looked at as it is now."""
+        chosen, mesh = self.selection, self.document.now.mesh
+        self.element_panel.show_element(None if chosen.hex is None else element(mesh, chosen.hex))
+        at = None if chosen.node is None else node(mesh, chosen.node)
+        self.element_panel.show_node(at, self.smoothing.busy)
+        if self.canvas is not None:
+            self.canvas.select(chosen.hex, self.element_panel.corners_in_view, at)
 
     def _on_look_changed(self) -> None:
         look = self.view.look
@@ -279,6 +333,8 @@ class Window(QMainWindow):
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
             self.actions_by_id[id].setIconText(word.replace("&", ""))
         self.actions_by_id["stop"].setEnabled(busy)
+        # Esc dismisses a message first.
+        self.actions_by_id["deselect"].setEnabled(self.selection.hex is not None and self.messages.isHidden())
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.smoothing_panel.setEnabled(self.document.is_open)
         self.clip_panel.setEnabled(self.document.is_open)
@@ -332,6 +388,60 @@ class Window(QMainWindow):
         self.messages.show_info(f"Picture of {size[0]} × {size[1]} pixels saved to {path}")
         return True
 
+    def _on_clicked(self, hit: tuple[int, int] | None) -> None:
+        self.selection.choose(*(hit or (None, None)))
+        if hit is not None:
+            self.element_dock.raise_()
+
+    def _go_to(self, h: int) -> None:
+        """Choose an element and bring it before the camera."""
+        self.selection.choose(h)
+        if self.canvas is not None:
+            self.canvas.fly_to(h)
+
+    def _on_next_worst(self) -> None:
+        self.worst_list.next()
+
+    def _on_previous_worst(self) -> None:
+        self.worst_list.previous()
+
+    def _on_deselect(self) -> None:
+        self.selection.choose(None)
+
+    def _on_save_worst(self) -> None:
+        path = ask_list(self, self.document.path.stem if self.document.path else "mesh")
+        if path:
+            self.save_worst(path)
+
+    def save_worst(self, path: str | Path) -> bool:
+        """Write the list of the worst elements as CSV; say so, or say why not."""
+        saved = self._said("The list was not saved", lambda: write_text(Path(path), self.worst_list.text()))
+        if saved:
+            self.messages.show_info(f"{counted(len(self.worst_list.elements), 'element')} saved to {path}")
+        return saved
+
+    def _on_save_histogram(self) -> None:
+        path = ask_histogram(self, self.document.path.stem if self.document.path else "mesh")
+        if path:
+            self.save_histogram(path)
+
+    def save_histogram(self, path: str | Path) -> bool:
+        """Write the histogram as figure, or its counts as CSV, by the suffix; say so, or say why not."""
+        name = self.document.name
+        saved = self._said("The histogram was not saved", lambda: write_histogram(Path(path), self.histogram, name))
+        if saved:
+            self.messages.show_info(f"Histogram saved to {path}")
+        return saved
+
+    def _said(self, title: str, act: Callable[[], object]) -> bool:
+        """Do something; what goes wrong is said under this title."""
+        try:
+            act()
+        except HexmendError as error:
+            self.messages.show_error(title, str(error))
+            return False
+        return True
+
     def _on_quit(self) -> None:
         self.close()
 
@@ -380,6 +490,13 @@ class Window(QMainWindow):
     def _on_clip(self, on: bool) -> None:
         if on != (self.view.look.clip is not None):
             self.view.set_clip(self.clip_panel.plane() if on else None)
+
+    def _on_commands(self) -> None:
+        others = [action for id, action in self.actions_by_id.items() if id != "commands"]
+        palette = CommandPalette(others, self)
+        palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        palette.move(self.mapToGlobal(QPoint((self.width() - palette.width()) // 2, 90)))
+        palette.open()
 
     def _on_about(self) -> None:
         from hexmend import __version__

@@ -2,84 +2,19 @@
 
 from __future__ import annotations
 
-import threading
-
 import numpy as np
 import pytest
 from PIL import Image
-from PySide6.QtCore import QMimeData, QPoint, QPointF, QSettings, Qt, QThread, QUrl
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QThread, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QMessageBox, QPushButton
 
 from hexmend import gallery, io
-from hexmend_app.program import application, report_unexpected_errors
+from hexmend_app.program import report_unexpected_errors
 from hexmend_app.state.run import Phase
-from hexmend_app.window import Window
+from tests.app.driving import LEFT, click, drag, open_and_wait, phase, pixels
 from tests.said import FIRST_RUN
-
-LEFT = Qt.MouseButton.LeftButton
-
-
-@pytest.fixture
-def mesh_file(tmp_path):
-    path = tmp_path / "bridge.vtu"
-    io.write(path, gallery.make("bridge-sharp", size=4000, scramble=0.4, seed=1))
-    return path
-
-
-@pytest.fixture
-def window(qtbot, tmp_path, mesh_file, monkeypatch):
-    """A window with a mesh open in it."""
-    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, str(tmp_path / "settings"))
-    QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, str(tmp_path / "settings"))
-    monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Discard)
-    application()
-    window = Window()
-    window.resize(1400, 900)
-    window.show()
-    qtbot.waitExposed(window)
-    window.build_canvas()
-    open_and_wait(qtbot, window, mesh_file)
-    window.windowHandle().requestActivate()
-    qtbot.waitUntil(window.isActiveWindow, timeout=5000)  # or shortcuts go nowhere
-    qtbot.wait(200)
-    yield window
-    window.close()
-    assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []
-
-
-def open_and_wait(qtbot, window, path):
-    with qtbot.waitSignals([window.opener.ended], timeout=20000):
-        window.open(path)
-
-
-def click(window, text):
-    button = next(b for b in window.smoothing_panel.findChildren(QPushButton) if b.text() == text and b.isVisible())
-    assert button.isEnabled()
-    QTest.mouseClick(button, LEFT)
-
-
-def phase(window, phase):
-    return lambda: window.smoothing.phase is phase
-
-
-def pixels(window):
-    """What the 3D view shows, (h, w, 3)."""
-    window.canvas.interactor.render()
-    return np.asarray(window.canvas.interactor.screenshot(return_img=True)).astype(int)
-
-
-def drag(widget, start, end, steps=12):
-    """Press, move and release the mouse as a hand does."""
-    QTest.mouseMove(widget, start)
-    QTest.qWait(30)
-    QTest.mousePress(widget, LEFT, pos=start)
-    for k in range(1, steps + 1):
-        QTest.mouseMove(widget, start + (end - start) * (k / steps))
-        QTest.qWait(10)
-    QTest.mouseRelease(widget, LEFT, pos=end)
-    QTest.qWait(50)
 
 
 def test_an_opened_mesh_is_shown_with_its_figures(window):

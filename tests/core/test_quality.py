@@ -9,7 +9,7 @@ from scipy.stats import special_ortho_group
 from hexmend.energy import energies, objective
 from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, locked, measure, summarise
+from hexmend.quality import METRICS, corner_qualities, locked, measure, summarise
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]
@@ -154,3 +154,10 @@ def test_metrics_declare_what_they_are_and_stay_in_range():
 
 def test_single_hex_mesh_summary():
     assert summarise(Mesh(UNIT_CUBE, ONE)).q_mean == pytest.approx(1)
+
+
+def test_the_mean_of_the_corners_qualities_is_the_hexes():
+    mesh = scrambled(grid(4), 0.6, 3)
+    corners = corner_qualities(mesh.points, mesh.hexes)
+    np.testing.assert_allclose(corners.mean(axis=1), measure(mesh.points, mesh.hexes).q, atol=1e-12)
+    assert (corner_qualities(np.zeros((8, 3)), np.arange(8)[None]) == 0).all()

@@ -37,7 +37,7 @@ def section(
         return pv.PolyData()
     nodes, cells = np.unique(hexes[chosen], return_inverse=True)
     grid = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: cells.reshape(-1, 8)}, points[nodes])
-    coloured(grid, colours[chosen])
+    coloured(grid, colours[chosen], chosen)
     cutter = vtkPlaneCutter()
     cutter.SetInputData(grid)
     cutter.SetPlane(_vtk(plane))

@@ -7,6 +7,7 @@ import pyvista as pv
 
 _EDGE = "#1b1f2a"
 _COLOURS = "colours"
+_HEX = "hex"
 
 
 class Surface:
@@ -78,16 +79,22 @@ class Surface:
         self.actor.GetProperty().SetEdgeVisibility(on)
 
 
-def quads(points: np.ndarray, faces: np.ndarray, colours: np.ndarray) -> pv.PolyData:
-    """Quads with a colour each: points (u, 3), faces (k, 4), colours (k, 3) uint8."""
-    return coloured(pv.PolyData.from_regular_faces(points, faces), colours)
+def quads(points: np.ndarray, faces: np.ndarray, colours: np.ndarray, hexes: np.ndarray) -> pv.PolyData:
+    """Quads with a colour and a hex each: points (u, 3), faces (k, 4), colours (k, 3) uint8, hexes (k,) int32."""
+    return coloured(pv.PolyData.from_regular_faces(points, faces), colours, hexes)
 
 
-def coloured(poly: pv.PolyData, colours: np.ndarray) -> pv.PolyData:
-    """Give polygons their colours, (k, 3) uint8."""
+def coloured(data: pv.DataSet, colours: np.ndarray, hexes: np.ndarray) -> pv.DataSet:
+    """Give cells their colours, (k, 3) uint8, and say which hexes they show, (k,) int32."""
     if len(colours):  # VTK takes no empty array
-        poly.cell_data[_COLOURS] = colours
-    return poly
+        data.cell_data[_COLOURS] = colours
+        data.cell_data[_HEX] = hexes.astype(np.int32, copy=False)
+    return data
+
+
+def hex_of(data: pv.DataSet, cell: int) -> int:
+    """The hex that a cell shows."""
+    return int(data.cell_data[_HEX][cell])
 
 
 def set_points(data: pv.DataSet, points: np.ndarray) -> None:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkCellPicker
 
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality
+from hexmend.quality import METRICS, ElementQuality, Node, corner_qualities
 from hexmend_app.scene import cut
 from hexmend_app.scene.colours import colours
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.fitting import fit
+from hexmend_app.scene.flight import Flight
+from hexmend_app.scene.highlight import Highlight
 from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
-from hexmend_app.scene.surface import Surface, quads, set_colours, set_points
+from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
 from hexmend_app.state.look import Look
 
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
@@ -52,6 +55,12 @@ class Viewport:
         self._skin_surface = Surface(plotter, "skin")
         self._section_surface = Surface(plotter, "section")
         self._outline = None
+        self._highlight = Highlight(plotter)
+        self._selected: int | None = None
+        self._picker = vtkCellPicker()
+        self._picker.PickFromListOn()
+        for surface in (self._skin_surface, self._section_surface):
+            self._picker.AddPickList(surface.actor)
         plotter.add_axes(line_width=2, labels_off=False, viewport=(0, 0, 0.13, 0.18), color="#39414d")
 
     # What is drawn
@@ -62,6 +71,7 @@ class Viewport:
         self._skin = Skin(mesh)
         self._filters = Filters(mesh)
         self._outline = Silhouette(self._plotter, mesh)
+        self.select(None)
         self._cull()
         self._rebuild()
         self.view("iso")
@@ -77,6 +87,7 @@ class Viewport:
         """
         self._points, self._figures = points, figures
         self._cull()
+        self._show_selected()
         if self._look.quality_range is None:
             self._move()
         else:
@@ -89,6 +100,67 @@ class Viewport:
             surface.show_edges(look.edges)
         if self._mesh is not None and look != before:
             self._rebuild()
+
+    # What is pointed at
+
+    def pick(self, x: float, y: float) -> tuple[int, int] | None:
+        """The hex that is seen at a place, and the node of it that is nearest there; None beside the mesh.
+
+        Parameters
+        ----------
+        x, y : float
+            In pixels of the picture, from its lower left corner.
+        """
+        if self._mesh is None:
+            return None
+        for surface in (self._skin_surface, self._section_surface):
+            surface.actor.SetPickable(True)
+        self._picker.Pick(x, y, 0, self._plotter.renderer)
+        for surface in (self._skin_surface, self._section_surface):
+            surface.actor.SetPickable(False)
+        cell = self._picker.GetCellId()
+        if cell < 0:
+            return None
+        h = hex_of(pv.wrap(self._picker.GetDataSet()), cell)
+        nodes = self._mesh.hexes[h]
+        away = np.square(self._points[nodes] - self._picker.GetPickPosition()).sum(axis=1)
+        return h, int(nodes[away.argmin()])
+
+    def select(self, h: int | None, corners: bool = False, node: Node | None = None) -> None:
+        """Mark one hex, with the quality at each of its corners or without, and one of its nodes; None marks none."""
+        self._selected, self._with_corners = h, corners
+        self._show_selected()
+        if h is not None:
+            self.mark_node(node)
+
+    def mark_node(self, node: Node | None) -> None:
+        """Mark a node where it is now, and which way the energy around it falls, if it may go there."""
+        if node is None:
+            self._highlight.show_node(None)
+            return
+        steepness = float(np.linalg.norm(node.downhill))
+        corners = self._points[self._mesh.hexes[self._selected]]
+        length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
+        goes = node.kind == "free" and steepness > 0
+        self._highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
+
+    def _show_selected(self) -> None:
+        if self._selected is None:
+            self._highlight.hide()
+            return
+        nodes = self._mesh.hexes[self._selected]
+        values = corner_qualities(self._points, nodes[None])[0] if self._with_corners else None
+        self._highlight.show(self._points[nodes], values)
+
+    def flight_to(self, h: int) -> Flight:
+        """The camera's way to a hex."""
+        corners = self._points[self._mesh.hexes[h]]
+        centre = corners.mean(axis=0)
+        return Flight(self.camera, centre, float(np.sqrt(np.square(corners - centre).sum(axis=1).max())))
+
+    def reset_depth(self) -> None:
+        """Fit what is near and far enough to be drawn to where the camera is."""
+        self._plotter.renderer.ResetCameraClippingRange()
 
     @property
     def bounds(self) -> tuple[float, float, float, float, float, float]:
@@ -110,8 +182,8 @@ class Viewport:
     def _rebuild(self) -> None:
         """Find the visible faces anew."""
         keep = self._kept()
-        self._faces = self._visible(keep)
-        self._whole = quads(self._faces.places(self._points), self._faces.quads, self._face_colours())
+        faces = self._faces = self._visible(keep)
+        self._whole = quads(faces.places(self._points), faces.quads, self._face_colours(), faces.hexes)
         self._cut(keep)
         self._outline.move(self._points)
         self._outline.show(self._look.outline and (keep is not None or self._look.clip is not None))

@@ -102,8 +102,9 @@ class Document(QObject):
         self.points_moved.emit()
 
     def commit(self, title: str, state: State) -> None:
-        """Record where the nodes are now as one change that undo takes back."""
-        if state.mesh.points is not self._changes[self._at].state.mesh.points:
+        """Record where the nodes are now, and which are pinned, as one change that undo takes back."""
+        before = self._changes[self._at].state.mesh
+        if state.mesh.points is not before.points or state.mesh.pinned is not before.pinned:
             del self._changes[self._at + 1 :]
             if self._saved > self._at:
                 self._saved = -1  # what was saved can no longer be reached

@@ -5,15 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import QTimer, Signal
+from PySide6.QtCore import QElapsedTimer, QEvent, QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
 from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
-from hexmend.quality import ElementQuality
+from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.colours import INVERTED, table
+from hexmend_app.scene.flight import Flight
 from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
@@ -23,6 +24,12 @@ from hexmend_app.widgets.colour_bar import ColourBar
 #: Milliseconds of rest after which the fine still frame is drawn.
 _REST = 300
 
+#: How far the mouse may stray in a click, in pixels; beyond it turns the mesh.
+_STRAY = 3
+
+#: Milliseconds that the camera flies, and between two of its frames.
+_FLIGHT, _FRAME = 350, 25
+
 
 class Canvas(QWidget):
     """Draws one mesh.
@@ -31,9 +38,12 @@ class Canvas(QWidget):
     -------
     clip_dragged(ClipPlane)
         The user moved or turned the plane in the view.
+    clicked(hit)
+        The user clicked on an element, (hex, its nearest node), or beside the mesh, None.
     """
 
     clip_dragged = Signal(object)
+    clicked = Signal(object)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -56,6 +66,13 @@ class Canvas(QWidget):
         self._rest.timeout.connect(self._draw_still)
         self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._moving())
         self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
+        self._pressed: QPointF | None = None
+        self.interactor.installEventFilter(self)
+        self._flight: Flight | None = None
+        self._flown = QElapsedTimer()
+        self._fly = QTimer(self)
+        self._fly.setInterval(_FRAME)
+        self._fly.timeout.connect(self._fly_on)
 
     def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
         """Draw another mesh."""
@@ -96,6 +113,43 @@ class Canvas(QWidget):
         self.viewport.set_parallel(on)
         self._changed()
 
+    def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
+        """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
+        self.viewport.select(h, corners, node)
+        self._changed()
+
+    def fly_to(self, h: int) -> None:
+        """Bring an element before the camera."""
+        self._flight = self.viewport.flight_to(h)
+        self._flown.start()
+        self._fly.start()
+
+    def _fly_on(self) -> None:
+        share = min(self._flown.elapsed() / _FLIGHT, 1.0)
+        self._flight.at(share)
+        self.viewport.reset_depth()
+        self._changed()
+        if share == 1.0:
+            self._fly.stop()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Tell a click from a drag, which turns the mesh."""
+        kind = event.type()
+        if kind == QEvent.Type.MouseButtonPress:
+            self._fly.stop()
+            self._pressed = event.position() if event.button() == Qt.MouseButton.LeftButton else None
+        elif kind == QEvent.Type.MouseButtonRelease and self._pressed is not None:
+            away = event.position() - self._pressed
+            self._pressed = None
+            if max(abs(away.x()), abs(away.y())) <= _STRAY:
+                self._click(event.position())
+        return super().eventFilter(watched, event)
+
+    def _click(self, at: QPointF) -> None:
+        ratio = self.devicePixelRatioF()
+        x, y = at.x() * ratio, (self.interactor.height() - 1 - at.y()) * ratio
+        self.clicked.emit(self.viewport.pick(x, y))
+
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
         """Write what is seen, without the plane, as PNG of any size."""
         seen = self.viewport
@@ -109,6 +163,7 @@ class Canvas(QWidget):
         """Let go of the graphics while the window still exists."""
         self._frame.stop()
         self._rest.stop()
+        self._fly.stop()
         self.plane.close()
         self.interactor.close()
         super().closeEvent(event)

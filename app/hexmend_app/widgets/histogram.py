@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 from PySide6.QtCore import QPointF, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QToolTip, QVBoxLayout, QWidget
 from superqt.utils import QSignalThrottler
 
+from hexmend.report.documents import write_text
 from hexmend_app.widgets.histogram_bins import BINS, Distribution, distribute
 from hexmend_app.widgets.histogram_plot import APART, EDGES, HistogramPlot
 from hexmend_app.widgets.legend import legend_entry
 from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import BLUE, GREY, explain, note, smaller, tabular
+from hexmend_app.widgets.style import BLUE, GREY, explain, icon, note, smaller, tabular
 from hexmend_app.widgets.wording import counted
 
 _PERIOD_MS = 33
@@ -29,9 +32,12 @@ class QualityHistogram(QWidget):
     -------
     range_changed((low, high) or None)
         The user brushed another range, or cleared it; at most thirty times a second.
+    save_requested
+        The user wants the histogram as a file.
     """
 
     range_changed = Signal(object)
+    save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -79,6 +85,10 @@ class QualityHistogram(QWidget):
             head.addWidget(entry)
         head.addStretch()
         head.addWidget(self._scale)
+        self._save = QPushButton(icon("content-save-outline"), "")
+        explain(self._save, "Save histogram", "Save the histogram as SVG, PDF or PNG, or its counts as CSV.")
+        self._save.clicked.connect(self.save_requested)
+        head.addWidget(self._save)
         return head
 
     def _make_ends(self) -> QHBoxLayout:
@@ -128,6 +138,26 @@ class QualityHistogram(QWidget):
         self._initial = self._current = None
         self._refresh()
 
+    @property
+    def log(self) -> bool:
+        """Whether heights go by powers of ten."""
+        return self._plot.log
+
+    def distributions(self) -> dict[str, Distribution]:
+        """What is drawn, by name."""
+        known = {"at the start": self._initial, "now": self._current}
+        return {name: one for name, one in known.items() if one is not None}
+
+    def text(self) -> str:
+        """The counts as CSV: a line a bin, the inverted elements first."""
+        drawn = self.distributions()
+        lines = [",".join(["from", "to", *drawn])]
+        lines.append(",".join(["inverted", "inverted", *(str(one.inverted) for one in drawn.values())]))
+        for at in range(BINS):
+            counts = (str(int(one.counts[at])) for one in drawn.values())
+            lines.append(",".join([f"{EDGES[at]:.2f}", f"{EDGES[at + 1]:.2f}", *counts]))
+        return "\n".join(lines) + "\n"
+
     def range(self) -> tuple[float, float] | None:
         """The range shown; None for all."""
         return self._range
@@ -176,6 +206,7 @@ class QualityHistogram(QWidget):
         self._say()
 
     def _refresh(self) -> None:
+        self._save.setEnabled(self._current is not None)
         self._plot.draw(self._initial, self._current)
         self._say()
 
@@ -196,3 +227,22 @@ class QualityHistogram(QWidget):
         inside = view.sceneBoundingRect().contains(at)
         text = self.describe_at(view.mapSceneToView(at).x()) if inside else ""
         QToolTip.showText(plot.mapToGlobal(plot.mapFromScene(at)), text, plot)
+
+
+def write_histogram(path: Path, histogram: QualityHistogram, title: str) -> None:
+    """Write a histogram as SVG, PDF or PNG, or its counts as CSV, by the path's suffix.
+
+    Raises
+    ------
+    HexmendError
+        For another suffix, or where the file cannot be written; the one that was there stays.
+    """
+    if path.suffix.lower() == ".csv":
+        write_text(path, histogram.text())
+        return
+    from hexmend.report.plots import write_distributions
+
+    drawn = histogram.distributions()
+    counts = {name: one.counts.tolist() for name, one in drawn.items()}
+    inverted = {name: one.inverted for name, one in drawn.items()}
+    write_distributions(path, counts, inverted, title, histogram.log)

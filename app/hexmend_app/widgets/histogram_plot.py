@@ -70,6 +70,11 @@ class HistogramPlot(QWidget):
         for item in (self._region, *self._was.items, *self._now.items, self._number):
             self.plot.addItem(item, ignoreBounds=True)
 
+    @property
+    def log(self) -> bool:
+        """Whether heights go by powers of ten."""
+        return self._log
+
     def set_log(self, log: bool) -> None:
         """Choose the scale of the counts; it shows with the next `draw`."""
         self._log = log

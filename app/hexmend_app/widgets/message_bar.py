@@ -42,9 +42,12 @@ class MessageBar(QFrame):
     -------
     emptied
         The last message has gone.
+    filled
+        There is a message, and Esc is its.
     """
 
     emptied = Signal()
+    filled = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -156,6 +159,8 @@ class MessageBar(QFrame):
         self._timer.stop()
         self._escape.setEnabled(bool(self._messages))
         self.setVisible(bool(self._messages))
+        if self._messages:
+            self.filled.emit()
         if not self._messages:
             self._at = 0
             return

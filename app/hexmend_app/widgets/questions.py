@@ -33,6 +33,19 @@ def ask_target(parent: QWidget, stem: str) -> str:
     return QFileDialog.getSaveFileName(parent, "Save the mesh as", proposal, kinds, "VTU mesh (*.vtu)")[0]
 
 
+def ask_list(parent: QWidget, stem: str) -> str:
+    """Where to save the list of the worst elements, "" for nowhere."""
+    proposal = str(Path(_folder()) / f"{stem}-worst.csv")
+    return QFileDialog.getSaveFileName(parent, "Save the list as", proposal, "Table (*.csv)")[0]
+
+
+def ask_histogram(parent: QWidget, stem: str) -> str:
+    """Where to save the histogram, "" for nowhere."""
+    proposal = str(Path(_folder()) / f"{stem}-histogram.svg")
+    kinds = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
+    return QFileDialog.getSaveFileName(parent, "Save the histogram as", proposal, kinds)[0]
+
+
 def remember_folder(path: Path) -> None:
     """Begin the next dialog where this file lies."""
     QSettings().setValue("folder", str(path.resolve().parent))

@@ -109,8 +109,10 @@ def from_mesh(mesh: Mesh) -> Grid:
     types = np.concatenate([np.full(len(rows), kind, np.uint8) for kind, rows in blocks])
     widths = np.concatenate([np.full(len(rows), rows.shape[1], np.int64) for _, rows in blocks])
     node_data = dict(mesh.node_data)
-    if mesh.pinned is not None and not any(name.lower() == _FIXED for name in node_data):
-        node_data[_FIXED] = mesh.pinned.astype(np.int32)
+    if mesh.pinned is not None:
+        name = next((name for name in node_data if name.lower() == _FIXED), _FIXED)
+        if name not in node_data or not np.array_equal(np.asarray(node_data[name]) != 0, mesh.pinned):
+            node_data[name] = mesh.pinned.astype(np.int32)  # what the file said, unless the pins have changed since
     for name, members in mesh.node_sets.items():
         node_data[_SET + name] = _mask(members, mesh.n_nodes)
     hex_data = dict(mesh.hex_data) | {_SET + k: _mask(v, mesh.n_hexes) for k, v in mesh.hex_sets.items()}

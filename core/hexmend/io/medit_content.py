@@ -118,8 +118,11 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     for name, title in _NODE_SETS.items():
         if title in mesh.node_sets:
             sections[name] = np.asarray(mesh.node_sets[title]).reshape(-1, 1) + 1
-    if mesh.pinned is not None and "required" not in mesh.node_sets:
-        sections["RequiredVertices"] = np.flatnonzero(mesh.pinned).reshape(-1, 1) + 1
+    if mesh.pinned is not None:
+        required = np.zeros(mesh.n_nodes, bool)
+        required[mesh.node_sets.get("required", [])] = True
+        if not np.array_equal(required, mesh.pinned):  # changed since it was read, or read elsewhere
+            sections["RequiredVertices"] = np.flatnonzero(mesh.pinned).reshape(-1, 1) + 1
     for name, kind, flag in _FLAGS:
         blocks = [cells for cells in mesh.cells if cells.kind == kind]
         marks = [np.asarray(cells.data.get(flag, np.zeros(len(cells.nodes)))) for cells in blocks]

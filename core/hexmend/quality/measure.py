@@ -101,6 +101,29 @@ def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray
     return sigma
 
 
+def corner_qualities(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """q(T) = 3 sigma^(2/3)/|S|^2 of the eight corner tetrahedra of hexes, (k, 8), (2.8): 0 where sigma <= 0.
+
+    For the few hexes that are looked at; columns are in the order of the corners.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (k, 8) int
+
+    Examples
+    --------
+    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> corner_qualities(UNIT_CUBE, np.arange(8)[None])
+    array([[1., 1., 1., 1., 1., 1., 1., 1.]])
+    """
+    x = points[hexes[:, CORNER_TETRAHEDRA]]  # (k, 8, 4, 3)
+    edges = x[:, :, 1:] - x[:, :, :1]
+    sigma = np.maximum(np.linalg.det(edges), 0.0)
+    square = np.square(edges).sum(axis=(2, 3))
+    return 3 * np.cbrt(sigma) ** 2 / np.where(square > 0, square, 1.0)
+
+
 def read_only(array: np.ndarray) -> np.ndarray:
     """A read-only view: kernels are compiled once, for arrays that they do not write to."""
     view = array.view()

@@ -18,6 +18,10 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#
 _MARKERS = "osD^vPX"
 
 
+#: Kinds of figure that can be written.
+FIGURE_SUFFIXES = (".svg", ".pdf", ".png")
+
+
 def scaling(
     stem: Path,
     ours: Mapping[str, Sequence[tuple[int, float]]],
@@ -67,6 +71,41 @@ def distributions(stem: Path, counts: Mapping[str, Sequence[int]], title: str) -
     HexmendError
         Where matplotlib is missing.
     """
+    figure = _distributions(counts, title)
+    return _saved(figure, stem)
+
+
+def write_distributions(
+    path: Path, counts: Mapping[str, Sequence[int]], inverted: Mapping[str, int], title: str, log: bool = False
+) -> None:
+    """Write one figure of distributions, as SVG, PDF or PNG by the path's suffix.
+
+    Parameters
+    ----------
+    path : Path
+    counts : mapping
+        As for `distributions`, of hexes that are not inverted.
+    inverted : mapping
+        Numbers of inverted hexes, by the same names; the legend says them.
+    title : str
+    log : bool
+        Heights by powers of ten.
+
+    Raises
+    ------
+    HexmendError
+        For another suffix, and where matplotlib is missing or the file cannot be written.
+    """
+    if path.suffix.lower() not in FIGURE_SUFFIXES:
+        kinds = ", ".join(FIGURE_SUFFIXES)
+        raise HexmendError(f"{path.name}: the name of a figure ends in one of {kinds}; choose one of them.")
+    figure = _distributions({f"{name} ({inverted[name]:,} inverted)": row for name, row in counts.items()}, title)
+    if log:
+        figure.axes[0].set(yscale="log", ylim=(0.8, None))
+    _save(figure, path)
+
+
+def _distributions(counts: Mapping[str, Sequence[int]], title: str) -> Figure:
     figure, axes = _figure()
     for k, (label, numbers) in enumerate(counts.items()):
         edges = [bin / len(numbers) for bin in range(len(numbers) + 1)]
@@ -74,7 +113,7 @@ def distributions(stem: Path, counts: Mapping[str, Sequence[int]], title: str) -
     axes.set(xlim=(0, 1), xlabel="q(H)", ylabel="hexes", title=title)
     axes.grid(alpha=0.3)
     axes.legend(loc="upper left", frameon=False)
-    return _saved(figure, stem)
+    return figure
 
 
 def _figure() -> tuple[Figure, Axes]:
@@ -89,11 +128,17 @@ def _figure() -> tuple[Figure, Axes]:
 
 
 def _saved(figure: Figure, stem: Path) -> list[Path]:
-    from matplotlib import rc_context
-
     paths = [stem.with_name(f"{stem.name}{suffix}") for suffix in (".svg", ".png")]
     for path in paths:
-        # With names that are not drawn by lot, and without a date, equal figures make equal files.
-        with replacing(path) as temporary, rc_context({"svg.hashsalt": "hexmend"}):
-            figure.savefig(temporary, dpi=160, metadata={"Date": None} if path.suffix == ".svg" else None)
+        _save(figure, path)
     return paths
+
+
+def _save(figure: Figure, path: Path) -> None:
+    from matplotlib import rc_context
+
+    kind = path.suffix.lower()[1:]
+    dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    # With names that are not drawn by lot, and without a date, equal figures make equal files.
+    with replacing(path) as temporary, rc_context({"svg.hashsalt": "hexmend"}):
+        figure.savefig(temporary, dpi=160, format=kind, metadata=dates.get(kind))

@@ -64,7 +64,7 @@ def test_a_plane_beside_the_mesh_cuts_nothing():
 
 def test_behind_the_plane_is_the_rest_of_the_skin():
     faces = Skin(MESH).visible()
-    skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes])
+    skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)
     rest = cut.behind(skin, ClipPlane((1, 0, 0), (1.5, 0, 0), False))
     assert rest.area == pytest.approx(6 + 2 * 1.5 * 3 + 2 * 1.5 * 2)
     assert rest.bounds[1] == pytest.approx(1.5)

@@ -146,3 +146,39 @@ def test_setting_the_plane_is_no_wish_of_the_user(plotter):
     widget._widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
     assert told == [(INSIDE.origin, INSIDE.normal)]
     widget.close()
+
+
+def test_what_is_picked_is_what_is_seen(seen):
+    viewport, pixels = seen
+    pixels()
+    h, node = viewport.pick(100, 75)
+    assert h in np.flatnonzero(MESH.points[MESH.hexes][:, :, 2].max(axis=1) == MESH.points[:, 2].max())
+    assert node in MESH.hexes[h]
+    assert viewport.pick(1, 1) is None
+    viewport.set_look(Look(clip=INSIDE))  # cut through at z = 2: the section is what is seen
+    pixels()
+    below, node = viewport.pick(100, 75)
+    assert MESH.points[MESH.hexes[below]][:, 2].min() < 2
+    np.testing.assert_allclose(
+        MESH.points[MESH.hexes[below]].mean(axis=0)[:2], MESH.points[MESH.hexes[h]].mean(axis=0)[:2]
+    )
+
+
+def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there_is_room(seen, plotter):
+    viewport, pixels = seen
+    plain = pixels()
+    inner = 21
+    viewport.select(inner)
+    marked = pixels()
+    assert 0 < (np.abs(marked - plain).max(axis=2) > 40).sum() < 0.2 * plain[:, :, 0].size
+    viewport.select(inner, corners=True)
+    np.testing.assert_array_equal(pixels(), marked)  # too small for figures
+    flight = viewport.flight_to(inner)
+    flight.at(1.0)
+    viewport.reset_depth()
+    centre = MESH.points[MESH.hexes[inner]].mean(axis=0)
+    np.testing.assert_allclose(plotter.camera.GetFocalPoint(), centre)
+    plotter.camera.Dolly(2.0)
+    near = pixels()
+    viewport.select(inner)
+    assert (near != pixels()).any()

@@ -154,3 +154,15 @@ def test_vtk_itself_reads_what_is_written(suffix, tmp_path):
     cells, nodes, volume = done.stdout.split()
     assert (int(cells), int(nodes)) == (mesh.n_hexes, mesh.n_nodes)
     assert float(volume) > 0
+
+
+@every_way
+@pytest.mark.parametrize("pins", [[5], [5, 21, 37], []])
+def test_pins_that_changed_after_reading_are_what_is_written(suffix, encoding, pins, tmp_path):
+    io.write(tmp_path / f"a{suffix}", rich(), encoding=encoding)
+    mesh = io.read(tmp_path / f"a{suffix}")
+    pinned = np.zeros(mesh.n_nodes, bool)
+    pinned[pins] = True
+    io.write(tmp_path / f"b{suffix}", mesh.replace(pinned=pinned), encoding=encoding)
+    back = io.read(tmp_path / f"b{suffix}")
+    np.testing.assert_array_equal(back.fixed, mesh.replace(pinned=pinned).fixed)

@@ -1,0 +1,202 @@
+"""What there is to know of one element."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QFont
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QStackedLayout,
+    QVBoxLayout,
+    QWidget,
+)
+
+from hexmend.quality import METRICS, Element, Node
+from hexmend_app.widgets.metrics import metrics_offered
+from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, TEXT, WORSE, explain, icon, note, tabular, tint
+from hexmend_app.widgets.wording import counted, figure
+
+_FACES = ("x−", "x+", "y−", "y+", "z−", "z+")
+_HINT = (
+    "Click an element in the view, or choose one from the list of the worst (N). "
+    "Here you will see its figures, its nodes, the quality at each corner, and its neighbours."
+)
+
+
+class ElementPanel(QWidget):
+    """Shows an element: its figures, its corners with their nodes, its neighbours.
+
+    Signals
+    -------
+    chosen(int)
+        The user wants to see this neighbour.
+    fly_requested
+        The user wants the element before the camera.
+    corners_toggled(bool)
+        The user wants the corners' qualities in the view, or not.
+    node_chosen(int)
+        The user wants to see this node of the element.
+    pin_toggled(int, bool)
+        The user wants this node pinned, or free.
+    """
+
+    chosen = Signal(int)
+    fly_requested = Signal()
+    corners_toggled = Signal(bool)
+    node_chosen = Signal(int)
+    pin_toggled = Signal(int, bool)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._stack = QStackedLayout(self)
+        hint = note(_HINT)
+        hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        hint.setMargin(24)
+        self._stack.addWidget(hint)
+        page = QWidget()
+        self._stack.addWidget(page)
+        self._title = QLabel()
+        font = QFont(self._title.font())
+        font.setBold(True)
+        self._title.setFont(font)
+        self._title.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._state = QLabel()
+        tint(self._state, INVERTED_TEXT)
+        self._in_view = QCheckBox("Corner qualities in the view")
+        explain(self._in_view, "Corner qualities in the view", "Write q(T) beside the element's corners in the view.")
+        self._in_view.toggled.connect(self.corners_toggled)
+        self._fly = QPushButton(icon("target"), "Fly to it")
+        explain(self._fly, "Fly to it", "Bring the element before the camera (Enter in the list does the same).")
+        self._fly.clicked.connect(self.fly_requested)
+        self._values = {name: self._number() for name in METRICS}
+        self._corners = [tuple(self._number() for _ in range(3)) for _ in range(8)]
+        self._neighbours = QLabel()
+        self._neighbours.setTextFormat(Qt.TextFormat.RichText)
+        self._neighbours.setTextInteractionFlags(
+            Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
+        )
+        explain(self._neighbours, "Neighbours", "The elements across its six faces; a click goes there.")
+        self._neighbours.linkActivated.connect(lambda link: self.chosen.emit(int(link)))
+        self._node: Node | None = None
+        self._about_node = QLabel()
+        self._about_node.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        explain(
+            self._about_node,
+            "Node",
+            "The energy of its hexes is the sum of η(H)² (3.3). The arrow in the view points where that falls fastest: "
+            "minus its gradient, whose size is given in mean edge lengths.",
+        )
+        self._pin = QCheckBox("Pinned")
+        explain(
+            self._pin, "Pinned", "Keep this node where it is, whatever smooths the mesh. Boundary nodes always are."
+        )
+        self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
+        for node, _, _ in self._corners:
+            node.setTextFormat(Qt.TextFormat.RichText)
+            node.setTextInteractionFlags(
+                Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
+            )
+            node.linkActivated.connect(lambda link: self.node_chosen.emit(int(link)))
+        self._lay_out(page)
+
+    def _number(self) -> QLabel:
+        label = QLabel()
+        label.setFont(tabular(label.font()))
+        label.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        return label
+
+    def _lay_out(self, page: QWidget) -> None:
+        head = QHBoxLayout()
+        for part in (self._title, self._state):
+            head.addWidget(part)
+        head.addStretch()
+        for part in (self._in_view, self._fly):
+            head.addWidget(part)
+        figures = QGridLayout()
+        figures.setVerticalSpacing(2)
+        for row, metric in enumerate(metrics_offered()):
+            title = QLabel(metric.title)
+            explain(title, metric.title, f"<b>{metric.title}</b>: {metric.formula}. {metric.source}")
+            figures.addWidget(title, row, 0)
+            figures.addWidget(self._values[metric.name], row, 1)
+        figures.setRowStretch(len(METRICS), 1)
+        corners = QGridLayout()
+        corners.setVerticalSpacing(2)
+        corners.setHorizontalSpacing(14)
+        for column, text in enumerate(("Node", "", "q(T)")):
+            title = QLabel(text)
+            title.setAlignment(Qt.AlignmentFlag.AlignRight)
+            tint(title, MUTED)
+            corners.addWidget(title, 0, column)
+        for row, labels in enumerate(self._corners, start=1):
+            for column, label in enumerate(labels):
+                corners.addWidget(label, row, column)
+        corners.setRowStretch(9, 1)
+        middle = QHBoxLayout()
+        middle.setSpacing(28)
+        middle.addLayout(figures, 1)
+        middle.addLayout(corners, 1)
+        column = QVBoxLayout(page)
+        column.setContentsMargins(8, 6, 8, 6)
+        column.addLayout(head)
+        column.addLayout(middle, 1)
+        column.addWidget(self._neighbours)
+        foot = QHBoxLayout()
+        foot.addWidget(self._about_node)
+        foot.addStretch()
+        foot.addWidget(self._pin)
+        column.addLayout(foot)
+
+    @property
+    def corners_in_view(self) -> bool:
+        """Whether the corners' qualities are wanted in the view."""
+        return self._in_view.isChecked()
+
+    def show_element(self, one: Element | None) -> None:
+        """Show an element, or how to choose one."""
+        self._stack.setCurrentIndex(0 if one is None else 1)
+        if one is None:
+            return
+        self._title.setText(f"Element {one.number:,}")
+        state = "inverted, and its fixed nodes keep it so" if one.locked else "inverted" if one.inverted else ""
+        self._state.setText(state)
+        for name, label in self._values.items():
+            low, high = METRICS[name].acceptable
+            good = low <= one.values[name] <= high
+            label.setText(figure(one.values[name]))
+            label.setToolTip("" if good else f"<qt>Solvers are usually content from {low:g} to {high:g}.</qt>")
+            tint(label, TEXT if good else WORSE)
+        worst = int(one.corners.argmin()) if np.ptp(one.corners) > 1e-9 else -1
+        for k, (node, kind, quality) in enumerate(self._corners):
+            node.setText(f'<a href="{one.nodes[k]}">{one.nodes[k]:,}</a>')
+            kind.setText("fixed" if one.fixed[k] else "free")
+            tint(kind, MUTED)
+            quality.setText(figure(float(one.corners[k]), 3))
+            tint(quality, WORSE if one.corners[k] == 0 or k == worst else TEXT)
+        links = (
+            f'{face} <a href="{h}">{h:,}</a>' if h >= 0 else f"{face} –"
+            for face, h in zip(_FACES, one.neighbours.tolist(), strict=True)
+        )
+        self._neighbours.setText("Neighbours: " + "&nbsp;&nbsp; ".join(links))
+
+    def show_node(self, one: Node | None, busy: bool = False) -> None:
+        """Show a node of the element, or how to choose one; nothing can be pinned while a run is `busy`."""
+        self._node = one
+        self._pin.setVisible(one is not None)
+        if one is None:
+            self._about_node.setText("Click nearer to a corner, or on a node's number, to see that node.")
+            return
+        parts = [f"Node {one.number:,}: {one.kind}", counted(one.ring.size, "hex", "hexes")]
+        if np.isfinite(one.energy):
+            parts.append(f"energy {figure(one.energy)}, gradient {figure(float(np.linalg.norm(one.downhill)))}")
+        else:
+            parts.append("energy infinite: a hex here is inverted")
+        self._about_node.setText(", ".join(parts))
+        self._pin.setChecked(one.kind != "free")
+        self._pin.setEnabled(one.kind in ("free", "pinned") and not busy)

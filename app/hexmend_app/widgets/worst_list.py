@@ -1,0 +1,271 @@
+"""The list of the worst elements."""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import Any
+
+import numpy as np
+from PySide6.QtCore import QAbstractTableModel, QItemSelectionModel, QModelIndex, QObject, Qt, Signal
+from PySide6.QtGui import QBrush, QColor, QShowEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QTableView,
+    QVBoxLayout,
+    QWidget,
+)
+
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, ElementQuality, locked, worst
+from hexmend_app.widgets.metrics import metrics_offered
+from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, PANEL, explain, icon, note, tabular
+from hexmend_app.widgets.wording import counted, figure
+
+#: Elements in the list at most: nobody reads more, and they are found anew at every iteration.
+MOST = 1000
+
+_TITLES = ("Element", "", "Scaled Jacobian", "State")
+_ELEMENT, _VALUE, _JACOBIAN, _STATE = range(4)
+_RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+_LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+
+
+class _Model(QAbstractTableModel):
+    """The rows: elements with a figure each."""
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.elements = np.empty(0, np.int64)
+        self.values = self.jacobians = np.empty(0)
+        self.states: list[str] = []
+        self.title = ""
+
+    def fill(self, elements: np.ndarray, values: np.ndarray, jacobians: np.ndarray, states: list[str]) -> None:
+        """Take other rows."""
+        same = len(elements) == len(self.elements)
+        if not same:
+            self.beginResetModel()
+        self.elements, self.values, self.jacobians, self.states = elements, values, jacobians, states
+        if same:  # the view keeps where it is scrolled to
+            self.dataChanged.emit(self.index(0, 0), self.index(max(len(elements) - 1, 0), len(_TITLES) - 1))
+        else:
+            self.endResetModel()
+
+    def rowCount(self, parent: QModelIndex | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else len(self.elements)
+
+    def columnCount(self, parent: QModelIndex | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else len(_TITLES)
+
+    def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        row, column = index.row(), index.column()
+        if role == Qt.ItemDataRole.DisplayRole:
+            if column == _ELEMENT:
+                return f"{self.elements[row]:,}"
+            if column == _STATE:
+                return self.states[row]
+            return figure(float((self.values if column == _VALUE else self.jacobians)[row]))
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return _LEFT if column == _STATE else _RIGHT
+        if role == Qt.ItemDataRole.ForegroundRole and column == _STATE:
+            return QBrush(QColor(INVERTED_TEXT))
+        return None
+
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        if orientation != Qt.Orientation.Horizontal:
+            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return self.title if section == _VALUE else _TITLES[section]
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return _LEFT if section == _STATE else _RIGHT
+        if role == Qt.ItemDataRole.ForegroundRole:
+            return QBrush(QColor(MUTED))
+        return None
+
+
+class WorstList(QWidget):
+    """Lists the worst elements, the worst first, and walks through them.
+
+    Signals
+    -------
+    chosen(int)
+        The user wants to see this element.
+    save_requested
+        The user wants the list as a file.
+    """
+
+    chosen = Signal(int)
+    save_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._mesh: Mesh | None = None
+        self._figures: ElementQuality | None = None
+        self._selected: int | None = None
+        self._stale = False
+        self._metric = QComboBox()
+        for metric in metrics_offered():
+            self._metric.addItem(metric.title, metric.name)
+            tip = f"<qt><b>{metric.title}</b><br>{metric.formula}<br>{metric.source}</qt>"
+            self._metric.setItemData(self._metric.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+        explain(
+            self._metric, "Worst by", "The figure that the list is ordered by. Inverted elements always come first."
+        )
+        self._metric.currentIndexChanged.connect(self._refresh)
+        self._previous = self._button("chevron-up", "Previous", "The next better element of the list (Shift+N).")
+        self._next = self._button("chevron-down", "Next", "The next worse element, from the worst on (N).")
+        self._save = self._button("content-save-outline", "Save list…", "Save the list as CSV, a line an element.")
+        self._previous.clicked.connect(self.previous)
+        self._next.clicked.connect(self.next)
+        self._save.clicked.connect(self.save_requested)
+        self._model = _Model(self)
+        self._table = self._make_table()
+        self._text = note()
+        self._text.setWordWrap(False)
+        self._lay_out()
+        self._refresh()
+
+    def _button(self, picture: str, name: str, help: str) -> QPushButton:
+        button = QPushButton(icon(picture), name)
+        explain(button, name, help)
+        return button
+
+    def _make_table(self) -> QTableView:
+        table = QTableView()
+        table.setModel(self._model)
+        table.setFont(tabular(table.font()))
+        table.setAccessibleName("Worst elements")
+        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        table.setShowGrid(False)
+        table.setAlternatingRowColors(True)
+        table.setTabKeyNavigation(False)
+        table.setWordWrap(False)
+        table.verticalHeader().hide()
+        table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
+        header = table.horizontalHeader()
+        header.setHighlightSections(False)
+        header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+        header.setSectionResizeMode(_STATE, QHeaderView.ResizeMode.Stretch)
+        header.setStyleSheet(f"QHeaderView::section {{ background: {PANEL}; padding: 2px 4px; border: none; }}")
+        for column, widest in ((_ELEMENT, "000,000,000"), (_VALUE, "Scaled Jacobian"), (_JACOBIAN, "Scaled Jacobian")):
+            table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
+        table.selectionModel().currentRowChanged.connect(self._on_row)
+        return table
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        label = QLabel("Worst by")
+        label.setBuddy(self._metric)
+        for part in (label, self._metric):
+            head.addWidget(part)
+        head.addStretch()
+        for button in (self._previous, self._next, self._save):
+            head.addWidget(button)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setSpacing(4)
+        layout.addLayout(head)
+        layout.addWidget(self._table, 1)
+        layout.addWidget(self._text)
+
+    # What is listed
+
+    def set_figures(self, mesh: Mesh, figures: ElementQuality) -> None:
+        """Take the mesh as it is now; the list is made only while it can be seen."""
+        self._mesh, self._figures = mesh, figures
+        self._stale = not self.isVisible()
+        if not self._stale:
+            self._refresh()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Make the list that was put off."""
+        super().showEvent(event)
+        self._bring_up_to_date()
+
+    def set_selected(self, element: int | None) -> None:
+        """Mark an element's row, if it is listed; without a signal."""
+        self._selected = element
+        self._mark()
+
+    @property
+    def elements(self) -> np.ndarray:
+        """The elements listed, the worst first."""
+        self._bring_up_to_date()
+        return self._model.elements
+
+    def next(self) -> None:
+        """Choose the next worse element of the list: the first where none of it is chosen."""
+        self._walk(1)
+
+    def previous(self) -> None:
+        """Choose the one before."""
+        self._walk(-1)
+
+    def text(self) -> str:
+        """The list as CSV: element, metric, scaled Jacobian, state."""
+        self._bring_up_to_date()
+        model, out = self._model, io.StringIO()
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(["element", self._metric.currentData(), "scaled-jacobian", "state"])
+        rows = zip(model.elements.tolist(), model.values.tolist(), model.jacobians.tolist(), model.states, strict=True)
+        writer.writerows(rows)
+        return out.getvalue()
+
+    def _bring_up_to_date(self) -> None:
+        if self._stale:
+            self._stale = False
+            self._refresh()
+
+    def _walk(self, by: int) -> None:
+        elements = self.elements
+        if not len(elements):
+            return
+        at = np.flatnonzero(elements == self._selected) if self._selected is not None else []
+        row = (int(at[0]) + by) % len(elements) if len(at) else (0 if by > 0 else len(elements) - 1)
+        self.chosen.emit(int(elements[row]))
+
+    def _refresh(self) -> None:
+        mesh, figures = self._mesh, self._figures
+        for button in (self._previous, self._next, self._save):
+            button.setEnabled(mesh is not None)
+        if mesh is None:
+            self._text.setText("No mesh is open.")
+            return
+        metric = METRICS[self._metric.currentData()]
+        values = metric.of(figures)
+        chosen = worst(values, figures, min(MOST, values.size))
+        inverted = figures.inverted[chosen]
+        held = locked(mesh.points, mesh.hexes[chosen], mesh.fixed, inverted)
+        states = ["locked" if h else "inverted" if i else "" for i, h in zip(inverted, held, strict=True)]
+        self._model.title = metric.title
+        self._table.setColumnHidden(_JACOBIAN, metric.name == "scaled-jacobian")
+        self._model.fill(chosen, values[chosen], figures.scaled_jacobian[chosen], states)
+        all_of_them = chosen.size == values.size
+        shown = "" if all_of_them else f"The {chosen.size:,} worst of "
+        self._text.setText(f"{shown}{counted(values.size, 'element')}, {figures.n_inverted:,} inverted")
+        self._mark()
+
+    def _mark(self) -> None:
+        choice = self._table.selectionModel()
+        at = np.flatnonzero(self._model.elements == self._selected) if self._selected is not None else []
+        choice.blockSignals(True)
+        if len(at):
+            index = self._model.index(int(at[0]), 0)
+            flags = QItemSelectionModel.SelectionFlag
+            choice.setCurrentIndex(index, flags.ClearAndSelect | flags.Rows)
+            self._table.scrollTo(index)
+        else:
+            choice.clear()
+        choice.blockSignals(False)
+        self._table.viewport().update()
+
+    def _on_row(self, index: QModelIndex) -> None:
+        if index.isValid():
+            self.chosen.emit(int(self._model.elements[index.row()]))

@@ -1,0 +1,161 @@
+"""One element and one node looked at closely, and which elements are the worst."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.kernels.objective import gradient
+from hexmend.mesh import Mesh
+from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure, read_only
+from hexmend.quality.metric import METRICS
+
+
+@dataclass(frozen=True, eq=False)
+class Element:
+    """What there is to know of one hex.
+
+    Parameters
+    ----------
+    number : int
+    nodes : (8,) int32
+    points : (8, 3) float64
+    fixed : (8,) bool
+        Which of its nodes smoothing leaves where they are.
+    corners : (8,) float64
+        q(T) of the corner tetrahedra, (2.8); 0 where sigma <= 0.
+    values : dict
+        Of every metric, by name.
+    neighbours : (6,) int32
+        Across the faces x-, x+, y-, y+, z-, z+ of the reference hexahedron; -1 for none.
+    inverted : bool
+    locked : bool
+        Whether fixed nodes keep it inverted.
+    """
+
+    number: int
+    nodes: np.ndarray
+    points: np.ndarray
+    fixed: np.ndarray
+    corners: np.ndarray
+    values: dict[str, float]
+    neighbours: np.ndarray
+    inverted: bool
+    locked: bool
+
+
+def element(mesh: Mesh, number: int) -> Element:
+    """Look at a hex of a mesh.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> one = element(make("cube", size=27), 0)
+    >>> one.nodes.size, one.values["q"].round(6), one.inverted
+    (8, 1.0, False)
+    """
+    nodes = mesh.hexes[number]
+    hexes = np.ascontiguousarray(nodes[None])
+    figures = measure(mesh.points, hexes)
+    return Element(
+        number=number,
+        nodes=nodes,
+        points=mesh.points[nodes],
+        fixed=mesh.fixed[nodes],
+        corners=corner_qualities(mesh.points, hexes)[0],
+        values={metric.name: float(metric.of(figures)[0]) for metric in METRICS.values()},
+        neighbours=mesh.topology.face_neighbours[number],
+        inverted=bool(figures.inverted[0]),
+        locked=bool(locked(mesh.points, hexes, mesh.fixed, figures.inverted)[0]),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """What there is to know of one node.
+
+    Parameters
+    ----------
+    number : int
+    point : (3,) float64
+    kind : {"free", "boundary", "pinned", "unused"}
+        Why smoothing moves it, or does not.
+    ring : (k,) int32
+        The hexes that it is a corner of.
+    energy : float
+        Sum of eta(H)^2 over them, (3.3); +inf while one of them is inverted.
+    downhill : (3,) float64
+        Minus the gradient of that energy by the node's place, in mean edge lengths of the mesh; 0 where the energy is
+        infinite.
+    """
+
+    number: int
+    point: np.ndarray
+    kind: str
+    ring: np.ndarray
+    energy: float
+    downhill: np.ndarray
+
+
+def node(mesh: Mesh, number: int) -> Node:
+    """Look at a node of a mesh.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> one = node(make("cube", size=8), 13)
+    >>> one.kind, one.ring.size, round(one.energy, 9)
+    ('free', 8, 0.0)
+    """
+    corners = mesh.topology.node_corners
+    places = corners.items[corners.start[number] : corners.start[number + 1]]
+    ring = places // 8
+    kind = "free"
+    if not ring.size:
+        kind = "unused"
+    elif mesh.topology.boundary[number]:
+        kind = "boundary"
+    elif mesh.fixed[number]:
+        kind = "pinned"
+    x, hexes = mesh.points / (mesh.mean_edge_length or 1.0), np.ascontiguousarray(mesh.hexes[ring])
+    energy = float(np.square(measure(x, hexes).eta).sum()) if ring.size else 0.0
+    downhill = np.zeros(3)
+    if ring.size and np.isfinite(energy):
+        shares = np.empty((ring.size, 8, 3))
+        gradient(read_only(x), read_only(hexes), 0.0, 2.0, np.zeros(ring.size, np.uint8), shares)
+        downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
+    return Node(number, mesh.points[number], kind, ring, energy, downhill)
+
+
+def worst(values: np.ndarray, figures: ElementQuality, count: int, better: int = 1) -> np.ndarray:
+    """The worst hexes, (at most count,) int64, the worst first.
+
+    Inverted hexes come before all others, by their scaled Jacobian; of equal ones the lower number comes first.
+
+    Parameters
+    ----------
+    values : (m,) float64
+        Of a metric.
+    figures : ElementQuality
+        Of the same hexes.
+    count : int
+    better : int
+        +1 where a higher value is better, -1 where a lower one is.
+    """
+    inverted = np.flatnonzero(figures.inverted)
+    first = _least(figures.scaled_jacobian[inverted], inverted, count)
+    if first.size == count or inverted.size == values.size:
+        return first
+    sound = np.flatnonzero(~figures.inverted) if inverted.size else np.arange(values.size)
+    return np.concatenate([first, _least(better * values[sound], sound, count - first.size)])
+
+
+def _least(keys: np.ndarray, numbers: np.ndarray, count: int) -> np.ndarray:
+    """The numbers of the `count` least keys, in order."""
+    if count < keys.size:
+        bound = np.partition(keys, count - 1)[count - 1] if count else -np.inf
+        below, equal = np.flatnonzero(keys < bound), np.flatnonzero(keys == bound)
+        chosen = np.concatenate([below, equal[: count - below.size]])
+        keys, numbers = keys[chosen], numbers[chosen]
+    return numbers[np.lexsort((numbers, keys))]

@@ -1,0 +1,128 @@
+"""Finding and looking at elements in the window, with mouse and keys."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QLineEdit
+
+from hexmend_app.widgets.command_palette import CommandPalette
+from tests.app.driving import LEFT, click, drag
+from tests.said import FIRST_RUN
+
+
+def centre(window):
+    return window.canvas.interactor.rect().center()
+
+
+def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtbot):
+    QTest.mouseClick(window.canvas.interactor, LEFT, pos=centre(window))
+    chosen = window.selection.hex
+    assert chosen is not None
+    neighbours = window.document.now.mesh.topology.face_neighbours[chosen]
+    assert (neighbours < 0).any()  # what is seen lies at the surface
+    assert window.element_dock.isVisible()
+    QTest.mouseClick(window.canvas.interactor, LEFT, pos=QPoint(3, 3))
+    assert window.selection.hex is None
+    drag(window.canvas.interactor, centre(window), centre(window) + QPoint(40, 0))
+    assert window.selection.hex is None
+
+
+def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
+    camera = window.canvas.viewport.camera
+    before = np.array(camera.GetFocalPoint())
+    QTest.keyClick(window, Qt.Key.Key_N)
+    worst = window.selection.hex
+    assert worst == window.worst_list.elements[0]
+    middle = window.document.now.mesh.points[window.document.now.mesh.hexes[worst]].mean(axis=0)
+    qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=5000)
+    assert not np.allclose(before, middle)
+    QTest.keyClick(window, Qt.Key.Key_N)
+    QTest.keyClick(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
+    assert window.selection.hex == worst
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert window.selection.hex is None
+
+
+def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
+    QTest.keyClick(window, Qt.Key.Key_N)
+    worst = window.selection.hex
+    window.smoothing_panel.stop_form.set_values({"tolerance": 1e-2})
+    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+        click(window, "Run")
+    assert window.selection.hex == worst
+    assert not window.document.now.figures.inverted[worst]
+    assert window.worst_list.elements[0] == window.document.now.figures.q.argmin()
+
+
+def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
+    assert window.save_worst(tmp_path / "worst.csv")
+    lines = (tmp_path / "worst.csv").read_text().splitlines()
+    assert len(lines) == 1 + len(window.worst_list.elements)
+    assert not window.save_worst(tmp_path / "nowhere" / "worst.csv")
+    assert window.messages.messages()[-1][0] == "error"
+
+
+def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
+    mesh = window.document.now.mesh
+    inner = int(np.flatnonzero(mesh.free)[50])
+    h = int(np.flatnonzero((mesh.hexes == inner).any(axis=1))[0])
+    window.selection.choose(h)
+    window.element_panel.node_chosen.emit(inner)
+    assert window.selection.node == inner
+    window.element_dock.raise_()
+    qtbot.wait(50)
+    pin = next(b for b in window.element_panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    assert not pin.isChecked()
+    QTest.mouseClick(pin, LEFT, pos=QPoint(8, pin.height() // 2))
+    assert window.document.now.mesh.pinned[inner]
+    assert window.document.undo_title == "pin"
+    window.smoothing_panel.set_method("laplacian")
+    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+        click(window, "Run")
+    np.testing.assert_array_equal(window.document.now.mesh.points[inner], mesh.points[inner])
+    window.commands.undo()
+    assert pin.isChecked()
+    window.commands.undo()
+    assert window.document.now.mesh.free[inner]
+    assert not pin.isChecked()
+
+
+def test_a_node_of_the_boundary_cannot_be_let_go(window):
+    mesh = window.document.now.mesh
+    window.selection.choose(0, int(mesh.hexes[0, 0]))
+    pin = next(b for b in window.element_panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    assert pin.isChecked()
+    assert not pin.isEnabled()
+
+
+def test_every_command_is_found_by_name(window, qtbot):
+    QTest.keyClick(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    palette = window.findChild(CommandPalette)
+    qtbot.waitExposed(palette)
+    assert any("Isometric" in text for text in palette.found())
+    QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
+    QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
+    assert window.selection.hex == window.worst_list.elements[0]
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
+def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix):
+    path = tmp_path / f"histogram{suffix}"
+    assert window.save_histogram(path)
+    starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"from,to,at the start,now"}
+    assert path.read_bytes().startswith(starts[suffix])
+    if suffix == ".csv":
+        rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
+        assert sum(int(row[3]) for row in rows) == window.document.now.mesh.n_hexes
+        assert int(rows[0][3]) == window.document.now.summary.inverted
+
+
+def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
+    assert not window.save_histogram(tmp_path / "histogram.txt")
+    kind, title, text = window.messages.messages()[-1]
+    assert (kind, title) == ("error", "The histogram was not saved")
+    assert ".svg, .pdf, .png" in text
+    assert list(tmp_path.glob("histogram*")) == []

@@ -1,0 +1,60 @@
+"""One element looked at closely, and the order of the worst."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.energy import MeshEnergy
+from hexmend.quality import ElementQuality, element, measure, node, worst
+from tests.core.grids import grid, scrambled
+
+
+def test_an_element_says_what_the_whole_mesh_says_of_it():
+    mesh = scrambled(grid(4), 0.9, 1)
+    figures = measure(mesh.points, mesh.hexes)
+    for h in (0, 21, int(figures.q.argmin())):
+        one = element(mesh, h)
+        assert one.number == h
+        np.testing.assert_array_equal(one.nodes, mesh.hexes[h])
+        assert one.values["q"] == figures.q[h] == pytest.approx(one.corners.mean())
+        assert one.values["scaled-jacobian"] == figures.scaled_jacobian[h]
+        assert one.inverted == figures.inverted[h]
+        np.testing.assert_array_equal(one.fixed, mesh.fixed[one.nodes])
+        shared = [len(set(one.nodes) & set(mesh.hexes[k])) if k >= 0 else 4 for k in one.neighbours]
+        assert shared == [4] * 6
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(0, 40), st.sampled_from([1, -1]))
+def test_the_worst_are_the_first_of_all_in_order(seed, count, better):
+    random = np.random.default_rng(seed)
+    values, jacobian = random.integers(0, 6, (2, 30)) / 5.0
+    sigma = random.choice([-1.0, 1.0], 30, p=[0.3, 0.7])
+    figures = ElementQuality(values, sigma, jacobian, values)
+    got = worst(values, figures, count, better)
+    everything = sorted(
+        range(30), key=lambda h: (sigma[h] > 0, jacobian[h] if sigma[h] <= 0 else better * values[h], h)
+    )
+    assert got.tolist() == everything[:count]
+
+
+def test_a_node_says_what_the_mesh_says_of_it():
+    mesh = scrambled(grid(4), 0.2, 1)
+    pinned = np.zeros(mesh.n_nodes, bool)
+    inner = np.flatnonzero(mesh.free)
+    pinned[inner[3]] = True
+    mesh = mesh.replace(pinned=pinned)
+    energy = MeshEnergy(mesh)
+    gradient = energy.gradient(energy.scaled(mesh.points))
+    for k, i in enumerate(energy.nodes):
+        one = node(mesh, int(i))
+        assert one.kind == "free"
+        np.testing.assert_array_equal(np.sort(one.ring), np.flatnonzero((mesh.hexes == i).any(axis=1)))
+        np.testing.assert_allclose(one.downhill, -gradient[k], atol=1e-12)
+        assert one.energy == pytest.approx(np.square(measure(mesh.points, mesh.hexes).eta[one.ring]).sum())
+    assert node(mesh, int(inner[3])).kind == "pinned"
+    assert node(mesh, 0).kind == "boundary"
+    tangled = scrambled(grid(4), 2.0, 1)
+    one = node(tangled, int(tangled.hexes[measure(tangled.points, tangled.hexes).inverted][0, 0]))
+    assert one.energy == np.inf
+    assert (one.downhill == 0).all()
