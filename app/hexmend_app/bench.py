@@ -1,4 +1,5 @@
-"""The viewer's part of the benchmark: milliseconds a frame, and how late the event loop is beside a smoother."""
+"""The viewer's parts of the benchmark: milliseconds a frame and a change of what is hidden, and how late the event loop
+is beside a smoother."""
 
 from __future__ import annotations
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from hexmend_app.window import Window
 
 _FRAMES = 40
+_CHANGES = 9
 _SECONDS = 6.0
 _BEAT = 5  # milliseconds between two beats of the event loop
 
@@ -82,6 +84,95 @@ def _frame(window: Window, cut: str) -> float:
     return 1e3 * median(times)
 
 
+def _measure_filters() -> dict[str, Any]:
+    from hexmend_app.display import DisplayError, check_display
+
+    try:
+        check_display()
+    except DisplayError as error:
+        return {"skipped": str(error)}
+    from hexmend_app.program import application
+    from hexmend_app.window import Window
+
+    app = application()
+    rows = []
+    for mesh in (make("bridge-sharp"), make("five-side", size=110450), make("five-side", size=1_000_000)):
+        window = Window()
+        window.resize(1440, 900)
+        window.show()
+        window.build_canvas()
+        _open(window, mesh)
+        _turn(0.5)
+        rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, "ms": _changes(window, mesh)})
+        window.close()
+        app.processEvents()
+    return {"meshes": rows}
+
+
+def _changes(window: Window, mesh: Mesh) -> dict[str, dict[str, float]]:
+    """Median milliseconds of each change of the look, in the parts that it has."""
+    from hexmend_app.state.look import ClipPlane, Isolation
+
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    places = [tuple(low + (high - low) * share) for share in np.linspace(0.4, 0.6, _CHANGES)]
+    deep = int(mesh.topology.layers.argmax())
+    outer = np.flatnonzero(mesh.topology.layers == 0)[:: max(1, mesh.n_hexes // 500)]
+    looks = {
+        "clip": [{"clip": ClipPlane((1, 0, 0), place)} for place in places],
+        "quality range": [{"quality_range": (0.5 + k / 100, 1.0)} for k in range(_CHANGES)],
+        "peel": [{"peel": 1 + k % int(mesh.topology.layers.max())} for k in range(_CHANGES)],
+        "isolate": [{"isolation": Isolation((deep,), 1 + k)} for k in range(_CHANGES)],
+        "dig": [{"dug": frozenset(outer[: k + 1].tolist())} for k in range(_CHANGES)],
+        "shrink": [{"shrink": 0.2 + k / 50} for k in range(_CHANGES)],
+        "clip, peel, shrink": [{"clip": ClipPlane((1, 0, 0), place), "peel": 1, "shrink": 0.3} for place in places],
+    }
+    viewport, canvas = window.canvas.viewport, window.canvas
+    window.view.set_plane_shown(False)
+    kept, spent = viewport._kept, [0.0]
+
+    def timed() -> np.ndarray | None:
+        began = perf_counter()
+        answer = kept()
+        spent.append(perf_counter() - began)
+        return answer
+
+    viewport._kept = timed
+    answer = {}
+    for name, changes in looks.items():
+        masks, faces, frames = [], [], []
+        for fields in changes:
+            spent.clear()
+            began = perf_counter()
+            window.view.change(**fields)
+            done = perf_counter()
+            canvas.interactor.render()
+            frames.append(perf_counter() - done)
+            masks.append(sum(spent))
+            faces.append(done - began - masks[-1])
+        answer[name] = {
+            "mask": 1e3 * median(masks),
+            "faces": 1e3 * median(faces),
+            "drawing": 1e3 * median(frames),
+            "quads": len(viewport._faces.quads),
+        }
+        window.view.show_another()
+        window.view.change(shrink=0.0)
+    return answer
+
+
+def _filter_lines(figures: dict[str, Any]) -> list[str]:
+    if "skipped" in figures:
+        return [f"left out: {figures['skipped']}"]
+    rows = []
+    for row in figures["meshes"]:
+        rows.append(f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing, quads drawn at last")
+        for name, ms in row["ms"].items():
+            rows.append(
+                f"  {name:<18} {ms['mask']:6.1f} + {ms['faces']:6.1f} + {ms['drawing']:6.1f} ms   {ms['quads']:>8,}"
+            )
+    return rows
+
+
 def _turn(seconds: float) -> None:
     """Let Qt's own event loop turn; one of ours would take the processor from the worker."""
     from PySide6.QtCore import QEventLoop, QTimer
@@ -141,4 +232,10 @@ def _lines(figures: dict[str, Any]) -> list[str]:
 
 section = Section(
     "viewer", f"The viewer: frames with points and colours changing (median of {_FRAMES})", _measure, _lines
+)
+filters = Section(
+    "filters",
+    f"The viewer: a change of what is hidden (median of {_CHANGES})",
+    _measure_filters,
+    _filter_lines,
 )

@@ -38,6 +38,7 @@ from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.command_palette import CommandPalette
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.histogram import QualityHistogram, write_histogram
+from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
 from hexmend_app.widgets.questions import (
@@ -89,6 +90,7 @@ class Window(QMainWindow):
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
         self.clip_panel = ClipPanel()
+        self.inside_panel = InsidePanel()
         self.progress = QProgressBar()
         self.progress.setRange(0, 0)
         self.progress.setFixedSize(140, 10)  # no higher than text, or the view jumps as it comes and goes
@@ -123,7 +125,7 @@ class Window(QMainWindow):
         column = QVBoxLayout(tools)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(8)
-        for part in (self.smoothing_panel, self.clip_panel):
+        for part in (self.smoothing_panel, self.clip_panel, self.inside_panel):
             column.addWidget(part)
         column.addStretch()
         scroll = QScrollArea()
@@ -191,6 +193,13 @@ class Window(QMainWindow):
         self.histogram.range_changed.connect(lambda chosen: self.view.change(quality_range=chosen))
         self.clip_panel.clip_changed.connect(self.view.set_clip)
         self.clip_panel.plane_shown_changed.connect(self.view.set_plane_shown)
+        self.inside_panel.peel_changed.connect(lambda layers: self.view.change(peel=layers))
+        self.inside_panel.shrink_changed.connect(lambda share: self.view.change(shrink=share))
+        self.inside_panel.outline_changed.connect(lambda on: self.view.change(outline=on))
+        self.inside_panel.rings_changed.connect(self.view.set_rings)
+        self.inside_panel.all_requested.connect(self.view.end_isolation)
+        self.inside_panel.undo_requested.connect(self.view.undig_last)
+        self.inside_panel.put_back_requested.connect(self.view.undig_all)
         self.smoothing_panel.run_requested.connect(self.commands.run)
         self.smoothing_panel.step_requested.connect(self.commands.step)
         self.smoothing_panel.pause_requested.connect(self.smoothing.pause)
@@ -216,7 +225,8 @@ class Window(QMainWindow):
     def _on_mesh_replaced(self) -> None:
         start, now = self.document.start, self.document.now
         self.welcome.setVisible(self.canvas is None)
-        self.view.change(clip=None, quality_range=None)
+        self.view.show_another()
+        self.inside_panel.set_layers(int(now.mesh.topology.layers.max()))
         self.selection.choose(None)
         low, high = now.mesh.points.min(axis=0), now.mesh.points.max(axis=0)
         self.clip_panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
@@ -242,6 +252,11 @@ class Window(QMainWindow):
         self._show_element()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
+        self._show_shown()
+
+    def _show_shown(self) -> None:
+        if self.canvas is not None and self.document.is_open:
+            self.inside_panel.set_shown(self.canvas.viewport.shown, self.document.now.mesh.n_hexes)
 
     def _show_selected(self) -> None:
         self.worst_list.set_selected(self.selection.hex)
@@ -260,11 +275,13 @@ class Window(QMainWindow):
         look = self.view.look
         self.clip_panel.set_clip(look.clip)
         self.clip_panel.set_plane_shown(self.view.plane_shown)
+        self.inside_panel.set_look(look, self.view.rings)
         self.histogram.set_range(look.quality_range)
         for id, on in (("edges", look.edges), ("clip", look.clip is not None)):
             self.actions_by_id[id].setChecked(on)
         if self.canvas is not None:
             self.canvas.set_look(look, self.view.plane_shown)
+        self._show_shown()
 
     def _on_opening(self, path: Path) -> None:
         self.progress.show()
@@ -321,6 +338,7 @@ class Window(QMainWindow):
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.smoothing_panel.setEnabled(self.document.is_open)
         self.clip_panel.setEnabled(self.document.is_open)
+        self.inside_panel.setEnabled(self.document.is_open)
         self.histogram.setEnabled(self.document.is_open)
         self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
         self.setWindowModified(self.document.modified)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -84,6 +85,35 @@ class Topology:
         boundary = np.zeros(self.n, dtype=bool)
         boundary[self.boundary_faces.ravel()] = True
         return boundary
+
+    @cached_property
+    def layers(self) -> np.ndarray:
+        """How many hexes lie between each hex and the boundary, counted through faces, (m,) int32.
+
+        0 for a hex with a boundary face. Hexes from which no way leads to the boundary are in one last layer.
+        """
+        return incidence.layers(self.face_neighbours)
+
+    def ring_of(self, hexes: Iterable[int], rings: int) -> np.ndarray:
+        """True for some hexes and those around them, (m,) bool.
+
+        Parameters
+        ----------
+        hexes : iterable of int
+        rings : int
+            How often those that share a node with the ones before are taken in.
+
+        Raises
+        ------
+        IndexError
+            For a hex that does not exist.
+        """
+        chosen = np.fromiter(hexes, dtype=np.int64)
+        wrong = chosen[(chosen < 0) | (chosen >= len(self.hexes))]
+        if len(wrong):
+            raise IndexError(f"there is no hex {wrong[0]}: expected numbers from 0 to {len(self.hexes) - 1}")
+        rows = self.node_corners
+        return incidence.around(self.hexes, rows.start, rows.items, chosen.astype(np.int32), rings)
 
     @cached_property
     def parts(self) -> int:

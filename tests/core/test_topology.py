@@ -11,6 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from hexmend.hexahedron import EDGES, FACES
 from hexmend.mesh import Mesh
+from hexmend.topology import Topology
 from tests.core.grids import grid
 
 SIZES = st.tuples(*[st.integers(1, 4)] * 3)
@@ -102,3 +103,54 @@ def test_rows_know_their_number():
     rows = grid(2).topology.rings
     assert len(rows) == 27
     assert rows[13].tolist() == pytest.approx([4, 10, 12, 14, 16, 22])
+
+
+@st.composite
+def loose(draw):
+    """Some hexes of a grid, numbered anyhow."""
+    mesh = grid(*draw(SIZES))
+    chosen = draw(st.lists(st.sampled_from(range(mesh.n_hexes)), min_size=1, unique=True))
+    return Topology(np.ascontiguousarray(mesh.hexes[chosen]), mesh.n_nodes)
+
+
+def closed(size):
+    """A grid whose opposite sides are one: no face is a boundary."""
+    number = np.arange(np.prod(size)).reshape(size)
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    columns = [np.roll(number, [-c for c in corner], axis=(0, 1, 2)).ravel() for corner in corners]
+    return np.column_stack(columns).astype(np.int32)
+
+
+@given(loose())
+def test_layers_are_the_distances_from_the_hexes_of_the_boundary(topology):
+    neighbours = topology.face_neighbours
+    expected = np.where((neighbours < 0).any(axis=1), 0, -1)
+    for layer in range(len(neighbours)):
+        beside = (expected[neighbours] == layer) & (neighbours >= 0)
+        expected[(expected < 0) & beside.any(axis=1)] = layer + 1
+    assert topology.layers.dtype == np.int32
+    assert topology.layers.tolist() == expected.tolist()
+
+
+def test_what_never_touches_a_boundary_is_the_last_layer():
+    inside = closed((3, 3, 3))
+    assert set(Topology(inside, 27).layers.tolist()) == {0}
+    mesh = grid(3)
+    both = Topology(np.vstack([inside + mesh.n_nodes, mesh.hexes]), 27 + mesh.n_nodes)
+    assert both.layers[:27].tolist() == [2] * 27
+    assert sorted(both.layers[27:].tolist()) == [0] * 26 + [1]
+
+
+@given(loose(), st.integers(0, 4), st.data())
+def test_rings_are_hexes_that_share_nodes_again_and_again(topology, rings, data):
+    hexes = data.draw(st.lists(st.integers(0, len(topology.hexes) - 1), max_size=3))
+    expected = np.isin(np.arange(len(topology.hexes)), hexes)
+    for _ in range(rings):
+        expected = np.isin(topology.hexes, topology.hexes[expected]).any(axis=1)
+    assert topology.ring_of(hexes, rings).tolist() == expected.tolist()
+
+
+@pytest.mark.parametrize("wrong", [-1, 8])
+def test_there_is_no_ring_of_a_hex_that_does_not_exist(wrong):
+    with pytest.raises(IndexError, match=f"no hex {wrong}: expected numbers from 0 to 7"):
+        grid(2).topology.ring_of([0, wrong], 1)

@@ -10,6 +10,10 @@ from hexmend.hexahedron import FACES
 from hexmend.kernels import serial
 from hexmend.mesh import Mesh
 
+#: Elements up to which all are drawn where they are shrunk; of more, those in sight. So many take 50 ms a frame without
+#: a graphics card.
+WHOLE = 4_000
+
 
 @dataclass(frozen=True, eq=False)
 class Faces:
@@ -23,11 +27,18 @@ class Faces:
         Places in `nodes`, counter-clockwise from outside.
     hexes : (k,) int32
         The hex that each quad belongs to.
+    shrink : float
+        Where it is not 0, the nodes are those of whole hexes, eight by eight, and drawn that much nearer to their mean.
     """
 
     nodes: np.ndarray
     quads: np.ndarray
     hexes: np.ndarray
+    shrink: float = 0.0
+
+    def places(self, points: np.ndarray) -> np.ndarray:
+        """Where the nodes are drawn, (u, 3), of a mesh whose nodes are at (n, 3) float64 `points`."""
+        return _shrunk(points, self.nodes, self.shrink) if self.shrink else points[self.nodes]
 
 
 class Skin:
@@ -53,6 +64,55 @@ class Skin:
             None keeps all.
         """
         return Faces(*_visible(self._hexes, self._neighbours, self._all if keep is None else keep, self._place))
+
+    def shrunk(self, shrink: float, keep: np.ndarray | None = None) -> Faces:
+        """All six faces of kept hexes; of more than `WHOLE`, of those that have a visible face."""
+        keep = self._all if keep is None else keep
+        if np.count_nonzero(keep) > WHOLE:
+            keep = _outer(self._neighbours, keep)
+        return Faces(*_all_faces(self._hexes, np.flatnonzero(keep)), shrink)
+
+
+@serial
+def _outer(neighbours, keep):
+    """Kept hexes with a face that no kept hex is behind, (m,) bool."""
+    answer = np.zeros(keep.size, np.bool_)
+    for h in range(keep.size):
+        if keep[h]:
+            for f in range(6):
+                other = neighbours[h, f]
+                if other < 0 or not keep[other]:
+                    answer[h] = True
+    return answer
+
+
+@serial
+def _all_faces(hexes, chosen):
+    nodes = np.empty(8 * chosen.size, np.int32)
+    quads = np.empty((6 * chosen.size, 4), np.int32)
+    owners = np.empty(6 * chosen.size, np.int32)
+    for at in range(chosen.size):
+        h = chosen[at]
+        for c in range(8):
+            nodes[8 * at + c] = hexes[h, c]
+        for f in range(6):
+            for k in range(4):
+                quads[6 * at + f, k] = 8 * at + FACES[f, k]
+            owners[6 * at + f] = h
+    return nodes, quads, owners
+
+
+@serial
+def _shrunk(points, nodes, shrink):
+    answer = np.empty((nodes.size, 3))
+    for first in range(0, nodes.size, 8):
+        for x in range(3):
+            mean = 0.0
+            for c in range(8):
+                mean += points[nodes[first + c], x]
+            for c in range(8):
+                answer[first + c, x] = shrink * (mean / 8) + (1 - shrink) * points[nodes[first + c], x]
+    return answer
 
 
 @serial

@@ -8,18 +8,19 @@ from vtkmodules.vtkRenderingCore import vtkCellPicker
 
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, Node, corner_qualities
-from hexmend_app.scene import cut, sides
+from hexmend_app.scene import cut
 from hexmend_app.scene.colours import colours
+from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.fitting import fit
 from hexmend_app.scene.flight import Flight
 from hexmend_app.scene.highlight import Highlight
-from hexmend_app.scene.skin import Skin
+from hexmend_app.scene.silhouette import Silhouette
+from hexmend_app.scene.skin import Faces, Skin
 from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
 from hexmend_app.state.look import Look
 
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
-_OUTLINE = "#8a93a3"
 
 #: Directions to look from: the place of the camera, and what is up.
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
@@ -68,10 +69,10 @@ class Viewport:
         """Draw another mesh, seen whole from a corner."""
         self._mesh, self._figures, self._points = mesh, figures, mesh.points
         self._skin = Skin(mesh)
+        self._filters = Filters(mesh)
+        self._outline = Silhouette(self._plotter, mesh)
         self.select(None)
-        self._add_outline()
         self._cull()
-        self._choose_uncut()
         self._rebuild()
         self.view("iso")
 
@@ -98,8 +99,6 @@ class Viewport:
         for surface in (self._skin_surface, self._section_surface):
             surface.show_edges(look.edges)
         if self._mesh is not None and look != before:
-            if look.clip != before.clip:
-                self._choose_uncut()
             self._rebuild()
 
     # What is pointed at
@@ -170,40 +169,37 @@ class Viewport:
         low, high = points.min(axis=0), points.max(axis=0)
         return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
 
+    @property
+    def shown(self) -> int:
+        """Number of hexes that are shown whole or in part, before a smooth cut."""
+        keep = self._kept()
+        return self._mesh.n_hexes if keep is None else int(np.count_nonzero(keep))
+
     def _kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
-        look = self._look
-        if look.quality_range is None:
-            return self._uncut
-        low, high = look.quality_range
-        q = self._figures.q
-        # The best hex has q = 1 but for rounding.
-        chosen = (q >= low) & ((q <= high) | (high >= 1))
-        return chosen if self._uncut is None else chosen & self._uncut
-
-    def _choose_uncut(self) -> None:
-        """What a cut by whole elements leaves: chosen as the cut is made, so that none flickers as nodes move."""
-        plane = self._look.clip
-        self._uncut = None
-        if plane is not None and plane.crinkle:
-            self._uncut = sides.centres_kept(self._points, self._mesh.hexes, *plane.equation)
+        return self._filters.kept(self._look, self._points, self._figures)
 
     def _rebuild(self) -> None:
         """Find the visible faces anew."""
         keep = self._kept()
-        self._faces = self._skin.visible(keep)
-        faces = self._faces
-        self._whole = quads(self._points[faces.nodes], faces.quads, self._face_colours(), faces.hexes)
+        faces = self._faces = self._visible(keep)
+        self._whole = quads(faces.places(self._points), faces.quads, self._face_colours(), faces.hexes)
         self._cut(keep)
-        if self._outline is not None:
-            hidden = self._look.clip is not None or self._look.quality_range is not None
-            self._outline.SetVisibility(hidden)
+        self._outline.move(self._points)
+        self._outline.show(self._look.outline and (keep is not None or self._look.clip is not None))
+
+    def _visible(self, keep: np.ndarray | None) -> Faces:
+        look = self._look
+        if look.shrink and (look.clip is None or look.clip.crinkle):
+            return self._skin.shrunk(look.shrink, keep)
+        return self._skin.visible(keep)
 
     def _move(self) -> None:
         """The same faces, elsewhere and in other colours."""
-        set_points(self._whole, self._points[self._faces.nodes])
+        set_points(self._whole, self._faces.places(self._points))
         set_colours(self._whole, self._face_colours())
-        self._cut(self._uncut)
+        self._outline.move(self._points)
+        self._cut(self._kept())
 
     def _cut(self, keep: np.ndarray | None) -> None:
         plane = self._look.clip
@@ -227,21 +223,6 @@ class Viewport:
         look, figures = self._look, self._figures
         values = METRICS[look.metric].of(self._points, self._mesh.hexes, figures)[hexes]
         return colours(values, figures.inverted[hexes], look.colour_range, look.colour_map)
-
-    def _add_outline(self) -> None:
-        """The box of the whole, which keeps it in mind when a part is hidden."""
-        box = pv.Box(self.bounds).outline()
-        self._outline = self._plotter.add_mesh(
-            box,
-            name="outline",
-            color=_OUTLINE,
-            line_width=1,
-            lighting=False,
-            reset_camera=False,
-            pickable=False,
-            render=False,
-        )
-        self._outline.SetVisibility(False)
 
     # Camera and frames
 

@@ -49,6 +49,21 @@ class ClipPlane:
 
 
 @dataclass(frozen=True)
+class Isolation:
+    """Some elements that are shown with what is around them, and nothing else.
+
+    Parameters
+    ----------
+    hexes : tuple of int
+    rings : int
+        How often neighbours that share a node are taken in.
+    """
+
+    hexes: tuple[int, ...]
+    rings: int = 1
+
+
+@dataclass(frozen=True)
 class Look:
     """Everything that decides what is drawn of a mesh and how.
 
@@ -56,6 +71,16 @@ class Look:
     ----------
     clip : ClipPlane, optional
         None shows the mesh uncut.
+    peel : int
+        Elements with fewer than so many others between them and the boundary are hidden.
+    isolation : Isolation, optional
+        None shows all.
+    dug : frozenset of int
+        Elements that are hidden one by one.
+    outline : bool
+        Draw the outline of the whole where a part is hidden.
+    shrink : float
+        The share of its size by which each element is drawn smaller, about its centre; not where a cut is smooth.
     quality_range : (low, high), optional
         Elements whose q lies outside are hidden; None shows all.
     metric : str
@@ -69,6 +94,11 @@ class Look:
     """
 
     clip: ClipPlane | None = None
+    peel: int = 0
+    isolation: Isolation | None = None
+    dug: frozenset[int] = frozenset()
+    outline: bool = True
+    shrink: float = 0.0
     quality_range: tuple[float, float] | None = None
     metric: str = "q"
     colour_range: tuple[float, float] = (0.0, 1.0)

@@ -27,7 +27,6 @@ class _Reading(QThread):
         """What the thread does."""
         try:
             self.state = State.of(read(self.path))
-            _ = self.state.mesh.topology.face_neighbours  # what the view draws from
             _make_ready(self.state.mesh)
         except HexmendError as error:
             self.error = error
@@ -36,7 +35,8 @@ class _Reading(QThread):
 
 
 def _make_ready(mesh: Mesh) -> None:
-    """Load what a click on an element needs: its kernels are compiled the first time, and the window would stand."""
+    """Make what the view draws from, and load what a click on an element needs: the window would stand meanwhile."""
+    _ = mesh.topology.face_neighbours, mesh.topology.layers
     element(mesh, 0)
     node(mesh, int(mesh.hexes[0, 0]))
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterable
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.state.look import ClipPlane, Look
+from hexmend_app.state.look import ClipPlane, Isolation, Look
 
 
 class View(QObject):
@@ -23,13 +24,21 @@ class View(QObject):
         super().__init__(parent)
         self.look = Look()
         self.plane_shown = True
+        self.rings = 1
+        self._dug: list[int] = []  # in the order of digging
 
     def change(self, **fields: object) -> None:
         """Change fields of the look; says nothing where nothing changes."""
         look = dataclasses.replace(self.look, **fields)
         if look != self.look:
             self.look = look
+            if not look.dug:
+                self._dug.clear()
             self.look_changed.emit()
+
+    def show_another(self) -> None:
+        """Hide nothing: another mesh is open, of which other elements would be meant."""
+        self.change(clip=None, quality_range=None, peel=0, isolation=None, dug=frozenset())
 
     def set_clip(self, clip: ClipPlane | None) -> None:
         """Cut, move the cut, or cut no more."""
@@ -40,3 +49,40 @@ class View(QObject):
         if shown != self.plane_shown:
             self.plane_shown = shown
             self.look_changed.emit()
+
+    def isolate(self, hexes: Iterable[int], rings: int | None = None) -> None:
+        """Show some elements with so many rings of neighbours around them, and nothing else.
+
+        Parameters
+        ----------
+        hexes : iterable of int
+        rings : int, optional
+            As many as were last chosen where none are named.
+        """
+        self.rings = self.rings if rings is None else rings
+        self.change(isolation=Isolation(tuple(int(h) for h in hexes), self.rings))
+
+    def set_rings(self, rings: int) -> None:
+        """Show so many rings of neighbours around what is isolated, now or next."""
+        self.rings = rings
+        if self.look.isolation is not None:
+            self.change(isolation=dataclasses.replace(self.look.isolation, rings=rings))
+
+    def end_isolation(self) -> None:
+        """Show again what is around."""
+        self.change(isolation=None)
+
+    def dig(self, hex: int) -> None:
+        """Hide one element."""
+        if hex not in self.look.dug:
+            self._dug.append(int(hex))
+            self.change(dug=self.look.dug | {int(hex)})
+
+    def undig_last(self) -> None:
+        """Show the element again that was hidden last."""
+        if self._dug:
+            self.change(dug=self.look.dug - {self._dug.pop()})
+
+    def undig_all(self) -> None:
+        """Show all elements again that were hidden one by one."""
+        self.change(dug=frozenset())

@@ -17,7 +17,8 @@ class Bench:
             metavar="PART",
             action="append",
             default=[],
-            help="kernels, iterations, preconditioners, optima, tangled, scaling, sizes or viewer; may be repeated",
+            help="kernels, iterations, preconditioners, optima, tangled, scaling, sizes, viewer or filters; "
+            "may be repeated",
         )
         parser.add_argument("--json", metavar="FILE", help="write the figures")
 

@@ -219,3 +219,91 @@ def grouped(colour, count):
             nodes[place[k]] = i
             place[k] += 1
     return start, nodes
+
+
+@serial
+def layers(neighbours):
+    """How many hexes lie between each hex and the boundary, counted through faces: breadth first.
+
+    Parameters
+    ----------
+    neighbours : (m, 6) int32
+        From `face_neighbours`.
+
+    Returns
+    -------
+    layer : (m,) int32
+        0 for a hex with a boundary face; one more than the deepest layer where no way leads to the boundary.
+    """
+    m = neighbours.shape[0]
+    layer = np.full(m, -1, np.int32)
+    queue = np.empty(m, np.int32)
+    end = 0
+    for h in range(m):
+        for f in range(6):
+            if neighbours[h, f] < 0:
+                layer[h] = 0
+        if layer[h] == 0:
+            queue[end] = h
+            end += 1
+    deepest = -1
+    at = 0
+    while at < end:
+        h = queue[at]
+        at += 1
+        deepest = layer[h]
+        for f in range(6):
+            other = neighbours[h, f]
+            if other >= 0 and layer[other] < 0:
+                layer[other] = deepest + 1
+                queue[end] = other
+                end += 1
+    if end < m:
+        for h in range(m):
+            if layer[h] < 0:
+                layer[h] = deepest + 1
+    return layer
+
+
+@serial
+def around(hexes, start, corners, chosen, rings):
+    """The chosen hexes and those that are reached from them in so many steps from hex to hex through a common node.
+
+    Parameters
+    ----------
+    hexes : (m, 8) int32
+    start, corners
+        From `node_corners`.
+    chosen : (k,) int32
+    rings : int
+
+    Returns
+    -------
+    reached : (m,) bool
+    """
+    m, n = hexes.shape[0], start.size - 1
+    reached, seen = np.zeros(m, np.bool_), np.zeros(n, np.bool_)
+    queue = np.empty(m, np.int32)
+    end = 0
+    for h in chosen:
+        if not reached[h]:
+            reached[h] = True
+            queue[end] = h
+            end += 1
+    at = 0
+    for _ in range(rings):
+        last = end
+        while at < last:
+            h = queue[at]
+            at += 1
+            for c in range(8):
+                i = hexes[h, c]
+                if not seen[i]:
+                    seen[i] = True
+                    for s in range(start[i], start[i + 1]):
+                        other = corners[s] // 8
+                        if not reached[other]:
+                            reached[other] = True
+                            queue[end] = other
+                            end += 1
+    return reached

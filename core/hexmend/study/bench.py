@@ -32,7 +32,7 @@ THESIS_SECONDS_PER_NODE = {
 
 
 def sections() -> dict[str, Section]:
-    """Every section by name; the viewer's joins through the entry-point group `hexmend.benchmarks`."""
+    """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
     found = {
         section.name: section for section in (KERNELS, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, SCALING, SIZES)
     }

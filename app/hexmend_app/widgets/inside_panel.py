@@ -1,0 +1,151 @@
+"""The panel for looking inside: peel, shrink, isolate, dig, and the outline of what is hidden."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
+
+from hexmend_app.scene.skin import WHOLE
+from hexmend_app.state.look import Look
+from hexmend_app.widgets.slider_box import SliderBox
+from hexmend_app.widgets.style import explain, note, tabular
+from hexmend_app.widgets.wording import counted
+
+_MOST_SHRUNK = 60  # per cent
+_MOST_RINGS = 99
+
+_PEEL = (
+    "Hide the outer layers of elements. Layer 1 are the elements with a face on the boundary, layer 2 those that share "
+    "a face with them, and so on."
+)
+_NO_LAYERS = "Nothing to peel: every element has a face on the boundary."
+_SHRINK = (
+    "Draw each element smaller, about its centre, to see its shape and what lies behind it. Of more than "
+    f"{WHOLE:,} elements only those with a face in sight are drawn, so that the view stays quick."
+)
+_CUT_SMOOTHLY = "Elements that are cut through cannot be shrunk: choose <i>Whole elements</i> for the cut."
+_RINGS = (
+    "How much is shown around the elements that are isolated: ring 1 are those that share a node with them, ring 2 "
+    "those that share one with ring 1, and so on."
+)
+
+
+class InsidePanel(QWidget):
+    """Hides elements to show those behind them.
+
+    Signals
+    -------
+    peel_changed(int), shrink_changed(float), rings_changed(int), outline_changed(bool)
+        The user chose; shrink is a share.
+    all_requested
+        Isolate no more.
+    undo_requested, put_back_requested
+        Bring back the element that was dug away last, or all.
+    """
+
+    peel_changed = Signal(int)
+    shrink_changed = Signal(float)
+    rings_changed = Signal(int)
+    outline_changed = Signal(bool)
+    all_requested = Signal()
+    undo_requested = Signal()
+    put_back_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._peel = SliderBox("Layers peeled from the boundary", _PEEL, 0)
+        self._shrink = SliderBox("Shrink the elements", _SHRINK, _MOST_SHRUNK, " %")
+        width = max(self._peel.box_width(), self._shrink.box_width())
+        for part in (self._peel, self._shrink):
+            part.set_box_width(width)
+        self._rings = QSpinBox()
+        self._rings.setRange(0, _MOST_RINGS)
+        self._rings.setFont(tabular(self._rings.font()))
+        self._rings.setFixedWidth(width)
+        explain(self._rings, "Rings around what is isolated", _RINGS)
+        self._isolated = QLabel()
+        self._all = QPushButton("Show all")
+        explain(self._all, "Show all", "End the isolation: show again what is around.")
+        self._dug = QLabel()
+        self._undo = QPushButton("Undo")
+        explain(self._undo, "Undo digging", "Bring back the element that was dug away last.")
+        self._put_back = QPushButton("Put back")
+        explain(self._put_back, "Put back", "Bring back all elements that were dug away.")
+        self._outline = QCheckBox("Show the outline of what is hidden")
+        explain(
+            self._outline,
+            "Show the outline of what is hidden",
+            "Where a part is hidden, draw the sharp edges of the whole mesh; of a round body, its shade.",
+        )
+        self._shown = note()
+        self._shown.setFont(tabular(self._shown.font()))
+        self._shown.setWordWrap(False)  # a second line would be kept free for what never comes
+        self._cut_smoothly = False
+        self._lay_out()
+
+        self._peel.changed.connect(self.peel_changed)
+        self._shrink.changed.connect(lambda share: self.shrink_changed.emit(share / 100))
+        self._rings.valueChanged.connect(self.rings_changed)
+        self._all.clicked.connect(self.all_requested)
+        self._undo.clicked.connect(self.undo_requested)
+        self._put_back.clicked.connect(self.put_back_requested)
+        self._outline.clicked.connect(self.outline_changed)
+        self.set_layers(0)
+        self.set_look(Look(), 1)
+        self.set_shown(0, 0)
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout(self)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(7)
+        grid.setColumnStretch(1, 1)
+        rings, dug = QHBoxLayout(), QHBoxLayout()
+        for line, parts in (
+            (rings, (self._rings, self._isolated, self._all)),
+            (dug, (self._dug, self._undo, self._put_back)),
+        ):
+            line.setSpacing(8)
+            for part in parts:
+                line.addWidget(part, isinstance(part, QLabel))
+        for row, (text, widget) in enumerate((("Peel", self._peel), ("Shrink", self._shrink), ("Rings", self._rings))):
+            label = QLabel(text)
+            label.setBuddy(widget)
+            grid.addWidget(label, row, 0)
+        grid.addWidget(self._peel, 0, 1)
+        grid.addWidget(self._shrink, 1, 1)
+        grid.addLayout(rings, 2, 1)
+        grid.addLayout(dug, 3, 0, 1, 2)
+        grid.addWidget(self._outline, 4, 0, 1, 2)
+        grid.addWidget(self._shown, 5, 0, 1, 2)
+
+    def set_layers(self, layers: int) -> None:
+        """Take the number of layers that can be peeled before nothing is left; without a signal."""
+        self._peel.set_most(layers)
+        self._peel.set_help(_PEEL if layers else _NO_LAYERS)
+        self._peel.setEnabled(layers > 0)
+
+    def set_look(self, look: Look, rings: int) -> None:
+        """Show a look, and how many rings what is isolated has or would have; without a signal."""
+        self._peel.set_value(look.peel)
+        self._cut_smoothly = look.clip is not None and not look.clip.crinkle
+        self._shrink.set_value(round(100 * look.shrink))
+        self._shrink.setEnabled(not self._cut_smoothly)
+        self._shrink.set_help(_CUT_SMOOTHLY if self._cut_smoothly else _SHRINK)
+        if self._rings.value() != rings:  # or what is being typed would be written anew
+            with QSignalBlocker(self._rings):
+                self._rings.setValue(rings)
+        isolated = len(look.isolation.hexes) if look.isolation is not None else 0
+        self._isolated.setText(f"{isolated:,} isolated" if isolated else "none isolated")
+        self._all.setEnabled(look.isolation is not None)
+        self._dug.setText(f"{counted(len(look.dug), 'element')} dug away" if look.dug else "Nothing dug away")
+        for button in (self._undo, self._put_back):
+            button.setEnabled(bool(look.dug))
+        self._outline.setChecked(look.outline)
+
+    def set_shown(self, shown: int, total: int) -> None:
+        """Say how many elements of how many are shown, whole or in part; 0 of 0 without a mesh."""
+        if shown == 0 < total:
+            self._shown.setText(f"None of {counted(total, 'element')} is left to show.")
+            return
+        cut = ", then cut" if self._cut_smoothly else ""
+        self._shown.setText(f"{shown:,} of {counted(total, 'element')} shown{cut}" if total else "")
