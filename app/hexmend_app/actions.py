@@ -108,7 +108,31 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "previous_worst", "&Previous worst element", "&Inspect", "Shift+N", "chevron-up", "Go back in the list."
     ),
-    ActionSpec("deselect", "&Look at none", "&Inspect", "Esc", help="Mark no element any more."),
+    ActionSpec(
+        "isolate",
+        "&Isolate the element",
+        "&Inspect",
+        "I",
+        help="Show nothing but the chosen element and its neighbours.",
+        separated=True,
+    ),
+    ActionSpec(
+        "dig",
+        "&Dig the element away",
+        "&Inspect",
+        "Delete",
+        help="Hide the chosen element and look behind it; Ctrl and a click in the view does the same.",
+    ),
+    ActionSpec(
+        "undig", "&Undo digging", "&Inspect", "Backspace", help="Show the element again that was dug away last."
+    ),
+    ActionSpec(
+        "back",
+        "Step &back",
+        "&Inspect",
+        "Esc",
+        help="Show again what is hidden beside an isolated element; then look at none.",
+    ),
     ActionSpec(
         "commands",
         "&Commands…",

@@ -170,6 +170,7 @@ class Window(QMainWindow):
         self._centre.addWidget(self.canvas, 1)
         self.canvas.clip_dragged.connect(self.view.set_clip)
         self.canvas.clicked.connect(self._on_clicked)
+        self.canvas.dug.connect(self._on_dug)
         self.canvas.setVisible(self.document.is_open)
         self.canvas.set_look(self.view.look, self.view.plane_shown)
         if self.document.is_open:
@@ -182,6 +183,7 @@ class Window(QMainWindow):
         self.document.points_moved.connect(self._on_points_moved)
         self.document.changes_changed.connect(self._enable)
         self.view.look_changed.connect(self._on_look_changed)
+        self.view.look_changed.connect(self._enable)
         self.opener.began.connect(self._on_opening)
         self.opener.ended.connect(self._on_opened)
         self.opener.failed.connect(self._on_open_failed)
@@ -210,7 +212,7 @@ class Window(QMainWindow):
         self.selection.changed.connect(self._enable)
         self.messages.filled.connect(self._enable)
         self.messages.emptied.connect(self._enable)
-        self.worst_list.chosen.connect(self._go_to)
+        self.worst_list.chosen.connect(self._go_to_worst)
         self.worst_list.save_requested.connect(self._on_save_worst)
         self.element_panel.chosen.connect(self._go_to)
         self.element_panel.fly_requested.connect(lambda: self._go_to(self.selection.hex))
@@ -333,8 +335,12 @@ class Window(QMainWindow):
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
             self.actions_by_id[id].setIconText(word.replace("&", ""))
         self.actions_by_id["stop"].setEnabled(busy)
+        chosen, look = self.selection.hex is not None, self.view.look
+        self.actions_by_id["isolate"].setEnabled(chosen)
+        self.actions_by_id["dig"].setEnabled(chosen)
+        self.actions_by_id["undig"].setEnabled(bool(look.dug))
         # Esc dismisses a message first.
-        self.actions_by_id["deselect"].setEnabled(self.selection.hex is not None and self.messages.isHidden())
+        self.actions_by_id["back"].setEnabled((chosen or look.isolation is not None) and self.messages.isHidden())
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.smoothing_panel.setEnabled(self.document.is_open)
         self.clip_panel.setEnabled(self.document.is_open)
@@ -399,14 +405,37 @@ class Window(QMainWindow):
         if self.canvas is not None:
             self.canvas.fly_to(h)
 
+    def _go_to_worst(self, h: int) -> None:
+        if self.worst_list.isolates:
+            self.view.isolate((h,))
+        self._go_to(h)
+
+    def _on_dug(self, h: int) -> None:
+        if h == self.selection.hex:
+            self.selection.choose(None)
+        self.view.dig(h)
+
+    def _on_isolate(self) -> None:
+        self.view.isolate((self.selection.hex,))
+
+    def _on_dig(self) -> None:
+        self._on_dug(self.selection.hex)
+
+    def _on_undig(self) -> None:
+        self.view.undig_last()
+
     def _on_next_worst(self) -> None:
         self.worst_list.next()
 
     def _on_previous_worst(self) -> None:
         self.worst_list.previous()
 
-    def _on_deselect(self) -> None:
-        self.selection.choose(None)
+    def _on_back(self) -> None:
+        """First show the rest again, then look at none."""
+        if self.view.look.isolation is not None:
+            self.view.end_isolation()
+        else:
+            self.selection.choose(None)
 
     def _on_save_worst(self) -> None:
         path = ask_list(self, self.document.path.stem if self.document.path else "mesh")

@@ -7,11 +7,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
+from tests.said import FIRST_RUN
+
 LEFT = Qt.MouseButton.LeftButton
 
 
 def open_and_wait(qtbot, window, path):
-    with qtbot.waitSignals([window.opener.ended], timeout=20000):
+    with qtbot.waitSignal(window.opener.ended, timeout=FIRST_RUN):
         window.open(path)
 
 

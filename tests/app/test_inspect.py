@@ -42,6 +42,10 @@ def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
     QTest.keyClick(window, Qt.Key.Key_N)
     QTest.keyClick(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
     assert window.selection.hex == worst
+    assert window.view.look.isolation.hexes == (worst,)
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert window.view.look.isolation is None
+    assert window.selection.hex == worst
     QTest.keyClick(window, Qt.Key.Key_Escape)
     assert window.selection.hex is None
 
@@ -126,3 +130,30 @@ def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
     assert (kind, title) == ("error", "The histogram was not saved")
     assert ".svg, .pdf, .png" in text
     assert list(tmp_path.glob("histogram*")) == []
+
+
+def test_a_click_with_ctrl_digs_and_a_key_brings_back(window, qtbot):
+    view, ctrl = window.canvas.interactor, Qt.KeyboardModifier.ControlModifier
+    QTest.mouseClick(view, LEFT, pos=centre(window))
+    first = window.selection.hex
+    QTest.mouseClick(view, LEFT, ctrl, pos=centre(window))
+    assert window.view.look.dug == {first}
+    assert window.selection.hex is None
+    qtbot.wait(100)
+    QTest.mouseClick(view, LEFT, pos=centre(window))
+    behind = window.selection.hex
+    assert behind not in (None, first)
+    QTest.keyClick(window, Qt.Key.Key_Delete)
+    assert window.view.look.dug == {first, behind}
+    QTest.keyClick(window, Qt.Key.Key_Backspace)
+    assert window.view.look.dug == {first}
+    QTest.keyClick(window, Qt.Key.Key_Backspace)
+    assert not window.view.look.dug
+
+
+def test_the_chosen_element_is_isolated_by_key(window):
+    QTest.mouseClick(window.canvas.interactor, LEFT, pos=centre(window))
+    QTest.keyClick(window, Qt.Key.Key_I)
+    assert window.view.look.isolation.hexes == (window.selection.hex,)
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert window.view.look.isolation is None

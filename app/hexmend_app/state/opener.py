@@ -27,18 +27,25 @@ class _Reading(QThread):
         """What the thread does."""
         try:
             self.state = State.of(read(self.path))
-            _make_ready(self.state.mesh)
+            _ = self.state.mesh.topology.face_neighbours, self.state.mesh.topology.layers  # what the view draws from
         except HexmendError as error:
             self.error = error
         except Exception as error:  # a reader that fails in a way of its own must not take the window down
             self.error = HexmendError(f"{self.path.name}: cannot be read ({type(error).__name__}: {error}).")
 
 
-def _make_ready(mesh: Mesh) -> None:
-    """Make what the view draws from, and load what a click on an element needs: the window would stand meanwhile."""
-    _ = mesh.topology.face_neighbours, mesh.topology.layers
-    element(mesh, 0)
-    node(mesh, int(mesh.hexes[0, 0]))
+class _Preparing(QThread):
+    """Loads what a click on an element needs: kernels that are compiled the first time, while the mesh is seen."""
+
+    def __init__(self, mesh: Mesh):
+        super().__init__()
+        self.setObjectName(f"reading {mesh.name}: what a click needs")
+        self._mesh = mesh
+
+    def run(self) -> None:
+        """What the thread does."""
+        element(self._mesh, 0)
+        node(self._mesh, int(self._mesh.hexes[0, 0]))
 
 
 class Opener(QObject):
@@ -61,6 +68,7 @@ class Opener(QObject):
         super().__init__(parent)
         self._document = document
         self._reading: _Reading | None = None
+        self._preparing: _Preparing | None = None
         self._next: Path | None = None
 
     @property
@@ -85,6 +93,9 @@ class Opener(QObject):
             self._reading.finished.disconnect(self._finish)
             self._reading.wait()
             self._reading = None
+        if self._preparing is not None:
+            self._preparing.wait()
+            self._preparing = None
 
     def _finish(self) -> None:
         reading, self._reading = self._reading, None
@@ -96,4 +107,7 @@ class Opener(QObject):
             self.failed.emit(reading.path, reading.error)
         else:
             self._document.replace(reading.state, reading.path)
+            if self._preparing is None:
+                self._preparing = _Preparing(reading.state.mesh)
+                self._preparing.start()
             self.ended.emit(reading.path)

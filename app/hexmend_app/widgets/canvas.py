@@ -40,10 +40,13 @@ class Canvas(QWidget):
         The user moved or turned the plane in the view.
     clicked(hit)
         The user clicked on an element, (hex, its nearest node), or beside the mesh, None.
+    dug(hex)
+        The user clicked on an element with Ctrl held down.
     """
 
     clip_dragged = Signal(object)
     clicked = Signal(object)
+    dug = Signal(int)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -142,13 +145,17 @@ class Canvas(QWidget):
             away = event.position() - self._pressed
             self._pressed = None
             if max(abs(away.x()), abs(away.y())) <= _STRAY:
-                self._click(event.position())
+                self._click(event.position(), bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier))
         return super().eventFilter(watched, event)
 
-    def _click(self, at: QPointF) -> None:
+    def _click(self, at: QPointF, dig: bool) -> None:
         ratio = self.devicePixelRatioF()
         x, y = at.x() * ratio, (self.interactor.height() - 1 - at.y()) * ratio
-        self.clicked.emit(self.viewport.pick(x, y))
+        hit = self.viewport.pick(x, y)
+        if not dig:
+            self.clicked.emit(hit)
+        elif hit is not None:
+            self.dug.emit(hit[0])
 
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
         """Write what is seen, without the plane, as PNG of any size."""

@@ -11,6 +11,7 @@ from PySide6.QtCore import QAbstractTableModel, QItemSelectionModel, QModelIndex
 from PySide6.QtGui import QBrush, QColor, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QCheckBox,
     QComboBox,
     QHBoxLayout,
     QHeaderView,
@@ -117,9 +118,14 @@ class WorstList(QWidget):
             self._metric, "Worst by", "The figure that the list is ordered by. Inverted elements always come first."
         )
         self._metric.currentIndexChanged.connect(self._refresh)
+        self._alone = QCheckBox("Isolate")
+        self._alone.setChecked(True)
+        explain(
+            self._alone, "Isolate", "Show nothing but the chosen element and its neighbours; Esc brings back the rest."
+        )
         self._previous = self._button("chevron-up", "Previous", "The next better element of the list (Shift+N).")
         self._next = self._button("chevron-down", "Next", "The next worse element, from the worst on (N).")
-        self._save = self._button("content-save-outline", "Save list…", "Save the list as CSV, a line an element.")
+        self._save = self._button("content-save-outline", "Save…", "Save the list as CSV, a line an element.")
         self._previous.clicked.connect(self.previous)
         self._next.clicked.connect(self.next)
         self._save.clicked.connect(self.save_requested)
@@ -165,8 +171,8 @@ class WorstList(QWidget):
         for part in (label, self._metric):
             head.addWidget(part)
         head.addStretch()
-        for button in (self._previous, self._next, self._save):
-            head.addWidget(button)
+        for part in (self._alone, self._previous, self._next, self._save):
+            head.addWidget(part)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(4)
@@ -192,6 +198,11 @@ class WorstList(QWidget):
         """Mark an element's row, if it is listed; without a signal."""
         self._selected = element
         self._mark()
+
+    @property
+    def isolates(self) -> bool:
+        """Whether an element of the list is wanted alone, with its neighbours."""
+        return self._alone.isChecked()
 
     @property
     def elements(self) -> np.ndarray:
