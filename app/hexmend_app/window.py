@@ -31,6 +31,7 @@ from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Frame, Phase, Smoothing
 from hexmend_app.state.view import View
 from hexmend_app.widgets.clip_panel import ClipPanel
+from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
@@ -69,6 +70,7 @@ class Window(QMainWindow):
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
         self.clip_panel = ClipPanel()
+        self.colour_panel = ColourPanel()
         self.progress = QProgressBar()
         self.progress.setRange(0, 0)
         self.progress.setFixedSize(140, 10)  # no higher than text, or the view jumps as it comes and goes
@@ -103,7 +105,7 @@ class Window(QMainWindow):
         column = QVBoxLayout(tools)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(8)
-        for part in (self.smoothing_panel, self.clip_panel):
+        for part in (self.smoothing_panel, self.clip_panel, self.colour_panel):
             column.addWidget(part)
         column.addStretch()
         scroll = QScrollArea()
@@ -114,7 +116,7 @@ class Window(QMainWindow):
         bar = self.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
         scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar)
         areas = Qt.DockWidgetArea
-        self._dock("tools", "Smooth and cut", scroll, areas.RightDockWidgetArea)
+        self._dock("tools", "Smooth, cut and colour", scroll, areas.RightDockWidgetArea)
         histogram = self._dock("histogram", "Distribution of quality", self.histogram, areas.BottomDockWidgetArea)
         quality = self._dock("quality", "Quality", self.statistics, areas.BottomDockWidgetArea)
         self.splitDockWidget(histogram, quality, Qt.Orientation.Horizontal)
@@ -163,6 +165,7 @@ class Window(QMainWindow):
         self.smoothing.failed.connect(self._on_failed)
         self.histogram.range_changed.connect(lambda chosen: self.view.change(quality_range=chosen))
         self.clip_panel.clip_changed.connect(self.view.set_clip)
+        self.colour_panel.scale_changed.connect(lambda scale: self.view.change(scale=scale))
         self.clip_panel.plane_shown_changed.connect(self.view.set_plane_shown)
         self.smoothing_panel.run_requested.connect(self.commands.run)
         self.smoothing_panel.step_requested.connect(self.commands.step)
@@ -187,12 +190,14 @@ class Window(QMainWindow):
         if self.canvas is not None:
             self.canvas.show()
             self.canvas.set_mesh(now.mesh, now.figures)
+        self._show_range()
         self._show_figures()
 
     def _on_points_moved(self) -> None:
         if self.canvas is not None:
             now, live = self.document.now, self.smoothing.phase is Phase.RUNNING
             self.canvas.set_points(now.mesh.points, now.figures, live)
+        self._show_range()
         self._show_figures()
 
     def _show_figures(self) -> None:
@@ -202,8 +207,13 @@ class Window(QMainWindow):
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
 
+    def _show_range(self) -> None:
+        if self.canvas is not None and self.canvas.colouring is not None:
+            self.colour_panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
+
     def _on_look_changed(self) -> None:
         look = self.view.look
+        self.colour_panel.set_scale(look.scale)
         self.clip_panel.set_clip(look.clip)
         self.clip_panel.set_plane_shown(self.view.plane_shown)
         self.histogram.set_range(look.quality_range)
@@ -211,6 +221,7 @@ class Window(QMainWindow):
             self.actions_by_id[id].setChecked(on)
         if self.canvas is not None:
             self.canvas.set_look(look, self.view.plane_shown)
+            self._show_range()
 
     def _on_opening(self, path: Path) -> None:
         self.progress.show()
@@ -265,6 +276,7 @@ class Window(QMainWindow):
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.smoothing_panel.setEnabled(self.document.is_open)
         self.clip_panel.setEnabled(self.document.is_open)
+        self.colour_panel.setEnabled(self.document.is_open)
         self.histogram.setEnabled(self.document.is_open)
         self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
         self.setWindowModified(self.document.modified)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+from math import isfinite
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -71,19 +72,23 @@ _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 def _look(args: argparse.Namespace, mesh: Mesh):
     from hexmend.quality import METRICS
     from hexmend_app.scene.colours import MAPS
-    from hexmend_app.state.look import Look
+    from hexmend_app.state.look import ColourScale, Look, RangeMode
 
     if args.colour_map not in MAPS:
         raise _wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
     metric = METRICS[args.metric]
-    low, high = metric.full_range
+    if args.colour_range:
+        mode, ends = RangeMode.PINNED, _range(args.colour_range, "--colour-range")
+    elif all(map(isfinite, metric.full_range)):
+        # What is negative is inverted, and has a colour of its own.
+        mode, ends = RangeMode.PINNED, (max(metric.full_range[0], 0.0), metric.full_range[1])
+    else:
+        mode, ends = RangeMode.FITTED, (0.0, 1.0)
     return Look(
         clip=plane(args.clip, mesh, crinkle=not args.smooth, flip=args.flip) if args.clip else None,
         quality_range=_range(args.quality_range, "--quality-range") if args.quality_range else None,
-        colour_range=_range(args.colour_range, "--colour-range") if args.colour_range else (max(low, 0.0), high),
-        colour_map=args.colour_map,
+        scale=ColourScale(metric.name, args.colour_map, mode, ends),
         edges=not args.no_edges,
-        metric=metric.name,
     )
 
 

@@ -6,12 +6,13 @@ import numpy as np
 import pyvista as pv
 
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality
+from hexmend.quality import ElementQuality
 from hexmend_app.scene import cut, sides
-from hexmend_app.scene.colours import colours
+from hexmend_app.scene.colours import Colouring, resolve
 from hexmend_app.scene.fitting import fit
 from hexmend_app.scene.skin import Skin
 from hexmend_app.scene.surface import Surface, quads, set_colours, set_points
+from hexmend_app.scene.values import values
 from hexmend_app.state.look import Look
 
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
@@ -44,6 +45,7 @@ class Viewport:
         self._plotter = plotter
         self._mesh: Mesh | None = None
         self._look = Look()
+        self._colouring: Colouring | None = None
         plotter.set_background(_BACKGROUND)
         plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
         plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=1.0))
@@ -61,6 +63,7 @@ class Viewport:
         self._skin = Skin(mesh)
         self._add_outline()
         self._cull()
+        self._measure()
         self._choose_uncut()
         self._rebuild()
         self.view("iso")
@@ -76,6 +79,7 @@ class Viewport:
         """
         self._points, self._figures = points, figures
         self._cull()
+        self._measure()
         if self._look.quality_range is None:
             self._move()
         else:
@@ -89,6 +93,8 @@ class Viewport:
         if self._mesh is not None and look != before:
             if look.clip != before.clip:
                 self._choose_uncut()
+            if look.scale != before.scale:
+                self._measure()
             self._rebuild()
 
     @property
@@ -97,6 +103,12 @@ class Viewport:
         points = self._mesh.points[self._mesh.topology.used]
         low, high = points.min(axis=0), points.max(axis=0)
         return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
+
+    def _measure(self) -> None:
+        """The values that the colours show, and the range that they span."""
+        figures, scale = self._figures, self._look.scale
+        self._values = values(scale.metric, self._points, self._mesh.hexes, figures)
+        self._colouring = resolve(scale, self._values, figures.inverted)
 
     def _kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
@@ -151,9 +163,7 @@ class Viewport:
         return self._colours(self._faces.hexes)
 
     def _colours(self, hexes: np.ndarray | slice) -> np.ndarray:
-        look, figures = self._look, self._figures
-        values = METRICS[look.metric].of(figures)[hexes]
-        return colours(values, figures.inverted[hexes], look.colour_range, look.colour_map)
+        return self._colouring.colours(self._values[hexes], self._figures.inverted[hexes])
 
     def _add_outline(self) -> None:
         """The box of the whole, which keeps it in mind when a part is hidden."""
@@ -208,6 +218,11 @@ class Viewport:
     def look(self) -> Look:
         """How the mesh is drawn."""
         return self._look
+
+    @property
+    def colouring(self) -> Colouring | None:
+        """What the colours that are drawn stand for; None before there is a mesh."""
+        return self._colouring
 
     @property
     def mesh(self) -> Mesh:

@@ -9,7 +9,7 @@ from hexmend.quality import measure
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.look import ClipPlane, Look
+from hexmend_app.state.look import ClipPlane, ColourScale, Look, RangeMode
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)
@@ -110,7 +110,7 @@ def test_edges_are_drawn_or_not(seen):
 def test_the_same_picture_however_its_look_was_reached(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 0.6)
-    look = Look(clip=INSIDE, quality_range=(0.3, 0.9), colour_map="plasma")
+    look = Look(clip=INSIDE, quality_range=(0.3, 0.9), scale=ColourScale(map="plasma"))
     viewport.set_look(look)
     viewport.set_points(tangled.points, figures_of(tangled))
     moved = pixels()
@@ -123,6 +123,19 @@ def test_the_same_picture_however_its_look_was_reached(seen):
     viewport.set_look(Look())
     viewport.set_look(lower)
     np.testing.assert_array_equal(pixels(), crinkle)
+
+
+def test_a_fitted_range_follows_the_points(seen):
+    viewport, _ = seen
+    viewport.set_look(Look(scale=ColourScale(mode=RangeMode.FITTED)))
+    assert viewport.colouring.high - viewport.colouring.low < 1e-5
+    other = scrambled(MESH, 0.2)
+    figures = figures_of(other)
+    viewport.set_points(other.points, figures)
+    assert (viewport.colouring.low, viewport.colouring.high) == (figures.q.min(), figures.q.max())
+    viewport.set_look(Look(scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED)))
+    assert viewport.colouring.title == "Scaled Jacobian"
+    assert viewport.colouring.low == figures.scaled_jacobian.min()
 
 
 def test_nodes_that_no_hex_uses_do_not_count(seen):
