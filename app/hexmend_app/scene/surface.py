@@ -69,6 +69,11 @@ class Surface:
         """Draw nothing."""
         self.actor.SetVisibility(False)
 
+    @property
+    def shown(self) -> bool:
+        """Whether anything is drawn."""
+        return bool(self.actor.GetVisibility())
+
     def cull(self, on: bool) -> None:
         """Leave out polygons that are seen from behind, or not."""
         self.actor.GetProperty().SetBackfaceCulling(on)
@@ -88,6 +93,11 @@ def coloured(poly: pv.PolyData, colours: np.ndarray) -> pv.PolyData:
     if len(colours):  # VTK takes no empty array
         poly.cell_data[_COLOURS] = colours
     return poly
+
+
+def colours_of(poly: pv.PolyData) -> np.ndarray:
+    """The colours that polygons carry, (k, 3) uint8."""
+    return np.asarray(poly.cell_data[_COLOURS])
 
 
 def set_points(data: pv.DataSet, points: np.ndarray) -> None:

@@ -10,6 +10,7 @@ from hexmend.quality import ElementQuality
 from hexmend_app.scene import cut, sides
 from hexmend_app.scene.colours import Colouring, resolve
 from hexmend_app.scene.fitting import fit
+from hexmend_app.scene.halo import Halo
 from hexmend_app.scene.skin import Skin
 from hexmend_app.scene.surface import Surface, quads, set_colours, set_points
 from hexmend_app.scene.values import values
@@ -52,6 +53,10 @@ class Viewport:
         plotter.render_window.SetMultiSamples(0)
         self._skin_surface = Surface(plotter, "skin")
         self._section_surface = Surface(plotter, "section")
+        self._halos = [
+            (surface, Halo(plotter, name))
+            for surface, name in ((self._skin_surface, "halo of skin"), (self._section_surface, "halo of section"))
+        ]
         self._outline = None
         plotter.add_axes(line_width=2, labels_off=False, viewport=(0, 0, 0.13, 0.18), color="#39414d")
 
@@ -145,6 +150,14 @@ class Viewport:
         self._cut(self._uncut)
 
     def _cut(self, keep: np.ndarray | None) -> None:
+        self._replace(keep)
+        for surface, halo in self._halos:
+            if self._figures.n_inverted and surface.shown:
+                halo.follow(surface.poly)
+            else:
+                halo.hide()
+
+    def _replace(self, keep: np.ndarray | None) -> None:
         plane = self._look.clip
         if plane is None or plane.crinkle:
             if self._skin_surface.poly is not self._whole:
