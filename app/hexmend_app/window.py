@@ -35,6 +35,7 @@ from hexmend_app.state.run import Frame, Phase, Smoothing
 from hexmend_app.state.selection import Selection
 from hexmend_app.state.view import View
 from hexmend_app.widgets.clip_panel import ClipPanel
+from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.histogram import QualityHistogram, write_histogram
@@ -60,6 +61,10 @@ from hexmend_app.widgets.worst_list import WorstList
 if TYPE_CHECKING:
     from hexmend.optimise import Result
     from hexmend_app.widgets.canvas import Canvas
+
+
+#: Number of the layout: one that was saved with other docks is not restored.
+_LAYOUT = 2
 
 
 class Window(QMainWindow):
@@ -91,6 +96,7 @@ class Window(QMainWindow):
         self.smoothing_panel.set_method(DEFAULT_METHOD)
         self.clip_panel = ClipPanel()
         self.inside_panel = InsidePanel()
+        self.colour_panel = ColourPanel()
         self.progress = QProgressBar()
         self.progress.setRange(0, 0)
         self.progress.setFixedSize(140, 10)  # no higher than text, or the view jumps as it comes and goes
@@ -125,7 +131,7 @@ class Window(QMainWindow):
         column = QVBoxLayout(tools)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(8)
-        for part in (self.smoothing_panel, self.clip_panel, self.inside_panel):
+        for part in (self.smoothing_panel, self.colour_panel, self.clip_panel, self.inside_panel):
             column.addWidget(part)
         column.addStretch()
         scroll = QScrollArea()
@@ -136,7 +142,7 @@ class Window(QMainWindow):
         bar = self.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
         scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar)
         areas = Qt.DockWidgetArea
-        self._dock("tools", "Smooth and cut", scroll, areas.RightDockWidgetArea)
+        self._dock("tools", "Smooth, cut and colour", scroll, areas.RightDockWidgetArea)
         histogram = self._dock("histogram", "Distribution of quality", self.histogram, areas.BottomDockWidgetArea)
         quality = self._dock("quality", "Quality", self.statistics, areas.BottomDockWidgetArea)
         self.splitDockWidget(histogram, quality, Qt.Orientation.Horizontal)
@@ -194,6 +200,7 @@ class Window(QMainWindow):
         self.histogram.save_requested.connect(self._on_save_histogram)
         self.histogram.range_changed.connect(lambda chosen: self.view.change(quality_range=chosen))
         self.clip_panel.clip_changed.connect(self.view.set_clip)
+        self.colour_panel.scale_changed.connect(lambda scale: self.view.change(scale=scale))
         self.clip_panel.plane_shown_changed.connect(self.view.set_plane_shown)
         self.inside_panel.peel_changed.connect(lambda layers: self.view.change(peel=layers))
         self.inside_panel.shrink_changed.connect(lambda share: self.view.change(shrink=share))
@@ -238,12 +245,14 @@ class Window(QMainWindow):
         if self.canvas is not None:
             self.canvas.show()
             self.canvas.set_mesh(now.mesh, now.figures)
+        self._show_range()
         self._show_figures()
 
     def _on_points_moved(self) -> None:
         if self.canvas is not None:
             now, live = self.document.now, self.smoothing.phase is Phase.RUNNING
             self.canvas.set_points(now.mesh.points, now.figures, live)
+        self._show_range()
         self._show_figures()
 
     def _show_figures(self) -> None:
@@ -273,8 +282,13 @@ class Window(QMainWindow):
         if self.canvas is not None:
             self.canvas.select(chosen.hex, self.element_panel.corners_in_view, at)
 
+    def _show_range(self) -> None:
+        if self.canvas is not None and self.canvas.colouring is not None:
+            self.colour_panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
+
     def _on_look_changed(self) -> None:
         look = self.view.look
+        self.colour_panel.set_scale(look.scale)
         self.clip_panel.set_clip(look.clip)
         self.clip_panel.set_plane_shown(self.view.plane_shown)
         self.inside_panel.set_look(look, self.view.rings)
@@ -283,6 +297,7 @@ class Window(QMainWindow):
             self.actions_by_id[id].setChecked(on)
         if self.canvas is not None:
             self.canvas.set_look(look, self.view.plane_shown)
+            self._show_range()
         self._show_shown()
 
     def _on_opening(self, path: Path) -> None:
@@ -345,6 +360,7 @@ class Window(QMainWindow):
         self.smoothing_panel.setEnabled(self.document.is_open)
         self.clip_panel.setEnabled(self.document.is_open)
         self.inside_panel.setEnabled(self.document.is_open)
+        self.colour_panel.setEnabled(self.document.is_open)
         self.histogram.setEnabled(self.document.is_open)
         self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
         self.setWindowModified(self.document.modified)
@@ -565,7 +581,7 @@ class Window(QMainWindow):
         self.opener.shut_down()
         settings = QSettings()
         settings.setValue("geometry", self.saveGeometry())
-        settings.setValue("layout", self.saveState())
+        settings.setValue("layout", self.saveState(_LAYOUT))
         if self.canvas is not None:
             self.canvas.close()
         event.accept()
@@ -576,7 +592,7 @@ class Window(QMainWindow):
         if settings.contains("geometry"):
             self.restoreGeometry(settings.value("geometry"))
         if settings.contains("layout"):
-            self.restoreState(settings.value("layout"))
+            self.restoreState(settings.value("layout"), _LAYOUT)
 
 
 def _dropped(event: QDropEvent) -> str:

@@ -79,8 +79,7 @@ def test_the_picture_follows_the_iterations(window, qtbot):
     before = pixels(window)
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=60000)
-    qtbot.wait(400)
-    assert (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002
+    qtbot.waitUntil(lambda: (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002, timeout=5000)
 
 
 @pytest.mark.parametrize("cut", ["crinkle", "smooth"])
@@ -106,6 +105,45 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
     assert window.view.look.clip is None
     qtbot.wait(50)
     assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() < 0.02
+
+
+def test_the_colours_by_metric_map_and_range(window, qtbot):
+    whole, panel, bar = pixels(window), window.colour_panel, window.canvas.colour_bar
+    panel._metric.setFocus()
+    other = panel._metric.findData("scaled-jacobian")
+    while panel._metric.currentIndex() != other:
+        key = Qt.Key.Key_Down if panel._metric.currentIndex() < other else Qt.Key.Key_Up
+        QTest.keyClick(panel._metric, key)
+    assert window.view.look.scale.metric == "scaled-jacobian"
+    assert "Scaled Jacobian from -1 to 1" in bar.accessibleDescription()
+    recoloured = pixels(window)
+    assert (np.abs(recoloured - whole).sum(axis=2) > 60).mean() > 0.05
+    panel._map.setFocus()
+    QTest.keyClick(panel._map, Qt.Key.Key_Down)
+    assert (np.abs(pixels(window) - recoloured).sum(axis=2) > 60).mean() > 0.05
+    QTest.mouseClick(panel._mode.button("fitted"), LEFT)
+    assert f"from {panel._low.value():g} to {panel._high.value():g}" in bar.accessibleDescription()
+    assert not panel._low.isEnabled()
+    start = window.document.now
+    click(window, "Step")
+    qtbot.waitUntil(lambda: window.document.now is not start, timeout=FIRST_RUN)
+    now = window.document.now.figures
+    values = now.scaled_jacobian[~now.inverted]
+    assert (panel._low.value(), panel._high.value()) == pytest.approx((values.min(), values.max()), abs=0.01)
+    QTest.mouseClick(panel._mode.button("pinned"), LEFT)
+    assert window.view.look.scale.pinned == (panel._low.value(), panel._high.value())
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
+def test_nothing_is_cut_off(window, qtbot, size):
+    window.resize(*size)
+    qtbot.wait(100)
+    assert (window.width(), window.height()) == size
+    panel = window.colour_panel
+    for part in panel.findChildren(QPushButton):
+        assert part.width() >= part.minimumWidth()
+    corner = panel.mapTo(window, panel.rect().bottomRight())
+    assert corner.x() < size[0]
 
 
 def test_the_plane_is_dragged_in_the_view(window, qtbot):

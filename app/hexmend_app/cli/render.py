@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 import re
+from math import isfinite
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
-    from hexmend.quality import ElementQuality, Metric
+    from hexmend.quality import ElementQuality
     from hexmend_app.state.look import ClipPlane
 
 
@@ -74,38 +75,24 @@ _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
     from hexmend.quality import METRICS
     from hexmend_app.scene.colours import MAPS
-    from hexmend_app.state.look import Look
+    from hexmend_app.state.look import ColourScale, Look, RangeMode
 
     if args.colour_map not in MAPS:
         raise _wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
     metric = METRICS[args.metric]
-    chosen = _range(args.colour_range, "--colour-range") if args.colour_range else None
+    if args.colour_range:
+        mode, ends = RangeMode.PINNED, _range(args.colour_range, "--colour-range")
+    elif all(map(isfinite, metric.full_range)):
+        # What is negative is inverted, and has a colour of its own.
+        mode, ends = RangeMode.PINNED, (max(metric.full_range[0], 0.0), metric.full_range[1])
+    else:
+        mode, ends = RangeMode.FITTED, (0.0, 1.0)
     return Look(
         clip=plane(args.clip, mesh, crinkle=not args.smooth, flip=args.flip) if args.clip else None,
         quality_range=_range(args.quality_range, "--quality-range") if args.quality_range else None,
-        colour_range=chosen or _own_range(metric, mesh, figures),
-        colour_map=args.colour_map,
+        scale=ColourScale(metric.name, args.colour_map, mode, ends),
         edges=not args.no_edges,
-        metric=metric.name,
     )
-
-
-def _own_range(metric: Metric, mesh: Mesh, figures: ElementQuality) -> tuple[float, float]:
-    """The values at the ends of the colours: the metric's range from 0 up, or, where that is infinite, those there are.
-
-    Inverted hexes have a colour of their own, and their values do not count.
-    """
-    import numpy as np
-
-    low, high = metric.full_range
-    if np.isfinite((low, high)).all():
-        return max(low, 0.0), high
-    values = metric.of(mesh.points, mesh.hexes, figures)
-    values = values[np.isfinite(values) & ~figures.inverted]
-    if not values.size:
-        return 0.0, 1.0
-    low, high = float(values.min()), float(values.max())
-    return (low, high) if low < high else (low, low + max(abs(low), 1.0))
 
 
 def plane(text: str, mesh: Mesh, *, crinkle: bool, flip: bool) -> ClipPlane:

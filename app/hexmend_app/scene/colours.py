@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
-#: The maps on offer, each perceptually uniform; the first is the default.
+from hexmend.quality import METRICS
+from hexmend_app.scene.values import better, declared_range
+from hexmend_app.state.look import ColourScale, RangeMode
+
+#: The maps on offer, each perceptually uniform; the first is the default. None diverges: that would need a value in the
+#: middle that means something, and the one there might be, zero, parts off the inverted, which have their own colour.
 MAPS = ("viridis", "cividis", "plasma", "inferno")
 
 #: Colour of inverted elements, in no map of ours: magenta.
 INVERTED = (0xE6, 0x19, 0x8A)
 
+# A fitted range is at least this wide, relative to its values: less is rounding.
+_NARROWEST = 1e-6
+
 
 @cache
 def table(name: str) -> np.ndarray:
-    """A colour map as (256, 3) uint8, the worst quality first.
+    """A colour map as (256, 3) uint8, from its dark end to its light one.
 
     Raises
     ------
@@ -31,21 +41,98 @@ def table(name: str) -> np.ndarray:
     return colours
 
 
-def colours(values: np.ndarray, inverted: np.ndarray, colour_range: tuple[float, float], name: str) -> np.ndarray:
-    """Colour of each element, (k, 3) uint8.
+@dataclass(frozen=True, eq=False)
+class Colouring:
+    """A `ColourScale` with the ends of its range found: what view, picture and colour bar draw by.
 
     Parameters
     ----------
-    values : (k,) float64
-        Values beyond the ends of the range have the ends' colours.
-    inverted : (k,) bool
-        These have the colour `INVERTED`, whatever their value.
-    colour_range : (low, high)
-    name : str
-        Of `MAPS`.
+    title : str
+        Of the metric.
+    low, high : float
+        What the first and the last colour stand for.
+    table : (256, 3) uint8
+        The colours, that of the lowest value first.
     """
-    low, high = colour_range
-    place = (np.asarray(values) - low) * (255.999 / max(high - low, 1e-300))
-    answer = table(name)[np.clip(place, 0, 255).astype(np.uint8)]
-    answer[inverted] = INVERTED
-    return answer
+
+    title: str
+    low: float
+    high: float
+    table: np.ndarray
+
+    def colours(self, values: np.ndarray, inverted: np.ndarray) -> np.ndarray:
+        """Colour of each element, (k, 3) uint8.
+
+        Parameters
+        ----------
+        values : (k,) float64
+            Values beyond the ends of the range have the ends' colours.
+        inverted : (k,) bool
+            These have the colour `INVERTED`, whatever their value.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):  # far beyond an end is beyond it
+            place = (np.asarray(values) - self.low) * (255.999 / (self.high - self.low))
+        np.clip(place, 0, 255, out=place)
+        # What has no value (nan) is inverted, or else drawn as the lowest.
+        answer = self.table[np.nan_to_num(place, copy=False, nan=0.0).astype(np.uint8)]
+        answer[inverted] = INVERTED
+        return answer
+
+    def label(self, value: float) -> str:
+        """A value as it stands on the colour bar, with three digits of the range."""
+        return range_label(value, self.low, self.high)
+
+
+def resolve(scale: ColourScale, values: np.ndarray, inverted: np.ndarray) -> Colouring:
+    """Find the ends of a scale's range: here alone, so that all that shows colours agrees.
+
+    Parameters
+    ----------
+    scale : ColourScale
+    values : (m,) float64
+        Of all elements, hidden ones too, so that colours do not change as a cut is moved.
+    inverted : (m,) bool
+        They have a colour of their own, so no range is fitted to them unless there are no others.
+    """
+    if scale.mode is RangeMode.PINNED:
+        ends = scale.pinned
+    elif scale.mode is RangeMode.FITTED:
+        ends = _fitted(values, inverted)
+    else:
+        ends = declared_range(scale.metric, scale.mode) or _fitted(values, inverted)
+    colours = table(scale.map)
+    if scale.reverse != (better(scale.metric) < 0):
+        colours = colours[::-1]
+    return Colouring(METRICS[scale.metric].title, *ends, colours)
+
+
+def _fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:
+    finite = np.isfinite(values)
+    chosen = values[finite & ~inverted]
+    if not chosen.size:
+        chosen = values[finite]
+    if not chosen.size:
+        return 0.0, 1.0
+    low, high = float(chosen.min()), float(chosen.max())
+    lacking = max(_NARROWEST * max(abs(low), abs(high)), 1e-300) - (high - low)
+    return (low, high) if lacking <= 0 else (low - lacking / 2, high + lacking / 2)
+
+
+def range_label(value: float, low: float, high: float) -> str:
+    """A value between `low` and `high` in three digits of their distance.
+
+    >>> range_label(0.25, 0, 1), range_label(0.31234, 0.3121, 0.3138), range_label(2e6, 0, 4e6)
+    ('0.25', '0.31234', '2e+06')
+    >>> range_label(1000002, 1000000, 1000004)
+    '1000002'
+    """
+    size, span = max(abs(low), abs(high)), high - low
+    if not span > 0:
+        return f"{value:.4g}"
+    smallest = math.floor(math.log10(span)) - 2
+    if not 1e-3 <= size < 1e5:
+        return f"{0.0 if abs(value) < 1e-6 * span else value:.{math.floor(math.log10(size)) - smallest + 1}g}"
+    decimals = max(-smallest, 0)
+    text = f"{value:.{decimals}f}"
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return "0" if text == "-0" else text

@@ -9,8 +9,8 @@ import pyvista as pv
 from PIL import Image, ImageDraw, ImageFont
 
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality
-from hexmend_app.scene.colours import INVERTED, table
+from hexmend.quality import ElementQuality
+from hexmend_app.scene.colours import INVERTED, Colouring
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
 
@@ -74,30 +74,27 @@ def picture(
         return image
     whole = Image.new(image.mode, size, (255, 255, 255, 0) if transparent else (255, 255, 255))
     whole.paste(image, (0, 0))
-    whole.paste(colour_bar(look, figures.n_inverted, (width, strip), image.mode), (0, height - strip))
+    whole.paste(colour_bar(viewport.colouring, figures.n_inverted, (width, strip), image.mode), (0, height - strip))
     return whole
 
 
-def colour_bar(look: Look, inverted: int, size: tuple[int, int], mode: str = "RGB") -> Image.Image:
-    """The colours from the worst quality to the best, ticks, and the swatch of inverted elements; `size` in pixels."""
+def colour_bar(colouring: Colouring, inverted: int, size: tuple[int, int], mode: str = "RGB") -> Image.Image:
+    """The colours from the lowest value to the highest, ticks, the swatch of inverted elements; `size` in pixels."""
     width, height = size
     image = Image.new(mode, size, (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
     draw = ImageDraw.Draw(image)
     unit = height / 30
     font = ImageFont.truetype(_font(), max(8, round(11 * unit)))
-    low, high = look.colour_range
-    title = METRICS[look.metric].title
+    low, high, title = colouring.low, colouring.high, colouring.title
     left, right = round(20 * unit + font.getlength(title)), width - round(150 * unit)
     top, bottom = round(3 * unit), round(14 * unit)
-    gradient = Image.fromarray(np.ascontiguousarray(table(look.colour_map)[None])).resize(
-        (max(1, right - left), bottom - top)
-    )
+    gradient = Image.fromarray(np.ascontiguousarray(colouring.table[None])).resize((max(1, right - left), bottom - top))
     image.paste(gradient, (left, top))
     draw.text((round(8 * unit), (top + bottom) / 2), title, _INK, font, anchor="lm")
     for k in range(6):
         x, value = left + (right - left) * k / 5, low + (high - low) * k / 5
         draw.line((x, bottom, x, bottom + 2 * unit), _INK, max(1, round(unit)))
-        draw.text((x, bottom + 3 * unit), f"{value:.3g}", _INK, font, anchor="mt")
+        draw.text((x, bottom + 3 * unit), colouring.label(value), _INK, font, anchor="mt")
     swatch = right + round(24 * unit)
     draw.rectangle((swatch, top, swatch + round(11 * unit), bottom), INVERTED)
     count = f"inverted ({inverted:,})"

@@ -70,6 +70,11 @@ class Surface:
         """Draw nothing."""
         self.actor.SetVisibility(False)
 
+    @property
+    def shown(self) -> bool:
+        """Whether anything is drawn."""
+        return bool(self.actor.GetVisibility())
+
     def cull(self, on: bool) -> None:
         """Leave out polygons that are seen from behind, or not."""
         self.actor.GetProperty().SetBackfaceCulling(on)
@@ -95,6 +100,11 @@ def coloured(data: pv.DataSet, colours: np.ndarray, hexes: np.ndarray) -> pv.Dat
 def hex_of(data: pv.DataSet, cell: int) -> int:
     """The hex that a cell shows."""
     return int(data.cell_data[_HEX][cell])
+
+
+def colours_of(poly: pv.PolyData) -> np.ndarray:
+    """The colours that polygons carry, (k, 3) uint8."""
+    return np.asarray(poly.cell_data[_COLOURS])
 
 
 def set_points(data: pv.DataSet, points: np.ndarray) -> None:

@@ -7,20 +7,25 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkCellPicker
 
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality, Node, corner_qualities
+from hexmend.quality import ElementQuality, Node, corner_qualities
 from hexmend_app.scene import cut
-from hexmend_app.scene.colours import colours
+from hexmend_app.scene.colours import Colouring, resolve
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.fitting import fit
 from hexmend_app.scene.flight import Flight
+from hexmend_app.scene.halo import Halo
 from hexmend_app.scene.highlight import Highlight
 from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
 from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
+from hexmend_app.scene.values import values
 from hexmend_app.state.look import Look
 
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
+
+#: Inverted elements that are outlined in every frame.
+_MANY = 1000
 
 #: Directions to look from: the place of the camera, and what is up.
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
@@ -48,12 +53,18 @@ class Viewport:
         self._plotter = plotter
         self._mesh: Mesh | None = None
         self._look = Look()
+        self._fast = False
+        self._colouring: Colouring | None = None
         plotter.set_background(_BACKGROUND)
         plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
         plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=1.0))
         plotter.render_window.SetMultiSamples(0)
         self._skin_surface = Surface(plotter, "skin")
         self._section_surface = Surface(plotter, "section")
+        self._halos = [
+            (surface, Halo(plotter, name))
+            for surface, name in ((self._skin_surface, "halo of skin"), (self._section_surface, "halo of section"))
+        ]
         self._outline = None
         self._highlight = Highlight(plotter)
         self._selected: int | None = None
@@ -73,6 +84,7 @@ class Viewport:
         self._outline = Silhouette(self._plotter, mesh)
         self.select(None)
         self._cull()
+        self._measure()
         self._rebuild()
         self.view("iso")
 
@@ -88,6 +100,7 @@ class Viewport:
         self._points, self._figures = points, figures
         self._cull()
         self._show_selected()
+        self._measure()
         if self._look.quality_range is None:
             self._move()
         else:
@@ -99,6 +112,8 @@ class Viewport:
         for surface in (self._skin_surface, self._section_surface):
             surface.show_edges(look.edges)
         if self._mesh is not None and look != before:
+            if look.scale != before.scale:
+                self._measure()
             self._rebuild()
 
     # What is pointed at
@@ -175,6 +190,12 @@ class Viewport:
         keep = self._kept()
         return self._mesh.n_hexes if keep is None else int(np.count_nonzero(keep))
 
+    def _measure(self) -> None:
+        """The values that the colours show, and the range that they span."""
+        figures, scale = self._figures, self._look.scale
+        self._values = values(scale.metric, self._points, self._mesh.hexes, figures)
+        self._colouring = resolve(scale, self._values, figures.inverted)
+
     def _kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
         return self._filters.kept(self._look, self._points, self._figures)
@@ -202,6 +223,19 @@ class Viewport:
         self._cut(self._kept())
 
     def _cut(self, keep: np.ndarray | None) -> None:
+        self._replace(keep)
+        self._outline_inverted()
+
+    def _outline_inverted(self) -> None:
+        """Outline inverted elements; where they are many, in fine frames alone: they cost half of a fast one."""
+        inverted = self._figures.n_inverted
+        for surface, halo in self._halos:
+            if surface.shown and 0 < inverted <= (_MANY if self._fast else inverted):
+                halo.follow(surface.poly)
+            else:
+                halo.hide()
+
+    def _replace(self, keep: np.ndarray | None) -> None:
         plane = self._look.clip
         if plane is None or plane.crinkle:
             if self._skin_surface.poly is not self._whole:
@@ -220,9 +254,7 @@ class Viewport:
         return self._colours(self._faces.hexes)
 
     def _colours(self, hexes: np.ndarray | slice) -> np.ndarray:
-        look, figures = self._look, self._figures
-        values = METRICS[look.metric].of(self._points, self._mesh.hexes, figures)[hexes]
-        return colours(values, figures.inverted[hexes], look.colour_range, look.colour_map)
+        return self._colouring.colours(self._values[hexes], self._figures.inverted[hexes])
 
     # Camera and frames
 
@@ -253,15 +285,28 @@ class Viewport:
     def moving(self) -> None:
         """Prepare for fast frames."""
         self._plotter.render_window.SetMultiSamples(0)
+        self._set_fast(True)
 
     def still(self) -> None:
         """Prepare for a fine frame: smooth edges."""
         self._plotter.render_window.SetMultiSamples(4)
+        self._set_fast(False)
+
+    def _set_fast(self, fast: bool) -> None:
+        if fast != self._fast:
+            self._fast = fast
+            if self._mesh is not None:
+                self._outline_inverted()
 
     @property
     def look(self) -> Look:
         """How the mesh is drawn."""
         return self._look
+
+    @property
+    def colouring(self) -> Colouring | None:
+        """What the colours that are drawn stand for; None before there is a mesh."""
+        return self._colouring
 
     @property
     def mesh(self) -> Mesh:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
@@ -48,6 +49,51 @@ class ClipPlane:
         return dataclasses.replace(self, normal=tuple(-c for c in self.normal))
 
 
+class RangeMode(StrEnum):
+    """Which values the two ends of the colours stand for."""
+
+    FULL = "full"
+    """The values that the metric can take."""
+    FITTED = "fitted"
+    """The least and the greatest value at the moment."""
+    ACCEPTABLE = "acceptable"
+    """The values that solvers are usually content with."""
+    PINNED = "pinned"
+    """Two values that the user has set."""
+
+
+@dataclass(frozen=True)
+class ColourScale:
+    """What the colours of the elements show; `hexmend_app.scene.colours.resolve` finds the ends of its range.
+
+    Parameters
+    ----------
+    metric : str
+        A name of `hexmend.quality.METRICS`.
+    map : str
+        A name of `hexmend_app.scene.colours.MAPS`.
+    mode : RangeMode
+        Where the ends of the range come from.
+    pinned : (low, high)
+        The ends in the mode PINNED; the others leave it alone.
+    reverse : bool
+        Run through the map from its other end. Without it, the map begins with the worst.
+    """
+
+    metric: str = "q"
+    map: str = "viridis"
+    mode: RangeMode = RangeMode.FULL
+    pinned: tuple[float, float] = (0.0, 1.0)
+    reverse: bool = False
+
+    def __post_init__(self) -> None:
+        low, high = (float(end) for end in self.pinned)
+        if not low < high or not np.isfinite([low, high]).all():
+            raise ValueError(f"the colours' range is {self.pinned}: expected two numbers, the lower first")
+        object.__setattr__(self, "mode", RangeMode(self.mode))
+        object.__setattr__(self, "pinned", (low, high))
+
+
 @dataclass(frozen=True)
 class Isolation:
     """Some elements that are shown with what is around them, and nothing else.
@@ -83,12 +129,8 @@ class Look:
         The share of its size by which each element is drawn smaller, about its centre; not where a cut is smooth.
     quality_range : (low, high), optional
         Elements whose q lies outside are hidden; None shows all.
-    metric : str
-        A name of `hexmend.quality.METRICS`: what the colours show.
-    colour_range : (low, high)
-        The values that the ends of the colour map stand for.
-    colour_map : str
-        A name of `hexmend_app.scene.colours.MAPS`.
+    scale : ColourScale
+        What the colours show.
     edges : bool
         Draw the elements' edges.
     """
@@ -100,7 +142,5 @@ class Look:
     outline: bool = True
     shrink: float = 0.0
     quality_range: tuple[float, float] | None = None
-    metric: str = "q"
-    colour_range: tuple[float, float] = (0.0, 1.0)
-    colour_map: str = "viridis"
+    scale: ColourScale = ColourScale()
     edges: bool = True

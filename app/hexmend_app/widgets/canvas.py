@@ -13,7 +13,7 @@ from pyvistaqt import QtInteractor
 from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, Node
-from hexmend_app.scene.colours import INVERTED, table
+from hexmend_app.scene.colours import INVERTED, Colouring
 from hexmend_app.scene.flight import Flight
 from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
@@ -81,13 +81,13 @@ class Canvas(QWidget):
         """Draw another mesh."""
         self.viewport.set_mesh(mesh, figures)
         self.plane.set_bounds(self.viewport.bounds)
-        self._show_inverted(figures)
+        self._show_colours()
         self._changed()
 
     def set_points(self, points: np.ndarray, figures: ElementQuality, live: bool = False) -> None:
         """Draw the same mesh with its nodes elsewhere; `live` where more is to come, so that no fine frame is due."""
         self.viewport.set_points(points, figures)
-        self._show_inverted(figures)
+        self._show_colours()
         self._changed()
         if live:
             self._rest.stop()
@@ -97,8 +97,7 @@ class Canvas(QWidget):
         self._look = look
         self.viewport.set_look(look)
         self.plane.set(look.clip, plane_shown)
-        self.colour_bar.set_table(table(look.colour_map))
-        self.colour_bar.set_range(*look.colour_range)
+        self._show_colours()
         self._changed()
 
     def fit(self) -> None:
@@ -175,8 +174,18 @@ class Canvas(QWidget):
         self.interactor.close()
         super().closeEvent(event)
 
-    def _show_inverted(self, figures: ElementQuality) -> None:
-        self.colour_bar.set_inverted(figures.n_inverted, INVERTED)
+    @property
+    def colouring(self) -> Colouring | None:
+        """What the colours stand for; None while no mesh is drawn."""
+        return self.viewport.colouring
+
+    def _show_colours(self) -> None:
+        colouring = self.colouring
+        if colouring is not None:
+            self.colour_bar.set_label(colouring.title)
+            self.colour_bar.set_table(colouring.table)
+            self.colour_bar.set_range(colouring.low, colouring.high)
+            self.colour_bar.set_inverted(self.viewport.figures.n_inverted, INVERTED)
 
     def _on_dragged(self, origin: tuple, normal: tuple) -> None:
         crinkle = self._look.clip.crinkle if self._look.clip else True

@@ -131,6 +131,11 @@ class ClipPanel(QWidget):
         ends = self._bounds * direction
         return float(ends.min(axis=0).sum()), float(ends.max(axis=0).sum())
 
+    def _written(self, place: float) -> str:
+        """A position; what is less than a tenth of the slider's step from 0 is 0, such as the middle of most meshes."""
+        extent = float(np.ptp(self._bounds, axis=0).max())
+        return f"{0.0 if abs(place) < 0.1 * extent / _TICKS else place:.4g}"
+
     def _on_axis(self, key: str) -> None:
         if key == "free":  # says how the plane stands; there is nothing to set
             return
@@ -143,7 +148,7 @@ class ClipPanel(QWidget):
         place = low + (high - low) * tick / _TICKS
         origin = centre + direction * (place - centre @ direction)
         self._plane = dataclasses.replace(self._plane, origin=tuple(origin))
-        self._value.setText(f"{place:.4g}")
+        self._value.setText(self._written(place))
         self._announce()
 
     def _change(self, plane: ClipPlane) -> None:
@@ -170,4 +175,4 @@ class ClipPanel(QWidget):
         place = float(self._direction() @ self._plane.origin)
         with QSignalBlocker(self._slider):
             self._slider.setValue(round(_TICKS * (place - low) / (high - low)) if high > low else 0)
-        self._value.setText(f"{place:.4g}")
+        self._value.setText(self._written(place))

@@ -9,11 +9,12 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from hexmend_app.scene.colours import range_label
 from hexmend_app.widgets.style import INVERTED, LINE, MUTED, TEXT, explain, smaller, tabular
 
 _THICKNESS = 14.0
 _SWATCH = 32.0
-_GAP = 12.0
+_GAP = 24.0
 _TICK = 4.0
 _MOST_TICKS = 11
 
@@ -74,6 +75,13 @@ class ColourBar(QWidget):
         self._table = table
         self.update()
 
+    def set_label(self, label: str) -> None:
+        """Take the name of the quantity."""
+        self._label = label
+        self._describe()
+        self.updateGeometry()
+        self.update()
+
     def set_range(self, low: float, high: float) -> None:
         """Take the values at the ends of the gradient."""
         self._low, self._high = float(low), float(high)
@@ -89,14 +97,18 @@ class ColourBar(QWidget):
         self.update()
 
     def _describe(self) -> None:
+        low, high = self._text(self._low), self._text(self._high)
         explain(
             self,
             "Colour bar",
-            f"Colours stand for {self._label} from {self._low:g} to {self._high:g}, 1 for a cube and 0 for a flat "
-            "element; values beyond an end have the end's colour. Inverted elements, which are turned inside out at a "
-            "corner (a determinant σ ≤ 0), have a colour of their own.",
+            f"Colours stand for {self._label} from {low} to {high}; values beyond an end have the end's colour. "
+            "Inverted elements, which are turned inside out at a corner (a determinant σ ≤ 0), are outlined and have a "
+            "colour of their own.",
         )
-        self.setAccessibleDescription(f"{self._swatch_text()}; {self._label} from {self._low:g} to {self._high:g}")
+        self.setAccessibleDescription(f"{self._swatch_text()}; {self._label} from {low} to {high}")
+
+    def _text(self, value: float) -> str:
+        return range_label(value, self._low, self._high)
 
     def _swatch_text(self) -> str:
         return f"inverted ({self._inverted:,})" if self._inverted else "inverted"
@@ -154,6 +166,19 @@ class ColourBar(QWidget):
             QRectF(inside.left(), top, _THICKNESS, max(under - _GAP - top, 1)),
         )
 
+    def _ticks(self, length: float, room: float) -> list[float]:
+        """Both ends, and of the round values between them those that leave each number its room."""
+        low, high = self._low, self._high
+        if not high > low:
+            return []
+        near = room / max(length, 1) * (high - low)
+        between: list[float] = []
+        for most in range(min(int(length / room) + 1, _MOST_TICKS), 2, -1):
+            between = nice_ticks(low, high, most)
+            if len(between) < 2 or between[1] - between[0] >= near:
+                break
+        return [low, *(tick for tick in between if low + near <= tick <= high - near), high]
+
     def _paint_labels(self, painter: QPainter, metrics: QFontMetricsF, swatch: QRectF, bar: QRectF) -> None:
         line, ascent = metrics.height(), metrics.ascent()
         painter.setPen(QColor(TEXT))
@@ -165,17 +190,18 @@ class ColourBar(QWidget):
         painter.drawText(QPointF(swatch.left(), swatch.bottom() + _TICK + 2 + ascent), self._swatch_text())
 
         length = bar.width() if self._across else bar.height()
-        need = metrics.horizontalAdvance("0.00") * 1.7 if self._across else 2.2 * line
-        for value in nice_ticks(self._low, self._high, min(max(2, int(length / need) + 1), _MOST_TICKS)):
+        ends = self._text(self._low), self._text(self._high)
+        room = max(map(metrics.horizontalAdvance, ends)) + metrics.horizontalAdvance("00") if self._across else 2 * line
+        for value in self._ticks(length, room):
             share = (value - self._low) / (self._high - self._low)
-            text = f"{value:g}"
+            text = self._text(value)
             painter.setPen(QPen(QColor(MUTED), 1))
             if self._across:
                 x = round(bar.left() + share * length) + 0.5 * (share < 0.5) - 0.5 * (share >= 0.5)
                 painter.drawLine(QPointF(x, bar.bottom() + 1), QPointF(x, bar.bottom() + _TICK))
                 wide = metrics.horizontalAdvance(text)
                 painter.setPen(QColor(TEXT))
-                # "q(H)" stands higher, so the last number may reach under it.
+                # The label stands higher, so the last number may reach under it.
                 painter.drawText(QPointF(x - wide / 2, bar.bottom() + _TICK + 2 + ascent), text)
             else:
                 y = round(bar.bottom() - share * length)

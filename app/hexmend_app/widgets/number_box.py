@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.widgets.style import FIELD, MUTED, TEXT, WORSE, smaller, tabular
+from hexmend_app.widgets.style import FIELD, MUTED, PANEL, TEXT, WORSE, smaller, tabular
 from hexmend_app.widgets.wording import short_number
 
 
@@ -55,7 +55,8 @@ class NumberBox(QAbstractSpinBox):
         suffix.setFont(smaller(suffix.font()))
         suffix.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         palette = suffix.palette()
-        palette.setColor(QPalette.ColorRole.WindowText, QColor(MUTED))
+        for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):
+            palette.setColor(group, QPalette.ColorRole.WindowText, QColor(MUTED))
         suffix.setPalette(palette)
         layout = QHBoxLayout(line)
         layout.setContentsMargins(0, 0, 4, 0)
@@ -99,8 +100,10 @@ class NumberBox(QAbstractSpinBox):
     def _mark(self, problem: str) -> None:
         self.problem = problem
         palette = self.palette()
-        palette.setColor(QPalette.ColorRole.Text, QColor(WORSE if problem else TEXT))
-        palette.setColor(QPalette.ColorRole.Base, QColor("#fdf0e6" if problem else FIELD))
+        for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):  # disabled, it is to look so
+            palette.setColor(group, QPalette.ColorRole.Text, QColor(WORSE if problem else TEXT))
+            palette.setColor(group, QPalette.ColorRole.Base, QColor("#fdf0e6" if problem else FIELD))
+        palette.setColor(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Base, QColor(PANEL))
         if palette != self.palette():
             self.setPalette(palette)
 

@@ -24,6 +24,9 @@ from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.style import MUTED, WORSE, explain, note, tabular, tint
 from hexmend_app.widgets.wording import counted
 
+# Height of a section's margins, and of names that take two lines in a narrow panel.
+_AROUND_FORM = 24
+
 
 class SmoothingPanel(QWidget):
     """Chooses a method and its values, and asks for it to be run.
@@ -197,8 +200,10 @@ class SmoothingPanel(QWidget):
         around = self.parentWidget()
         while around is not None and not isinstance(around, QScrollArea):
             around = around.parentWidget()
-        room = around.viewport().height() if around is not None else self.height()
+        room, whole = (self.height(), self) if around is None else (around.viewport().height(), around.widget())
+        room -= whole.minimumSizeHint().height()  # what stands beside this panel counts too
         for section, form in zip(self._sections, (self.form, self.stop_form), strict=True):
-            room_left = room - self.sizeHint().height()
-            if form.sizeHint().height() + 12 <= room_left:
+            need = form.sizeHint().height() + _AROUND_FORM
+            if need <= room:
                 section.expand()
+                room -= need

@@ -102,7 +102,7 @@ def change(row: Row, start: float | None, now: float | None) -> tuple[str, int]:
     if moved == 0 or not math.isfinite(moved):
         return "=", 0
     size = figure(abs(moved))
-    if isinstance(moved, float) and float(size.replace(",", "")) == 0:
+    if isinstance(moved, float) and abs(moved) < 0.5e-4:
         size = "<0.0001"
     return f"{'▲' if moved > 0 else '▼'} {size}", row.better * (1 if moved > 0 else -1)
 
@@ -142,6 +142,7 @@ class StatisticsTable(QWidget):
         layout.addWidget(table)
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
+        table.setMinimumWidth(self._title_width() + self._figures_width())
 
     def _fill(self) -> None:
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
@@ -217,6 +218,11 @@ class StatisticsTable(QWidget):
     def sizeHint(self) -> QSize:
         """All rows and the longest title, without scrolling."""
         margins = self.layout().contentsMargins()
-        title = max(self._table.fontMetrics().horizontalAdvance(row.title) for row in ROWS) + 9
-        figures = sum(self._table.columnWidth(column) for column in (_START, _NOW, _CHANGE))
-        return QSize(title + figures, self._table.height()).grownBy(margins)
+        size = QSize(self._title_width() + self._figures_width(), self._table.height())
+        return size.grownBy(margins)
+
+    def _title_width(self) -> int:
+        return max(self._table.fontMetrics().horizontalAdvance(row.title) for row in ROWS) + 9
+
+    def _figures_width(self) -> int:
+        return sum(self._table.columnWidth(column) for column in (_START, _NOW, _CHANGE))

@@ -123,9 +123,9 @@ class WorstList(QWidget):
         explain(
             self._alone, "Isolate", "Show nothing but the chosen element and its neighbours; Esc brings back the rest."
         )
-        self._previous = self._button("chevron-up", "Previous", "The next better element of the list (Shift+N).")
-        self._next = self._button("chevron-down", "Next", "The next worse element, from the worst on (N).")
-        self._save = self._button("content-save-outline", "Save…", "Save the list as CSV, a line an element.")
+        self._previous = self._button("chevron-up", "Previous", "The element before it in the list (Shift+N).")
+        self._next = self._button("chevron-down", "Next", "The next element of the list, from the worst on (N).")
+        self._save = self._button("content-save-outline", "Save list", "Save the list as CSV, a line an element.")
         self._previous.clicked.connect(self.previous)
         self._next.clicked.connect(self.next)
         self._save.clicked.connect(self.save_requested)
@@ -137,7 +137,7 @@ class WorstList(QWidget):
         self._refresh()
 
     def _button(self, picture: str, name: str, help: str) -> QPushButton:
-        button = QPushButton(icon(picture), name)
+        button = QPushButton(icon(picture), "")  # no words: the dock is narrow
         explain(button, name, help)
         return button
 

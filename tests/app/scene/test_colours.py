@@ -2,8 +2,19 @@
 
 import numpy as np
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 
-from hexmend_app.scene.colours import INVERTED, MAPS, colours, table
+from hexmend.quality import METRICS
+from hexmend_app.scene.colours import INVERTED, MAPS, Colouring, range_label, resolve, table
+from hexmend_app.state.look import ColourScale, RangeMode
+
+NONE = np.zeros(4, bool)
+VALUES = np.array([0.9, 0.2, np.nan, 0.4])
+
+
+def colouring(low, high):
+    return Colouring("q(H)", low, high, table("viridis"))
 
 
 @pytest.mark.parametrize("name", MAPS)
@@ -16,19 +27,67 @@ def test_a_map_has_256_colours_from_dark_to_light_and_none_near_the_inverted(nam
 
 
 def test_ends_beyond_and_between():
-    got = colours(np.array([-1, 0.2, 0.8, 2]), np.zeros(4, bool), (0.2, 0.8), "viridis")
-    np.testing.assert_array_equal(got, table("viridis")[[0, 0, 255, 255]])
+    got = colouring(0.2, 0.8).colours(np.array([-1, 0.2, 0.8, 2, np.inf, -np.inf]), np.zeros(6, bool))
+    np.testing.assert_array_equal(got, table("viridis")[[0, 0, 255, 255, 255, 0]])
 
 
 def test_inverted_elements_have_their_own_colour_whatever_their_value():
-    got = colours(np.array([0.0, 0.5, 1.0]), np.array([True, True, False]), (0, 1), "viridis")
+    got = colouring(0, 1).colours(np.array([0.0, np.nan, 1.0]), np.array([True, True, False]))
     assert got.tolist() == [list(INVERTED), list(INVERTED), table("viridis")[255].tolist()]
-
-
-def test_an_empty_range_is_no_error():
-    assert colours(np.array([0.1, 0.9]), np.zeros(2, bool), (0.5, 0.5), "viridis").shape == (2, 3)
 
 
 def test_an_unknown_map_is_said():
     with pytest.raises(KeyError, match="no colour map"):
         table("jet")
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_declared_ranges_are_taken_where_they_end(name):
+    for mode, declared in (
+        (RangeMode.FULL, METRICS[name].full_range),
+        (RangeMode.ACCEPTABLE, METRICS[name].acceptable),
+    ):
+        got = resolve(ColourScale(name, mode=mode), VALUES, NONE)
+        assert got.title == METRICS[name].title
+        assert (got.low, got.high) == (declared if np.isfinite(declared).all() else (0.2, 0.9))
+
+
+def test_a_range_is_fitted_to_what_is_finite_and_not_inverted():
+    fitted = ColourScale(mode=RangeMode.FITTED)
+    got = resolve(fitted, VALUES, NONE)
+    assert (got.low, got.high) == (0.2, 0.9)
+    got = resolve(fitted, VALUES, np.array([False, True, False, False]))
+    assert (got.low, got.high) == (0.4, 0.9)
+    got = resolve(fitted, VALUES, ~NONE)  # all inverted: better than nothing
+    assert (got.low, got.high) == (0.2, 0.9)
+    got = resolve(fitted, np.full(4, np.nan), NONE)
+    assert (got.low, got.high) == (0, 1)
+
+
+@pytest.mark.parametrize("value", [0.0, 1.0, -3e9, 1e-200])
+def test_equal_values_have_a_colour_from_the_middle(value):
+    got = resolve(ColourScale(mode=RangeMode.FITTED), np.full(4, value), NONE)
+    assert got.low < got.high
+    assert got.colours(np.full(4, value), NONE)[0].tolist() in table("viridis")[127:129].tolist()
+
+
+def test_a_pinned_range_is_as_it_was_set():
+    got = resolve(ColourScale(mode=RangeMode.PINNED, pinned=(-2, 3)), VALUES, NONE)
+    assert (got.low, got.high) == (-2, 3)
+
+
+@pytest.mark.parametrize(("better", "reverse", "dark_is_low"), [
+    (1, False, True), (1, True, False), (-1, False, False), (-1, True, True), (0, False, True), (0, True, False),
+])  # fmt: skip
+def test_the_dark_end_is_the_worst_unless_reversed(monkeypatch, better, reverse, dark_is_low):
+    monkeypatch.setattr("hexmend_app.scene.colours.better", lambda metric: better)
+    got = resolve(ColourScale(reverse=reverse), VALUES, NONE).table
+    assert (got[0].sum() < got[-1].sum()) == dark_is_low
+
+
+@given(st.floats(-1e9, 1e9), st.floats(-1e9, 1e9), st.floats(0, 1))
+def test_labels_read_back_within_a_hundredth_of_the_range(low, high, share):
+    assume(high - low > 1e-5 * max(abs(low), abs(high), 1e-30))
+    value = low + share * (high - low)
+    assert abs(float(range_label(value, low, high)) - value) <= 0.01 * (high - low)
+    assert range_label(low, low, high) != range_label(high, low, high)

@@ -13,8 +13,9 @@ from hexmend.io import write
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, measure
 from hexmend_app.cli.render import _look, command, plane
-from hexmend_app.scene.colours import INVERTED
+from hexmend_app.scene.colours import INVERTED, resolve
 from hexmend_app.scene.picture import picture
+from hexmend_app.scene.values import values
 from hexmend_app.state.look import ClipPlane, Look
 from tests.core.grids import grid, scrambled
 from tests.said import complaints
@@ -75,10 +76,13 @@ def test_every_metric_has_a_range_of_colours(name):
     command.arguments(parser)
     args = parser.parse_args(["a.vtk", "-o", "a.png", "--metric", name])
     for mesh in (grid(2), scrambled(grid(3), 0.6), scrambled(grid(1), 0), grid(2).with_points(grid(2).points * 0)):
-        low, high = _look(args, mesh, measure(mesh.points, mesh.hexes)).colour_range
+        figures = measure(mesh.points, mesh.hexes)
+        scale = _look(args, mesh, figures).scale
+        assert scale.metric == name
+        shown = resolve(scale, values(name, mesh.points, mesh.hexes, figures), figures.inverted)
+        low, high = shown.low, shown.high
         assert np.isfinite((low, high)).all()
         assert low < high
-    assert _look(args, mesh, measure(mesh.points, mesh.hexes)).metric == name
 
 
 def test_a_metric_other_than_q_is_drawn(pictures):

@@ -9,7 +9,7 @@ from hexmend.quality import measure
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.look import ClipPlane, Look
+from hexmend_app.state.look import ClipPlane, ColourScale, Look, RangeMode
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)
@@ -110,7 +110,7 @@ def test_edges_are_drawn_or_not(seen):
 def test_the_same_picture_however_its_look_was_reached(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 0.6)
-    look = Look(clip=INSIDE, quality_range=(0.3, 0.9), colour_map="plasma")
+    look = Look(clip=INSIDE, quality_range=(0.3, 0.9), scale=ColourScale(map="plasma"))
     viewport.set_look(look)
     viewport.set_points(tangled.points, figures_of(tangled))
     moved = pixels()
@@ -123,6 +123,62 @@ def test_the_same_picture_however_its_look_was_reached(seen):
     viewport.set_look(Look())
     viewport.set_look(lower)
     np.testing.assert_array_equal(pixels(), crinkle)
+
+
+def white(image):
+    """Number of pixels in the colour of the outlines of inverted elements."""
+    return int((image.min(axis=2) > 250).sum())
+
+
+@pytest.mark.parametrize("edges", [True, False])
+@pytest.mark.parametrize("clip", [None, ClipPlane((0, 0, 1), (0, 0, 2)), ClipPlane((0, 0, 1), (0, 0, 2.2), False)])
+def test_inverted_elements_that_are_seen_are_outlined(seen, edges, clip):
+    viewport, pixels = seen
+    viewport.set_look(Look(edges=edges, clip=clip))
+    before = pixels()
+    assert white(before) == 0
+    tangled = scrambled(MESH, 1.5)
+    if clip is None:  # the skin's own nodes are held; an element at its corner is turned over through one of them
+        tangled = MESH.with_points(
+            MESH.points + 1.5 * (MESH.points == MESH.points.max(axis=0)).all(axis=1)[:, None] * -1
+        )
+    viewport.set_points(tangled.points, figures_of(tangled))
+    assert white(pixels()) > 30
+    viewport.set_points(MESH.points, figures_of(MESH))
+    np.testing.assert_array_equal(pixels(), before)
+
+
+def test_an_outline_moves_with_its_element(seen):
+    viewport, pixels = seen
+    background = pixels()[0, 0]
+    for size in (1, 0.5, 0.8):
+        mirrored = MESH.with_points(MESH.points * [-size, size, size] + [4, 0, 0])
+        viewport.set_points(mirrored.points, figures_of(mirrored))
+        image = pixels()[:, 60:]  # without the axes in the corner
+        drawn, outline = (np.argwhere(where) for where in ((image != background).any(axis=2), image.min(axis=2) > 250))
+        np.testing.assert_allclose(drawn.min(axis=0), outline.min(axis=0), atol=3)
+        np.testing.assert_allclose(drawn.max(axis=0), outline.max(axis=0), atol=3)
+
+
+def test_inverted_elements_that_are_hidden_are_not_outlined(seen):
+    viewport, pixels = seen
+    tangled = scrambled(MESH, 1.5)
+    viewport.set_points(tangled.points, figures_of(tangled))
+    viewport.set_look(Look(quality_range=(1.5, 2)))  # nothing
+    assert white(pixels()) == 0
+
+
+def test_a_fitted_range_follows_the_points(seen):
+    viewport, _ = seen
+    viewport.set_look(Look(scale=ColourScale(mode=RangeMode.FITTED)))
+    assert viewport.colouring.high - viewport.colouring.low < 1e-5
+    other = scrambled(MESH, 0.2)
+    figures = figures_of(other)
+    viewport.set_points(other.points, figures)
+    assert (viewport.colouring.low, viewport.colouring.high) == (figures.q.min(), figures.q.max())
+    viewport.set_look(Look(scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED)))
+    assert viewport.colouring.title == "Scaled Jacobian"
+    assert viewport.colouring.low == figures.scaled_jacobian.min()
 
 
 def test_nodes_that_no_hex_uses_do_not_count(seen):

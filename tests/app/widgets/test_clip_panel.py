@@ -88,6 +88,12 @@ def test_keys_move_the_plane_by_a_thousandth_and_to_the_ends(panel, heard):
     assert heard[-1].origin[0] == pytest.approx(-1)
 
 
+@pytest.mark.parametrize(("place", "text"), [(-1.356e-5, "0"), (1e-6, "0"), (-0.02, "-0.02"), (1.356, "1.356")])
+def test_a_position_next_to_zero_reads_zero(panel, place, text):
+    panel.set_clip(ClipPlane((1, 0, 0), (place, 0, 0)))
+    assert panel._value.text() == text
+
+
 def test_flipping_hides_the_other_side_in_the_same_place(panel, heard):
     plane = ClipPlane((0, 1, 0), (1, 7, 3))
     panel.set_clip(plane)

@@ -76,3 +76,21 @@ def test_an_empty_range_has_no_ticks(shown):
     bar = ColourBar()
     bar.set_range(0.5, 0.5)
     shown(bar, 300, 40).grab()
+
+
+@given(st.floats(-1e7, 1e7), st.floats(-1e7, 1e7), st.floats(10, 2000))
+def test_both_ends_are_among_the_ticks_and_numbers_leave_each_other_room(low, high, length):
+    assume(high - low > 1e-6 * max(abs(low), abs(high), 1e-3))
+    bar = ColourBar()
+    bar.set_range(low, high)
+    ticks = bar._ticks(length, 40)
+    assert (ticks[0], ticks[-1]) == (low, high)
+    if len(ticks) > 2:
+        assert np.diff(ticks).min() / (high - low) * length >= 39.9
+
+
+def test_the_label_is_the_quantity(shown):
+    bar = ColourBar()
+    bar.set_label("Edge ratio")
+    bar.set_range(1.02, 5.76)
+    assert "Edge ratio from 1.02 to 5.76" in bar.accessibleDescription()

@@ -25,7 +25,7 @@ def worst_list(qtbot):
 
 
 def button(widget, text):
-    return next(b for b in widget.findChildren(QPushButton) if b.text() == text)
+    return next(b for b in widget.findChildren(QPushButton) if b.accessibleName() == text)
 
 
 def row_at(widget, row):

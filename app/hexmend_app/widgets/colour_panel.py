@@ -1,0 +1,248 @@
+"""The panel of the colours: which metric they show, in which map, over which range."""
+
+from __future__ import annotations
+
+import dataclasses
+from html import escape
+
+import numpy as np
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
+from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+
+from hexmend.parameters import Parameter
+from hexmend.quality import METRICS
+from hexmend_app.scene.colours import MAPS, range_label, table
+from hexmend_app.scene.values import better, declared_range
+from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.widgets.metrics import metrics_offered
+from hexmend_app.widgets.number_box import NumberBox
+from hexmend_app.widgets.segmented import Segmented
+from hexmend_app.widgets.style import LINE, WORSE, explain, note
+from hexmend_app.widgets.wording import short_number
+
+_SWATCH = QSize(48, 12)
+_MODES = {
+    RangeMode.FULL: ("Full", "All values that the metric can take"),
+    RangeMode.FITTED: (
+        "Fitted",
+        "The least and the greatest value at the moment, inverted elements apart; follows a running method.",
+    ),
+    RangeMode.ACCEPTABLE: ("Acceptable", "The values that solvers are usually content with"),
+    RangeMode.PINNED: ("Pinned", "Two values that you set; they begin as the range that is shown now."),
+}
+_MAPS = {
+    "viridis": "From violet over green to yellow.",
+    "cividis": "From blue to yellow; looks nearly the same to all kinds of colour vision.",
+    "plasma": "From blue over red to yellow.",
+    "inferno": "From black over red to pale yellow.",
+}
+_BOXES = (("low", 0.0), ("high", 1.0))
+
+
+class ColourPanel(QWidget):
+    """Chooses what the colours of the elements show.
+
+    Signals
+    -------
+    scale_changed(ColourScale)
+        The user chose. Of numbers, only finished ones: entered, stepped, or left for another field.
+    """
+
+    scale_changed = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._scale = ColourScale()
+        self._ends = (0.0, 1.0)  # of the range in use, wherever it comes from
+        self._set: dict[str, tuple[float, float]] = {}  # ends that were typed for each metric, to find them on return
+        self._metric = _combo()
+        for at, metric in enumerate(metrics_offered()):
+            self._metric.addItem(metric.title, metric.name)
+            self._metric.setItemData(at, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
+        self._map = _combo()
+        self._map.setIconSize(_SWATCH)
+        for at, name in enumerate(MAPS):
+            self._map.addItem(_swatch(name), name, name)
+            self._map.setItemData(at, _MAPS.get(name, ""), Qt.ItemDataRole.ToolTipRole)
+        explain(
+            self._map, "Colour map", "All maps are perceptually uniform and readable without telling red from green."
+        )
+        self._reverse = QCheckBox("Reverse")
+        explain(self._reverse, "Reverse", "Swap the ends of the map. Without it, the dark end stands for the worst.")
+        self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
+        self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
+        explain(self._low, "Lowest value", "The value of the first colour; pin the range to set it.")
+        explain(self._high, "Highest value", "The value of the last colour; pin the range to set it.")
+        self._problem = note(colour=WORSE)
+        self._problem.hide()
+        self._lay_out()
+
+        self._metric.activated.connect(self._on_metric)
+        self._map.activated.connect(lambda: self._change(map=self._map.currentData()))
+        self._reverse.clicked.connect(lambda on: self._change(reverse=on))
+        self._mode.chosen.connect(lambda key: self._on_mode(RangeMode(key)))
+        for box in (self._low, self._high):
+            box.changed.connect(lambda box=box: self._on_number(box))
+            box.editingFinished.connect(self._on_numbers)
+        self._refresh()
+        self._show_ends()
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout(self)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(7)
+        grid.setColumnStretch(1, 1)
+        for row, (text, widget) in enumerate((("Colours", self._metric), ("Map", self._map), ("Range", self._mode))):
+            label = QLabel(text)
+            label.setBuddy(widget)
+            grid.addWidget(label, row, 0)
+            grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
+        grid.addWidget(self._reverse, 1, 2)
+        numbers = QHBoxLayout()
+        numbers.setSpacing(8)
+        for part in (self._low, QLabel("to"), self._high):
+            numbers.addWidget(part, 0 if isinstance(part, QLabel) else 1)
+        grid.addLayout(numbers, 3, 1, 1, 2)
+        grid.addWidget(self._problem, 4, 1, 1, 2)
+
+    def set_scale(self, scale: ColourScale) -> None:
+        """Show a choice, without a signal."""
+        if scale != self._scale:
+            self._take(scale)
+
+    def scale(self) -> ColourScale:
+        """The choice that is shown."""
+        return self._scale
+
+    def set_ends(self, low: float, high: float) -> None:
+        """Take the ends of the range in use, found from the figures; without a signal."""
+        self._ends = (low, high)
+        if self._scale.mode is not RangeMode.PINNED:
+            self._show_ends()
+
+    def _on_metric(self) -> None:
+        metric = self._metric.currentData()
+        if metric == self._scale.metric:
+            return
+        pinned, mode = self._set.get(metric, self._scale.pinned), self._scale.mode
+        if mode is RangeMode.PINNED and metric not in self._set:
+            mode = RangeMode.FULL  # the values of one metric mean nothing for another
+        if mode in (RangeMode.FULL, RangeMode.ACCEPTABLE) and declared_range(metric, mode) is None:
+            mode = RangeMode.FITTED
+        self._change(metric=metric, mode=mode, pinned=pinned)
+
+    def _on_mode(self, mode: RangeMode) -> None:
+        pinned = self._scale.pinned
+        if mode is RangeMode.PINNED and self._scale.mode is not mode:
+            pinned = self._set.get(self._scale.metric) or _rounded(*self._ends)
+        self._change(mode=mode, pinned=pinned)
+
+    def _on_number(self, box: NumberBox) -> None:
+        self._show_problem()
+        if not box.lineEdit().isModified():  # stepped, not typed
+            self._on_numbers()
+
+    def _on_numbers(self) -> None:
+        if self._scale.mode is not RangeMode.PINNED or self._show_problem():
+            return
+        pinned = (float(self._low.value()), float(self._high.value()))
+        if pinned != self._scale.pinned:
+            self._set[self._scale.metric] = pinned
+            self._change(pinned=pinned)
+
+    def _change(self, **fields: object) -> None:
+        scale = dataclasses.replace(self._scale, **fields)
+        if scale != self._scale:
+            self._take(scale)
+            self.scale_changed.emit(scale)
+
+    def _take(self, scale: ColourScale) -> None:
+        before, self._scale = self._scale, scale
+        self._refresh()
+        if (scale.mode, scale.pinned) != (before.mode, before.pinned):  # or what is half typed stays
+            self._show_ends()
+
+    def _show_problem(self) -> bool:
+        """Say what is wrong with the numbers; whether anything is."""
+        text = ""
+        if self._scale.mode is RangeMode.PINNED:
+            text = self._low.problem or self._high.problem
+            if not text and not self._low.value() < self._high.value():
+                low, high = (short_number(end) for end in self._scale.pinned)
+                text = f"Expected the lower value first. {low} to {high} stays in use until this is corrected."
+        self._problem.setText(text)
+        self._problem.setVisible(bool(text))
+        return bool(text)
+
+    def _show_ends(self) -> None:
+        ends = self._scale.pinned if self._scale.mode is RangeMode.PINNED else _rounded(*self._ends)
+        for box, end in zip((self._low, self._high), ends, strict=True):
+            if box.value() != end or box.problem:
+                box.set_value(end)
+        self._show_problem()
+
+    def _refresh(self) -> None:
+        scale = self._scale
+        self._metric.setCurrentIndex(self._metric.findData(scale.metric))
+        explain(self._metric, "Metric", _about(scale.metric))
+        self._map.setCurrentIndex(self._map.findData(scale.map))
+        self._reverse.setChecked(scale.reverse)
+        self._mode.set_value(scale.mode.value)
+        for mode in (RangeMode.FULL, RangeMode.ACCEPTABLE):
+            text, help = _MODES[mode]
+            ends, button = declared_range(scale.metric, mode), self._mode.button(mode.value)
+            button.setEnabled(ends is not None)
+            help = f"{help}: {_range(ends)}." if ends else f"{help}: without bound for this metric."
+            explain(button, f"Range: {text}", help)
+        for box in (self._low, self._high):
+            box.setEnabled(scale.mode is RangeMode.PINNED)
+        self._show_problem()
+
+
+def _combo() -> QComboBox:
+    combo = QComboBox()
+    combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    combo.setMinimumContentsLength(8)
+    combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+    return combo
+
+
+def _about(name: str) -> str:
+    """What a metric declares of itself, as rich text."""
+    metric = METRICS[name]
+    which = {1: "More is better.", -1: "Less is better.", 0: ""}[better(name)]
+    full, acceptable = _range(metric.full_range), _range(metric.acceptable)
+    lines = (
+        f"<b>{escape(metric.title)}</b>",
+        escape(metric.formula),
+        f"Full range {full}; acceptable {acceptable}. {which}",
+        f"<i>{escape(metric.source)}</i>",
+    )
+    return f"<qt>{'<br>'.join(lines)}</qt>"
+
+
+def _range(ends: tuple[float, float]) -> str:
+    words = (f"{end:g}".replace("inf", "∞").replace("-", "−") for end in ends)
+    return " to ".join(words)
+
+
+def _rounded(low: float, high: float) -> tuple[float, float]:
+    """The ends as the colour bar writes them, or as they are where that would make them one."""
+    ends = float(range_label(low, low, high)), float(range_label(high, low, high))
+    return ends if ends[0] < ends[1] else (low, high)
+
+
+def _swatch(name: str) -> QIcon:
+    """A small picture of a map, in a pixel each of its colours so that it is sharp at every scale."""
+    colours = np.ascontiguousarray(table(name)[None].repeat(4 * _SWATCH.height(), axis=0))
+    height, width, _ = colours.shape
+    pixmap = QPixmap.fromImage(QImage(colours.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888))
+    pixmap = pixmap.scaled(
+        4 * _SWATCH, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
+    )
+    painter = QPainter(pixmap)
+    painter.setPen(QColor(LINE))
+    painter.drawRect(pixmap.rect().adjusted(0, 0, -1, -1))
+    painter.end()
+    return QIcon(pixmap)
