@@ -12,14 +12,14 @@ from hexmend_app.actions import ACTIONS, ActionSpec
 from hexmend_app.widgets.style import icon
 
 
-def build_menus(window: QMainWindow, handler: Callable[[str], Callable]) -> dict[str, QAction]:
+def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str, QAction]:
     """Give a window its menus and tool bar.
 
     Parameters
     ----------
     window : QMainWindow
-    handler : callable
-        From an action's id to what it calls; the handler of a checkable action takes whether it is on.
+    handlers : dict
+        What each action calls, by its id; that of a checkable action takes whether it is on.
 
     Returns
     -------
@@ -38,7 +38,11 @@ def build_menus(window: QMainWindow, handler: Callable[[str], Callable]) -> dict
             if bar.actions() and not bar.actions()[-1].isSeparator():
                 bar.addSeparator()
         action = actions[spec.id] = _action(window, spec)
-        (action.toggled if spec.checkable else action.triggered).connect(handler(spec.id))
+        handle = handlers[spec.id]
+        if spec.checkable:
+            action.toggled.connect(handle)
+        else:
+            action.triggered.connect(lambda checked=False, handle=handle: handle())
         if spec.separated:
             menus[spec.menu].addSeparator()
         menus[spec.menu].addAction(action)

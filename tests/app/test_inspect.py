@@ -23,7 +23,7 @@ def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtb
     assert chosen is not None
     neighbours = window.document.now.mesh.topology.face_neighbours[chosen]
     assert (neighbours < 0).any()  # what is seen lies at the surface
-    assert window.element_dock.isVisible()
+    assert window.docks["element"].isVisible()
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=QPoint(3, 3))
     assert window.selection.hex is None
     drag(window.canvas.interactor, centre(window), centre(window) + QPoint(40, 0))
@@ -62,10 +62,10 @@ def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
 
 
 def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
-    assert window.save_worst(tmp_path / "worst.csv")
+    assert window.saving.worst(tmp_path / "worst.csv")
     lines = (tmp_path / "worst.csv").read_text().splitlines()
     assert len(lines) == 1 + len(window.worst_list.elements)
-    assert not window.save_worst(tmp_path / "nowhere" / "worst.csv")
+    assert not window.saving.worst(tmp_path / "nowhere" / "worst.csv")
     assert window.messages.messages()[-1][0] == "error"
 
 
@@ -76,7 +76,7 @@ def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
     window.selection.choose(h)
     window.element_panel.node_chosen.emit(inner)
     assert window.selection.node == inner
-    window.element_dock.raise_()
+    window.docks["element"].raise_()
     qtbot.wait(50)
     pin = next(b for b in window.element_panel.findChildren(QCheckBox) if b.text() == "Pinned")
     assert not pin.isChecked()
@@ -115,7 +115,7 @@ def test_every_command_is_found_by_name(window, qtbot):
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
 def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix):
     path = tmp_path / f"histogram{suffix}"
-    assert window.save_histogram(path)
+    assert window.saving.histogram(path)
     starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"from,to,at the start,now"}
     assert path.read_bytes().startswith(starts[suffix])
     if suffix == ".csv":
@@ -125,7 +125,7 @@ def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix)
 
 
 def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
-    assert not window.save_histogram(tmp_path / "histogram.txt")
+    assert not window.saving.histogram(tmp_path / "histogram.txt")
     kind, title, text = window.messages.messages()[-1]
     assert (kind, title) == ("error", "The histogram was not saved")
     assert ".svg, .pdf, .png" in text

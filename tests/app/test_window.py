@@ -216,19 +216,19 @@ def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
 def test_saving_writes_the_mesh_as_it_is_now(window, qtbot, tmp_path):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_F10)
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=60000)
-    window._on_stop()
+    window.smoothing.stop()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=20000)
-    assert window.save(tmp_path / "out.vtk")
+    assert window.saving.mesh(tmp_path / "out.vtk")
     np.testing.assert_array_equal(io.read(tmp_path / "out.vtk").points, window.document.now.mesh.points)
     assert not window.isWindowModified()
-    assert not window.save(tmp_path / "missing" / "out.vtk")
+    assert not window.saving.mesh(tmp_path / "missing" / "out.vtk")
     assert window.messages.messages()[-1][0] == "error"
 
 
 @pytest.mark.parametrize("size", [(640, 480), (1500, 500)])
 def test_a_picture_has_the_size_asked_for_whatever_the_window(window, tmp_path, size):
     window.view.set_clip(window.clip_panel.plane())
-    assert window.save_picture(tmp_path / "view.png", size)
+    assert window.saving.picture(tmp_path / "view.png", size)
     image = Image.open(tmp_path / "view.png")
     assert image.size == size
     colourful = np.ptp(np.asarray(image.convert("RGB")).astype(int), axis=2) > 60

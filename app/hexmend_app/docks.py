@@ -1,0 +1,74 @@
+"""Where the window's widgets stand: the docks around the view."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QScrollArea, QStyle, QVBoxLayout, QWidget
+
+#: Number of the layout: one that was saved with other docks is not restored.
+LAYOUT = 2
+
+
+def column(*parts: QWidget) -> QScrollArea:
+    """Widgets one below the other, that scroll where there is no room."""
+    tools = QWidget()
+    layout = QVBoxLayout(tools)
+    layout.setContentsMargins(8, 6, 8, 6)
+    layout.setSpacing(8)
+    for part in parts:
+        layout.addWidget(part)
+    layout.addStretch()
+    scroll = QScrollArea()
+    scroll.setWidget(tools)
+    scroll.setWidgetResizable(True)
+    scroll.setFrameShape(QScrollArea.Shape.NoFrame)
+    scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    bar = scroll.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
+    scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar)
+    return scroll
+
+
+def add_docks(
+    window: QMainWindow, tools: QWidget, histogram: QWidget, tabs: list[tuple[str, str, QWidget]]
+) -> dict[str, QDockWidget]:
+    """Put tools at the right, a histogram below, and beside it tabs, of which the first is in front.
+
+    Parameters
+    ----------
+    window : QMainWindow
+    tools, histogram : QWidget
+    tabs : list of (name, title, widget)
+
+    Returns
+    -------
+    dict
+        Docks by name.
+    """
+    areas = Qt.DockWidgetArea
+    window.setDockNestingEnabled(True)
+    window.setCorner(Qt.Corner.BottomRightCorner, areas.RightDockWidgetArea)
+    docks = {"tools": _dock(window, "tools", "Smooth, cut and colour", tools, areas.RightDockWidgetArea)}
+    below = docks["histogram"] = _dock(
+        window, "histogram", "Distribution of quality", histogram, areas.BottomDockWidgetArea
+    )
+    for name, title, widget in tabs:
+        docks[name] = _dock(window, name, title, widget, areas.BottomDockWidgetArea)
+    first, *others = (docks[name] for name, _, _ in tabs)
+    window.splitDockWidget(below, first, Qt.Orientation.Horizontal)
+    for before, after in zip([first, *others], others, strict=False):
+        window.tabifyDockWidget(before, after)
+    first.raise_()
+    window.resizeDocks([below, first], [620, 360], Qt.Orientation.Horizontal)
+    window.resizeDocks([below], [270], Qt.Orientation.Vertical)
+    return docks
+
+
+def _dock(window: QMainWindow, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+    dock = QDockWidget(title)
+    dock.setObjectName(name)
+    dock.setWidget(widget)
+    dock.setFeatures(
+        QDockWidget.DockWidgetFeature.DockWidgetMovable | QDockWidget.DockWidgetFeature.DockWidgetFloatable
+    )
+    window.addDockWidget(area, dock)
+    return dock

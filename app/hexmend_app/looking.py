@@ -1,0 +1,121 @@
+"""How the mesh is looked at: the lines between the look, the panels that change it, and the view that shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from hexmend_app.state.document import Document
+from hexmend_app.state.view import View
+from hexmend_app.widgets.clip_panel import ClipPanel
+from hexmend_app.widgets.colour_panel import ColourPanel
+from hexmend_app.widgets.histogram import QualityHistogram
+from hexmend_app.widgets.inside_panel import InsidePanel
+
+if TYPE_CHECKING:
+    from hexmend_app.widgets.canvas import Canvas
+
+
+class Looking:
+    """Carries the user's wishes to the look, and the look to whatever shows it.
+
+    Parameters
+    ----------
+    document, view
+        The window's state.
+    colour_panel, clip_panel, inside_panel, histogram
+        The widgets that change the look.
+    """
+
+    def __init__(
+        self,
+        document: Document,
+        view: View,
+        colour_panel: ColourPanel,
+        clip_panel: ClipPanel,
+        inside_panel: InsidePanel,
+        histogram: QualityHistogram,
+    ):
+        self._document = document
+        self._view = view
+        self._colours = colour_panel
+        self._clip = clip_panel
+        self._inside = inside_panel
+        self._histogram = histogram
+        self._canvas: Canvas | None = None
+        view.look_changed.connect(self._on_look_changed)
+        colour_panel.scale_changed.connect(lambda scale: view.change(scale=scale))
+        histogram.range_changed.connect(lambda chosen: view.change(quality_range=chosen))
+        clip_panel.clip_changed.connect(view.set_clip)
+        clip_panel.plane_shown_changed.connect(view.set_plane_shown)
+        inside_panel.peel_changed.connect(lambda layers: view.change(peel=layers))
+        inside_panel.shrink_changed.connect(lambda share: view.change(shrink=share))
+        inside_panel.outline_changed.connect(lambda on: view.change(outline=on))
+        inside_panel.rings_changed.connect(view.set_rings)
+        inside_panel.all_requested.connect(view.end_isolation)
+        inside_panel.undo_requested.connect(view.undig_last)
+        inside_panel.put_back_requested.connect(view.undig_all)
+
+    def set_canvas(self, canvas: Canvas) -> None:
+        """Take the 3D view, which comes later than the rest."""
+        self._canvas = canvas
+        canvas.clip_dragged.connect(self._view.set_clip)
+        canvas.set_look(self._view.look, self._view.plane_shown)
+
+    def handlers(self) -> dict[str, Callable]:
+        """What its actions do, by id."""
+        directions = {"view_iso": "iso", "view_x": "+x", "view_y": "+y", "view_z": "+z"}
+        return {
+            "fit": lambda: self._canvas.fit(),
+            "parallel": lambda on: self._canvas.set_parallel(on),
+            "edges": lambda on: self._view.change(edges=on),
+            "clip": self._switch_clip,
+            **{id: lambda along=along: self._canvas.look_along(along) for id, along in directions.items()},
+        }
+
+    def checked(self) -> dict[str, bool]:
+        """Which of its actions are on."""
+        return {"edges": self._view.look.edges, "clip": self._view.look.clip is not None}
+
+    def show_another(self) -> None:
+        """Take another mesh, of which nothing is hidden."""
+        now = self._document.now
+        self._view.show_another()
+        self._inside.set_layers(int(now.mesh.topology.layers.max()))
+        low, high = now.mesh.points.min(axis=0), now.mesh.points.max(axis=0)
+        self._clip.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
+        if self._canvas is not None:
+            self._canvas.show()
+            self._canvas.set_mesh(now.mesh, now.figures)
+
+    def move(self, live: bool) -> None:
+        """Show the nodes where they are now; `live` where they go on moving."""
+        if self._canvas is not None:
+            now = self._document.now
+            self._canvas.set_points(now.mesh.points, now.figures, live)
+
+    def refresh(self) -> None:
+        """Say what is shown, and what the colours stand for."""
+        if self._canvas is not None and self._document.is_open:
+            self._colours.set_ends(self._canvas.colouring.low, self._canvas.colouring.high)
+            self._inside.set_shown(self._canvas.viewport.shown, self._document.now.mesh.n_hexes)
+
+    def set_enabled(self, on: bool) -> None:
+        """Let the user change the look, or not."""
+        for panel in (self._colours, self._clip, self._inside, self._histogram):
+            panel.setEnabled(on)
+
+    def _on_look_changed(self) -> None:
+        look = self._view.look
+        self._colours.set_scale(look.scale)
+        self._clip.set_clip(look.clip)
+        self._clip.set_plane_shown(self._view.plane_shown)
+        self._inside.set_look(look, self._view.rings)
+        self._histogram.set_range(look.quality_range)
+        if self._canvas is not None:
+            self._canvas.set_look(look, self._view.plane_shown)
+        self.refresh()
+
+    def _switch_clip(self, on: bool) -> None:
+        if on != (self._view.look.clip is not None):
+            self._view.set_clip(self._clip.plane() if on else None)
