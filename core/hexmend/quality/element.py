@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.hexahedron import EDGES
 from hexmend.kernels.objective import gradient
 from hexmend.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure, read_only
@@ -52,7 +53,7 @@ def element(mesh: Mesh, number: int) -> Element:
     --------
     >>> from hexmend.gallery import make
     >>> one = element(make("cube", size=27), 0)
-    >>> one.nodes.size, one.values["q"].round(6), one.inverted
+    >>> one.nodes.size, round(one.values["q"], 6), one.inverted
     (8, 1.0, False)
     """
     nodes = mesh.hexes[number]
@@ -86,8 +87,8 @@ class Node:
     energy : float
         Sum of eta(H)^2 over them, (3.3); +inf while one of them is inverted.
     downhill : (3,) float64
-        Minus the gradient of that energy by the node's place, in mean edge lengths of the mesh; 0 where the energy is
-        infinite.
+        Minus the gradient of that energy by the node's place, in mean edge lengths of those hexes; 0 where the energy
+        is infinite.
     """
 
     number: int
@@ -111,20 +112,18 @@ def node(mesh: Mesh, number: int) -> Node:
     corners = mesh.topology.node_corners
     places = corners.items[corners.start[number] : corners.start[number + 1]]
     ring = places // 8
-    kind = "free"
     if not ring.size:
-        kind = "unused"
-    elif mesh.topology.boundary[number]:
-        kind = "boundary"
-    elif mesh.fixed[number]:
-        kind = "pinned"
-    x, hexes = mesh.points / (mesh.mean_edge_length or 1.0), np.ascontiguousarray(mesh.hexes[ring])
-    energy = float(np.square(measure(x, hexes).eta).sum()) if ring.size else 0.0
-    downhill = np.zeros(3)
-    if ring.size and np.isfinite(energy):
+        return Node(number, mesh.points[number], "unused", ring, 0.0, np.zeros(3))
+    nodes, corners_in_ring = np.unique(mesh.hexes[ring], return_inverse=True)
+    hexes = corners_in_ring.reshape(-1, 8).astype(np.int32)
+    x = mesh.points[nodes]
+    x = x / (np.linalg.norm(x[hexes[:, EDGES[:, 0]]] - x[hexes[:, EDGES[:, 1]]], axis=-1).mean() or 1.0)
+    energy, downhill = float(np.square(measure(x, hexes).eta).sum()), np.zeros(3)
+    if np.isfinite(energy):
         shares = np.empty((ring.size, 8, 3))
         gradient(read_only(x), read_only(hexes), 0.0, 2.0, np.zeros(ring.size, np.uint8), shares)
         downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
+    kind = "boundary" if mesh.topology.boundary[number] else "pinned" if mesh.fixed[number] else "free"
     return Node(number, mesh.points[number], kind, ring, energy, downhill)
 
 
