@@ -36,7 +36,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
-    {"menus"},
+    {"docks", "inspecting", "looking", "menus", "saving"},
     {"window"},
     {"program"},
     {"bench", "cli"},
