@@ -88,11 +88,11 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("edges", "&Edges", "&View", "E", "grid", "Draw the edges of the elements.", "Edges", checkable=True),
     ActionSpec(
         "clip",
-        "&Clipping plane",
+        "&Clip",
         "&View",
         "C",
         "box-cutter",
-        "Cut the mesh open along a plane.",
+        "Cut the mesh open along planes or a box.",
         "Clip",
         checkable=True,
     ),

@@ -62,13 +62,13 @@ def _open(window: Window, mesh: Mesh) -> None:
 
 def _frame(window: Window, cut: str) -> float:
     """Median milliseconds from new points and qualities to the finished picture."""
+    from hexmend_app.state.clip import PlaneClip
     from hexmend_app.state.document import State
-    from hexmend_app.state.look import ClipPlane
 
     start = window.document.start
     middle = tuple(start.mesh.points.mean(axis=0))
-    window.view.set_plane_shown(False)
-    window.view.set_clip(None if cut == "whole" else ClipPlane((1, 0, 0), middle, cut == "crinkle"))
+    window.view.set_handles(False)
+    window.view.set_clip(None if cut == "whole" else PlaneClip.at((1, 0, 0), middle, cut == "crinkle"))
     shift = start.mesh.mean_edge_length * 0.05 * np.random.default_rng(0).normal(size=start.mesh.points.shape)
     shift *= start.mesh.free[:, None]
     states = [State.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]
@@ -111,23 +111,28 @@ def _measure_filters() -> dict[str, Any]:
 
 def _changes(window: Window, mesh: Mesh) -> dict[str, dict[str, float]]:
     """Median milliseconds of each change of the look, in the parts that it has."""
-    from hexmend_app.state.look import ClipPlane, Isolation
+    from hexmend_app.state.clip import BoxClip, PlaneClip
+    from hexmend_app.state.look import Isolation
 
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     places = [tuple(low + (high - low) * share) for share in np.linspace(0.4, 0.6, _CHANGES)]
     deep = int(mesh.topology.layers.argmax())
     outer = np.flatnonzero(mesh.topology.layers == 0)[:: max(1, mesh.n_hexes // 500)]
     looks = {
-        "clip": [{"clip": ClipPlane((1, 0, 0), place)} for place in places],
+        "clip": [{"clip": PlaneClip.at((1, 0, 0), place)} for place in places],
+        "smooth cut": [{"clip": PlaneClip.at((1, 0, 0), place, crinkle=False)} for place in places],
+        "box": [{"clip": BoxClip(tuple(low), place)} for place in places],
+        "corner cut out": [{"clip": BoxClip(place, tuple(high), notch=True)} for place in places],
+        "smooth corner": [{"clip": BoxClip(place, tuple(high), crinkle=False, notch=True)} for place in places],
         "quality range": [{"quality_range": (0.5 + k / 100, 1.0)} for k in range(_CHANGES)],
         "peel": [{"peel": 1 + k % int(mesh.topology.layers.max())} for k in range(_CHANGES)],
         "isolate": [{"isolation": Isolation((deep,), 1 + k)} for k in range(_CHANGES)],
         "dig": [{"dug": frozenset(outer[: k + 1].tolist())} for k in range(_CHANGES)],
         "shrink": [{"shrink": 0.2 + k / 50} for k in range(_CHANGES)],
-        "clip, peel, shrink": [{"clip": ClipPlane((1, 0, 0), place), "peel": 1, "shrink": 0.3} for place in places],
+        "clip, peel, shrink": [{"clip": PlaneClip.at((1, 0, 0), place), "peel": 1, "shrink": 0.3} for place in places],
     }
     viewport, canvas = window.canvas.viewport, window.canvas
-    window.view.set_plane_shown(False)
+    window.view.set_handles(False)
     kept, spent = viewport._kept, [0.0]
 
     def timed() -> np.ndarray | None:

@@ -1,15 +1,31 @@
-"""The smooth cut: the section of the elements by a plane, and the skin behind it."""
+"""The smooth cut: the sections of the elements by planes, and the skin that is left."""
 
 from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkPlane
-from vtkmodules.vtkFiltersCore import vtkClipPolyData, vtkPlaneCutter
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkClipPolyData, vtkPlaneCutter
 
 from hexmend_app.scene import sides
 from hexmend_app.scene.surface import coloured
-from hexmend_app.state.look import ClipPlane
+from hexmend_app.state.clip import Clip, ClipPlane
+
+
+def sections(
+    points: np.ndarray, hexes: np.ndarray, keep: np.ndarray | None, clip: Clip, colours: np.ndarray
+) -> pv.PolyData:
+    """What is seen where planes cut through the elements: the section by each, as far as the others leave it open.
+
+    Parameters are those of `section`.
+    """
+    seen, planes = [], clip.planes
+    for at, plane in enumerate(planes):
+        part = section(points, hexes, keep, plane, colours)
+        for other in (*planes[:at], *planes[at + 1 :]):
+            part = _half(part, other, beyond=clip.notch)
+        seen.append(part)
+    return _together(seen)
 
 
 def section(
@@ -46,14 +62,40 @@ def section(
     return pv.wrap(cutter.GetOutput())
 
 
-def behind(skin: pv.PolyData, plane: ClipPlane) -> pv.PolyData:
-    """The part of a skin on the kept side of a plane, colours carried along."""
+def behind(skin: pv.PolyData, clip: Clip) -> pv.PolyData:
+    """The part of a skin that is not cut away, colours carried along."""
+    if not clip.notch:
+        for plane in clip.planes:
+            skin = _half(skin, plane)
+        return skin
+    left = []
+    for plane in clip.planes:
+        left.append(_half(skin, plane))
+        skin = _half(skin, plane, beyond=True)
+    return _together(left)
+
+
+def _half(poly: pv.PolyData, plane: ClipPlane, beyond: bool = False) -> pv.PolyData:
+    """The part of polygons that lies before a plane, or beyond it."""
+    if not poly.GetNumberOfCells():
+        return poly
     clip = vtkClipPolyData()
-    clip.SetInputData(skin)
+    clip.SetInputData(poly)
     clip.SetClipFunction(_vtk(plane))
-    clip.InsideOutOn()
+    clip.SetInsideOut(not beyond)
     clip.Update()
     return pv.wrap(clip.GetOutput())
+
+
+def _together(parts: list[pv.PolyData]) -> pv.PolyData:
+    parts = [part for part in parts if part.GetNumberOfCells()]  # an empty one takes the colours of all away
+    if len(parts) < 2:
+        return parts[0] if parts else pv.PolyData()
+    append = vtkAppendPolyData()
+    for part in parts:
+        append.AddInputData(part)
+    append.Update()
+    return pv.wrap(append.GetOutput())
 
 
 def _vtk(plane: ClipPlane) -> vtkPlane:

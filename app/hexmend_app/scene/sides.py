@@ -1,4 +1,4 @@
-"""On which side of a plane the elements lie; on one thread, because the window's thread asks."""
+"""On which side of planes the elements lie; on one thread, because the window's thread asks."""
 
 from __future__ import annotations
 
@@ -8,23 +8,29 @@ from hexmend.kernels import serial
 
 
 @serial
-def centres_kept(points, hexes, normal, offset):
-    """True for each hex whose centre has x . normal <= offset, (m,) bool.
+def centres_kept(points, hexes, normals, offsets, notch):
+    """True for each hex whose centre is not cut away, (m,) bool.
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
-    normal : (3,) float64
-    offset : float
+    normals : (k, 3) float64
+    offsets : (k,) float64
+        A point lies beyond a plane where x . normal > offset.
+    notch : bool
+        Cut away what lies beyond all planes; else what lies beyond one of them.
     """
-    height = _heights(points, normal)
-    kept = np.empty(hexes.shape[0], np.bool_)
-    for h in range(hexes.shape[0]):
-        total = 0.0
-        for c in range(8):
-            total += height[hexes[h, c]]
-        kept[h] = total <= 8 * offset
+    kept = np.full(hexes.shape[0], not notch)
+    for k in range(normals.shape[0]):
+        height = _heights(points, normals[k])
+        for h in range(hexes.shape[0]):
+            if kept[h] == notch:  # already decided
+                continue
+            total = 0.0
+            for c in range(8):
+                total += height[hexes[h, c]]
+            kept[h] = total <= 8 * offsets[k]
     return kept
 
 

@@ -236,15 +236,15 @@ class Viewport:
                 halo.hide()
 
     def _replace(self, keep: np.ndarray | None) -> None:
-        plane = self._look.clip
-        if plane is None or plane.crinkle:
+        clip = self._look.clip
+        if clip is None or clip.crinkle:
             if self._skin_surface.poly is not self._whole:
                 self._skin_surface.replace(self._whole)
             self._section_surface.hide()
             return
-        self._skin_surface.replace(cut.behind(self._whole, plane))
+        self._skin_surface.replace(cut.behind(self._whole, clip))
         every = self._colours(slice(None))
-        self._section_surface.replace(cut.section(self._points, self._mesh.hexes, keep, plane, every))
+        self._section_surface.replace(cut.sections(self._points, self._mesh.hexes, keep, clip, every))
 
     def _cull(self) -> None:
         """Leave out faces seen from behind, a third of the frame, unless an inverted element may turn them to us."""
