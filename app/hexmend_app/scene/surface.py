@@ -102,6 +102,11 @@ def hex_of(data: pv.DataSet, cell: int) -> int:
     return int(data.cell_data[_HEX][cell])
 
 
+def hexes_of(poly: pv.PolyData) -> np.ndarray:
+    """The hexes that polygons show, (k,) int32."""
+    return np.asarray(poly.cell_data[_HEX])
+
+
 def colours_of(poly: pv.PolyData) -> np.ndarray:
     """The colours that polygons carry, (k, 3) uint8."""
     return np.asarray(poly.cell_data[_COLOURS])

@@ -23,14 +23,14 @@ COLOURS = np.arange(24 * 3, dtype=np.uint8).reshape(24, 3)
     [((1, 0, 0), (1.5, 0, 0), 6, 6), ((0, 1, 0), (0, 0.25, 0), 8, 8), ((0, 0, -1), (0, 0, 1.5), 12, 12), ((1, 1, 0), (1, 0.5, 0), 3 * 2**0.5, None)],
 )  # fmt: skip
 def test_the_section_has_the_area_of_the_cut(normal, origin, area, cells):
-    got = cut.section(MESH.points, MESH.hexes, None, ClipPlane(normal, origin), COLOURS)
+    got = cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at(normal, origin), COLOURS)
     assert got.area == pytest.approx(area, rel=1e-6)
     assert cells is None or got.n_cells == cells
 
 
 @pytest.mark.parametrize("x", [1, 2, 3, 4])
 def test_a_plane_through_nodes_shows_the_elements_that_are_kept(x):
-    got = cut.section(MESH.points, MESH.hexes, None, ClipPlane((1, 0, 0), (x, 0, 0)), COLOURS)
+    got = cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at((1, 0, 0), (x, 0, 0)), COLOURS)
     assert got.area == pytest.approx(6)
     hexes = got.cell_data["colours"][:, 0] // 3
     assert sorted(hexes) == [x - 1 + 4 * k for k in range(6)]
@@ -41,13 +41,13 @@ def test_a_plane_through_nodes_is_whole_however_their_places_are_rounded(seed, x
     turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
     turn *= np.linalg.det(turn)  # a rotation, not a mirror image
     shift = np.random.default_rng(seed).normal(size=3) * 10
-    plane = ClipPlane(turn[:, 0], turn[:, 0] * x + shift)
-    got = cut.section(MESH.points @ turn.T + shift, MESH.hexes, None, plane, COLOURS)
+    plane = PlaneClip.at(turn[:, 0], turn[:, 0] * x + shift)
+    got = cut.sections(MESH.points @ turn.T + shift, MESH.hexes, None, plane, COLOURS)
     assert got.area == pytest.approx(6)
 
 
 def test_each_polygon_has_the_colour_of_its_hex():
-    got = cut.section(MESH.points, MESH.hexes, None, ClipPlane((1, 0, 0), (1.5, 0, 0)), COLOURS)
+    got = cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
     centres = got.cell_centers().points
     for centre, colour in zip(centres, got.cell_data["colours"], strict=True):
         h = int(centre[0]) + 4 * int(centre[1]) + 12 * int(centre[2])
@@ -57,12 +57,12 @@ def test_each_polygon_has_the_colour_of_its_hex():
 def test_hidden_elements_are_not_cut():
     keep = np.zeros(24, dtype=bool)
     keep[1] = True
-    got = cut.section(MESH.points, MESH.hexes, keep, ClipPlane((1, 0, 0), (1.5, 0, 0)), COLOURS)
+    got = cut.sections(MESH.points, MESH.hexes, keep, PlaneClip.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
     assert got.area == pytest.approx(1)
 
 
 def test_a_plane_beside_the_mesh_cuts_nothing():
-    assert cut.section(MESH.points, MESH.hexes, None, ClipPlane((1, 0, 0), (9, 0, 0)), COLOURS).n_cells == 0
+    assert cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at((1, 0, 0), (9, 0, 0)), COLOURS).n_cells == 0
 
 
 def test_behind_the_plane_is_the_rest_of_the_skin():
