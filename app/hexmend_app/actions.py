@@ -127,6 +127,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "undig", "&Undo digging", "&Inspect", "Backspace", help="Show the element again that was dug away last."
     ),
     ActionSpec(
+        "tag",
+        "&Tag the element",
+        "&Inspect",
+        "T",
+        "tag-outline",
+        "Give the chosen element the tag that the tags' panel names, or take it away; tags are saved with the mesh.",
+    ),
+    ActionSpec(
         "back",
         "Step &back",
         "&Inspect",

@@ -133,7 +133,7 @@ def _changes(window: Window, mesh: Mesh) -> dict[str, dict[str, float]]:
     }
     viewport, canvas = window.canvas.viewport, window.canvas
     window.view.set_handles(False)
-    kept, spent = viewport._kept, [0.0]
+    kept, spent = viewport.kept, [0.0]
 
     def timed() -> np.ndarray | None:
         began = perf_counter()
@@ -141,7 +141,7 @@ def _changes(window: Window, mesh: Mesh) -> dict[str, dict[str, float]]:
         spent.append(perf_counter() - began)
         return answer
 
-    viewport._kept = timed
+    viewport.kept = timed
     answer = {}
     for name, changes in looks.items():
         masks, faces, frames = [], [], []

@@ -187,7 +187,7 @@ class Viewport:
     @property
     def shown(self) -> int:
         """Number of hexes that are shown whole or in part, before a smooth cut."""
-        keep = self._kept()
+        keep = self.kept()
         return self._mesh.n_hexes if keep is None else int(np.count_nonzero(keep))
 
     def _measure(self) -> None:
@@ -196,13 +196,13 @@ class Viewport:
         self._values = values(scale.metric, self._points, self._mesh.hexes, figures)
         self._colouring = resolve(scale, self._values, figures.inverted)
 
-    def _kept(self) -> np.ndarray | None:
+    def kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
         return self._filters.kept(self._look, self._points, self._figures)
 
     def _rebuild(self) -> None:
         """Find the visible faces anew."""
-        keep = self._kept()
+        keep = self.kept()
         faces = self._faces = self._visible(keep)
         self._whole = quads(faces.places(self._points), faces.quads, self._face_colours(), faces.hexes)
         self._cut(keep)
@@ -220,7 +220,7 @@ class Viewport:
         set_points(self._whole, self._faces.places(self._points))
         set_colours(self._whole, self._face_colours())
         self._outline.move(self._points)
-        self._cut(self._kept())
+        self._cut(self.kept())
 
     def _cut(self, keep: np.ndarray | None) -> None:
         self._replace(keep)
