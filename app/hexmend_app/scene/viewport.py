@@ -9,6 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkCellPicker
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, Node, corner_qualities
 from hexmend_app.scene import cut
+from hexmend_app.scene.coarse import MANY, coarse
 from hexmend_app.scene.colours import Colouring, resolve
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.fitting import fit
@@ -54,6 +55,8 @@ class Viewport:
         self._mesh: Mesh | None = None
         self._look = Look()
         self._fast = False
+        self._coarse: pv.PolyData | None = None  # of the skin, drawn while the camera moves
+        self._steady = False  # nothing but the camera has moved since the last fine frame
         self._colouring: Colouring | None = None
         plotter.set_background(_BACKGROUND)
         plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
@@ -223,6 +226,8 @@ class Viewport:
         self._cut(self.kept())
 
     def _cut(self, keep: np.ndarray | None) -> None:
+        self._steady, self._coarse = False, None
+        self._skin_surface.stand_in(None)
         self._replace(keep)
         self._outline_inverted()
 
@@ -287,10 +292,20 @@ class Viewport:
         self._plotter.render_window.SetMultiSamples(0)
         self._set_fast(True)
 
+    def turning(self) -> None:
+        """Prepare for fast frames in which nothing but the camera moves."""
+        self.moving()
+        if self._steady and self._skin_surface.poly is self._whole and len(self._faces.quads) > MANY:
+            if self._coarse is None:
+                self._coarse = coarse(self._whole)
+            self._skin_surface.stand_in(self._coarse)
+
     def still(self) -> None:
         """Prepare for a fine frame: smooth edges."""
         self._plotter.render_window.SetMultiSamples(4)
         self._set_fast(False)
+        self._skin_surface.stand_in(None)
+        self._steady = True
 
     def _set_fast(self, fast: bool) -> None:
         if fast != self._fast:

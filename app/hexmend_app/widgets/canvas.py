@@ -72,7 +72,7 @@ class Canvas(QWidget):
         self._rest.setSingleShot(True)
         self._rest.setInterval(_REST)
         self._rest.timeout.connect(self._draw_still)
-        self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._moving())
+        self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._turning())
         self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
         self._pressed: QPointF | None = None
         self.interactor.installEventFilter(self)
@@ -137,7 +137,8 @@ class Canvas(QWidget):
         share = min(self._flown.elapsed() / _FLIGHT, 1.0)
         self._flight.at(share)
         self.viewport.reset_depth()
-        self._changed()
+        self._turning()
+        self._draw_soon()
         if share == 1.0:
             self._fly.stop()
 
@@ -196,14 +197,17 @@ class Canvas(QWidget):
             self.colour_bar.set_inverted(self.viewport.figures.n_inverted, INVERTED)
 
     def _changed(self) -> None:
-        self._moving()
+        self.viewport.moving()
+        self._draw_soon()
+
+    def _draw_soon(self) -> None:
         self._rest.start()
         if not self._frame.isActive():
             self._frame.start(0)
 
-    def _moving(self) -> None:
+    def _turning(self) -> None:
         self._rest.stop()
-        self.viewport.moving()
+        self.viewport.turning()
 
     def _draw(self) -> None:
         self.interactor.render()

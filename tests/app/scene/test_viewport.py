@@ -241,3 +241,26 @@ def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there
     near = pixels()
     viewport.select(inner)
     assert (near != pixels()).any()
+
+
+def test_a_large_skin_is_drawn_coarsely_while_the_camera_turns_and_finely_at_rest(seen, monkeypatch):
+    viewport, pixels = seen
+    monkeypatch.setattr("hexmend_app.scene.viewport.MANY", 50)
+    viewport.still()
+    fine = pixels()
+    viewport.turning()
+    mapper = viewport._skin_surface.actor.mapper
+    rough = mapper.GetInput()
+    assert 0 < rough.GetNumberOfCells() != viewport._whole.GetNumberOfCells()
+    turned = pixels()
+    body = (fine != fine[0, 0]).any(axis=2)
+    assert ((turned != turned[0, 0]).any(axis=2) == body).mean() > 0.98  # the same shape
+    viewport.turning()
+    assert mapper.GetInput() is rough  # made once
+    h, _ = viewport.pick(100, 75)
+    assert (MESH.topology.face_neighbours[h] < 0).any()
+    viewport.set_points(MESH.points, figures_of(MESH))
+    viewport.turning()
+    assert mapper.GetInput() is viewport._whole  # nodes that move are seen as they are
+    viewport.still()
+    np.testing.assert_array_equal(pixels(), fine)
