@@ -215,7 +215,7 @@ class Viewport:
     def _visible(self, keep: np.ndarray | None) -> Faces:
         look = self._look
         if look.shrink and (look.clip is None or look.clip.crinkle):
-            return self._skin.shrunk(look.shrink, keep)
+            return self._skin.shrunk(look.shrink, keep, fine=not self._fast)
         return self._skin.visible(keep)
 
     def _move(self) -> None:
@@ -310,7 +310,9 @@ class Viewport:
     def _set_fast(self, fast: bool) -> None:
         if fast != self._fast:
             self._fast = fast
-            if self._mesh is not None:
+            if self._mesh is not None and self._faces.shrink:
+                self._rebuild()  # many shrunk elements show their sides in fine frames alone
+            elif self._mesh is not None:
                 self._outline_inverted()
 
     @property
