@@ -23,6 +23,7 @@ from hexmend_app.menus import build_menus
 from hexmend_app.resources import demo_mesh
 from hexmend_app.saving import Saving
 from hexmend_app.state.document import Document
+from hexmend_app.state.finder import Finder
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Frame, Phase, Smoothing
 from hexmend_app.state.selection import Selection
@@ -38,6 +39,7 @@ from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, remember_folder, show_about
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
+from hexmend_app.widgets.structure_panel import StructurePanel
 from hexmend_app.widgets.tag_panel import TagPanel
 from hexmend_app.widgets.welcome import Welcome
 from hexmend_app.widgets.worst_list import WorstList
@@ -62,6 +64,7 @@ class Window(QMainWindow):
         self.selection = Selection(self)
         self.smoothing = Smoothing(self.document, self)
         self.opener = Opener(self.document, self)
+        self.finder = Finder(self.document, self)
         self.commands = Commands(self.document, self.view, self.smoothing, self.opener)
         self.canvas: Canvas | None = None
 
@@ -77,6 +80,7 @@ class Window(QMainWindow):
         self.smoothing_panel.set_method(DEFAULT_METHOD)
         self.clip_panel = ClipPanel()
         self.inside_panel = InsidePanel()
+        self.structure_panel = StructurePanel()
         self.colour_panel = ColourPanel()
         self.progress = QProgressBar()
         self.progress.setRange(0, 0)
@@ -86,7 +90,14 @@ class Window(QMainWindow):
 
         self._lay_out()
         self.looking = Looking(
-            self.document, self.view, self.colour_panel, self.clip_panel, self.inside_panel, self.histogram
+            self.document,
+            self.view,
+            self.finder,
+            self.colour_panel,
+            self.clip_panel,
+            self.inside_panel,
+            self.structure_panel,
+            self.histogram,
         )
         self.inspecting = Inspecting(
             self.document,
@@ -126,7 +137,9 @@ class Window(QMainWindow):
         centre = QWidget()
         centre.setLayout(self._centre)
         self.setCentralWidget(centre)
-        tools = column(self.smoothing_panel, self.colour_panel, self.clip_panel, self.inside_panel)
+        tools = column(
+            self.smoothing_panel, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel
+        )
         tabs = [
             ("quality", "Quality", self.statistics),
             ("worst", "Worst elements", self.worst_list),
@@ -156,6 +169,7 @@ class Window(QMainWindow):
         self.document.points_moved.connect(self._on_points_moved)
         self.document.changes_changed.connect(self._enable)
         self.view.look_changed.connect(self._enable)
+        self.finder.found.connect(self._enable)
         self.opener.began.connect(self._on_opening)
         self.opener.ended.connect(self._on_opened)
         self.opener.failed.connect(self._on_open_failed)
@@ -271,8 +285,8 @@ class Window(QMainWindow):
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
             self.actions_by_id[id].setIconText(word.replace("&", ""))
         self.actions_by_id["stop"].setEnabled(busy)
-        for id, on in (self.inspecting.offered() | self.tagging.offered()).items():
-            self.actions_by_id[id].setEnabled(on)
+        for id, on in (self.inspecting.offered() | self.tagging.offered() | self.looking.offered()).items():
+            self.actions_by_id[id].setEnabled(on and self.document.is_open)
         if not self.messages.isHidden():
             self.actions_by_id["back"].setEnabled(False)  # Esc dismisses a message first
         for id, on in self.looking.checked().items():
@@ -343,6 +357,7 @@ class Window(QMainWindow):
             return
         self.smoothing.shut_down()
         self.opener.shut_down()
+        self.finder.shut_down()
         settings = QSettings()
         settings.setValue("geometry", self.saveGeometry())
         settings.setValue("layout", self.saveState(LAYOUT))
