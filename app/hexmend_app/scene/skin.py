@@ -31,12 +31,15 @@ class Faces:
         The hex that each quad belongs to.
     shrink : float
         Where it is not 0, the nodes are those of whole hexes, eight by eight, and drawn that much nearer to their mean.
+    many : bool
+        Whether they are so many shrunk ones that sides are left out while something moves.
     """
 
     nodes: np.ndarray
     quads: np.ndarray
     hexes: np.ndarray
     shrink: float = 0.0
+    many: bool = False
 
     def places(self, points: np.ndarray) -> np.ndarray:
         """Where the nodes are drawn, (u, 3), of a mesh whose nodes are at (n, 3) float64 `points`."""
@@ -73,7 +76,7 @@ class Skin:
         if np.count_nonzero(keep) <= WHOLE:
             return Faces(*_faces_of(self._hexes, np.flatnonzero(keep), _NONE, keep), shrink)
         chosen = np.flatnonzero(_outer(self._neighbours, keep))
-        return Faces(*_faces_of(self._hexes, chosen, _NONE if fine else self._neighbours, keep), shrink)
+        return Faces(*_faces_of(self._hexes, chosen, _NONE if fine else self._neighbours, keep), shrink, True)
 
 
 @serial

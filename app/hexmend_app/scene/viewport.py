@@ -322,8 +322,8 @@ class Viewport:
         if fast != self._fast:
             self._fast = fast
             self._structure.set_fast(fast)
-            if self._mesh is not None and self._faces.shrink:
-                self._rebuild()  # many shrunk elements show their sides in fine frames alone
+            if self._mesh is not None and self._faces.many:
+                self._rebuild()
             elif self._mesh is not None:
                 self._outline_inverted()
 
