@@ -111,7 +111,7 @@ def _measure_filters() -> dict[str, Any]:
 
 def _changes(window: Window, mesh: Mesh) -> dict[str, dict[str, float]]:
     """Median milliseconds of each change of the look, in the parts that it has."""
-    from hexmend_app.state.look import ClipPlane, Isolation
+    from hexmend_app.state.look import ClipPlane, Isolation, ValueRange
 
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     places = [tuple(low + (high - low) * share) for share in np.linspace(0.4, 0.6, _CHANGES)]
@@ -119,7 +119,7 @@ def _changes(window: Window, mesh: Mesh) -> dict[str, dict[str, float]]:
     outer = np.flatnonzero(mesh.topology.layers == 0)[:: max(1, mesh.n_hexes // 500)]
     looks = {
         "clip": [{"clip": ClipPlane((1, 0, 0), place)} for place in places],
-        "quality range": [{"quality_range": (0.5 + k / 100, 1.0)} for k in range(_CHANGES)],
+        "quality range": [{"quality_range": ValueRange("q", 0.5 + k / 100, 1.0)} for k in range(_CHANGES)],
         "peel": [{"peel": 1 + k % int(mesh.topology.layers.max())} for k in range(_CHANGES)],
         "isolate": [{"isolation": Isolation((deep,), 1 + k)} for k in range(_CHANGES)],
         "dig": [{"dug": frozenset(outer[: k + 1].tolist())} for k in range(_CHANGES)],

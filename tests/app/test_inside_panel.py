@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QMessageBox
 
 from hexmend import gallery, io
 from hexmend_app.program import application
-from hexmend_app.state.look import ClipPlane, Isolation, Look
+from hexmend_app.state.look import ClipPlane, Isolation, Look, ValueRange
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.window import Window
@@ -186,7 +186,7 @@ def test_everything_combines(window):
     view = window.view
     mesh, figures = window.document.now.mesh, window.document.now.figures
     clip = ClipPlane((1, 0, 0), tuple(mesh.points.mean(axis=0)))
-    view.change(clip=clip, peel=1, quality_range=(0.2, 0.9))
+    view.change(clip=clip, peel=1, quality_range=ValueRange("q", 0.2, 0.9))
     view.isolate([444], 3)
     view.dig(443)
     expected = clip.signed_distance(mesh.points[mesh.hexes].mean(axis=1)) <= 0

@@ -75,7 +75,7 @@ _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
     from hexmend.quality import METRICS
     from hexmend_app.scene.colours import MAPS
-    from hexmend_app.state.look import ColourScale, Look, RangeMode
+    from hexmend_app.state.look import ColourScale, Look, RangeMode, ValueRange
 
     if args.colour_map not in MAPS:
         raise _wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
@@ -89,7 +89,7 @@ def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
         mode, ends = RangeMode.FITTED, (0.0, 1.0)
     return Look(
         clip=plane(args.clip, mesh, crinkle=not args.smooth, flip=args.flip) if args.clip else None,
-        quality_range=_range(args.quality_range, "--quality-range") if args.quality_range else None,
+        quality_range=ValueRange("q", *_range(args.quality_range, "--quality-range")) if args.quality_range else None,
         scale=ColourScale(metric.name, args.colour_map, mode, ends),
         edges=not args.no_edges,
     )

@@ -18,8 +18,8 @@ from hexmend_app.scene.highlight import Highlight
 from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
 from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
-from hexmend_app.scene.values import values
 from hexmend_app.state.look import Look
+from hexmend_app.state.measured import values
 
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
@@ -85,7 +85,7 @@ class Viewport:
         self.select(None)
         self._cull()
         self._measure()
-        self._rebuild()
+        self._rebuild(self._kept())
         self.view("iso")
 
     def set_points(self, points: np.ndarray, figures: ElementQuality) -> None:
@@ -101,10 +101,11 @@ class Viewport:
         self._cull()
         self._show_selected()
         self._measure()
-        if self._look.quality_range is None:
-            self._move()
+        keep = self._kept()
+        if _same(keep, self._keep):
+            self._move(keep)
         else:
-            self._rebuild()
+            self._rebuild(keep)
 
     def set_look(self, look: Look) -> None:
         """Draw it differently."""
@@ -114,7 +115,7 @@ class Viewport:
         if self._mesh is not None and look != before:
             if look.scale != before.scale:
                 self._measure()
-            self._rebuild()
+            self._rebuild(self._kept())
 
     # What is pointed at
 
@@ -200,9 +201,9 @@ class Viewport:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
         return self._filters.kept(self._look, self._points, self._figures)
 
-    def _rebuild(self) -> None:
+    def _rebuild(self, keep: np.ndarray | None) -> None:
         """Find the visible faces anew."""
-        keep = self._kept()
+        self._keep = keep
         faces = self._faces = self._visible(keep)
         self._whole = quads(faces.places(self._points), faces.quads, self._face_colours(), faces.hexes)
         self._cut(keep)
@@ -215,12 +216,12 @@ class Viewport:
             return self._skin.shrunk(look.shrink, keep)
         return self._skin.visible(keep)
 
-    def _move(self) -> None:
+    def _move(self, keep: np.ndarray | None) -> None:
         """The same faces, elsewhere and in other colours."""
         set_points(self._whole, self._faces.places(self._points))
         set_colours(self._whole, self._face_colours())
         self._outline.move(self._points)
-        self._cut(self._kept())
+        self._cut(keep)
 
     def _cut(self, keep: np.ndarray | None) -> None:
         self._replace(keep)
@@ -322,3 +323,8 @@ class Viewport:
     def camera(self) -> pv.Camera:
         """The plotter's camera."""
         return self._plotter.camera
+
+
+def _same(one: np.ndarray | None, other: np.ndarray | None) -> bool:
+    """Whether two masks show the same hexes."""
+    return one is other or (one is not None and other is not None and np.array_equal(one, other))

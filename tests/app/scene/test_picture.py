@@ -15,8 +15,8 @@ from hexmend.quality import METRICS, measure
 from hexmend_app.cli.render import _look, command, plane
 from hexmend_app.scene.colours import INVERTED, resolve
 from hexmend_app.scene.picture import picture
-from hexmend_app.scene.values import values
 from hexmend_app.state.look import ClipPlane, Look
+from hexmend_app.state.measured import values
 from tests.core.grids import grid, scrambled
 from tests.said import complaints
 
