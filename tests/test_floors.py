@@ -36,7 +36,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
-    {"docks", "inspecting", "looking", "menus", "saving"},
+    {"counting", "docks", "inspecting", "looking", "menus", "saving"},
     {"window"},
     {"program"},
     {"bench", "cli"},

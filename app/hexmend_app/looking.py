@@ -9,7 +9,6 @@ from hexmend_app.state.document import Document
 from hexmend_app.state.view import View
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
-from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 
 if TYPE_CHECKING:
@@ -23,7 +22,7 @@ class Looking:
     ----------
     document, view
         The window's state.
-    colour_panel, clip_panel, inside_panel, histogram
+    colour_panel, clip_panel, inside_panel
         The widgets that change the look.
     """
 
@@ -34,18 +33,15 @@ class Looking:
         colour_panel: ColourPanel,
         clip_panel: ClipPanel,
         inside_panel: InsidePanel,
-        histogram: QualityHistogram,
     ):
         self._document = document
         self._view = view
         self._colours = colour_panel
         self._clip = clip_panel
         self._inside = inside_panel
-        self._histogram = histogram
         self._canvas: Canvas | None = None
         view.look_changed.connect(self._on_look_changed)
         colour_panel.scale_changed.connect(lambda scale: view.change(scale=scale))
-        histogram.range_changed.connect(lambda chosen: view.change(quality_range=chosen))
         clip_panel.clip_changed.connect(view.set_clip)
         clip_panel.plane_shown_changed.connect(view.set_plane_shown)
         inside_panel.peel_changed.connect(lambda layers: view.change(peel=layers))
@@ -102,7 +98,7 @@ class Looking:
 
     def set_enabled(self, on: bool) -> None:
         """Let the user change the look, or not."""
-        for panel in (self._colours, self._clip, self._inside, self._histogram):
+        for panel in (self._colours, self._clip, self._inside):
             panel.setEnabled(on)
 
     def _on_look_changed(self) -> None:
@@ -111,7 +107,6 @@ class Looking:
         self._clip.set_clip(look.clip)
         self._clip.set_plane_shown(self._view.plane_shown)
         self._inside.set_look(look, self._view.rings)
-        self._histogram.set_range(look.quality_range)
         if self._canvas is not None:
             self._canvas.set_look(look, self._view.plane_shown)
         self.refresh()
