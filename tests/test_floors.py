@@ -36,7 +36,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
-    {"counting", "docks", "inspecting", "looking", "menus", "saving"},
+    {"counting", "docks", "inspecting", "looking", "menus", "saving", "tagging"},
     {"window"},
     {"program"},
     {"bench", "cli"},

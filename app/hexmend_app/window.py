@@ -28,6 +28,7 @@ from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Frame, Phase, Smoothing
 from hexmend_app.state.selection import Selection
 from hexmend_app.state.view import View
+from hexmend_app.tagging import Tagging
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
@@ -38,6 +39,7 @@ from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, remember_folder, show_about
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
+from hexmend_app.widgets.tag_panel import TagPanel
 from hexmend_app.widgets.welcome import Welcome
 from hexmend_app.widgets.worst_list import WorstList
 
@@ -70,6 +72,7 @@ class Window(QMainWindow):
         self.statistics = StatisticsTable()
         self.worst_list = WorstList()
         self.element_panel = ElementPanel()
+        self.tag_panel = TagPanel()
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
@@ -95,6 +98,16 @@ class Window(QMainWindow):
             self.element_panel,
             self.docks["element"],
         )
+        self.tagging = Tagging(
+            self.document,
+            self.view,
+            self.selection,
+            self.smoothing,
+            self.commands,
+            self.tag_panel,
+            self.worst_list,
+            lambda: self.canvas.viewport.kept(),
+        )
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers())
         self.smoothing_panel.set_shortcuts(
@@ -118,6 +131,7 @@ class Window(QMainWindow):
             ("quality", "Quality", self.statistics),
             ("worst", "Worst elements", self.worst_list),
             ("element", "Element", self.element_panel),
+            ("tags", "Tags", self.tag_panel),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs)
         self.statusBar().addWidget(self.counts, 1)
@@ -178,6 +192,7 @@ class Window(QMainWindow):
             **self.saving.handlers(),
             **self.looking.handlers(),
             **self.inspecting.handlers(),
+            **self.tagging.handlers(),
         }
 
     # What the state tells
@@ -200,6 +215,7 @@ class Window(QMainWindow):
         self.counting.refresh()
         self.statistics.set_summaries(start.summary, now.summary)
         self.inspecting.refresh()
+        self.tagging.refresh()
         self.looking.refresh()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
@@ -254,7 +270,7 @@ class Window(QMainWindow):
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
             self.actions_by_id[id].setIconText(word.replace("&", ""))
         self.actions_by_id["stop"].setEnabled(busy)
-        for id, on in self.inspecting.offered().items():
+        for id, on in (self.inspecting.offered() | self.tagging.offered()).items():
             self.actions_by_id[id].setEnabled(on)
         if not self.messages.isHidden():
             self.actions_by_id["back"].setEnabled(False)  # Esc dismisses a message first
@@ -263,6 +279,7 @@ class Window(QMainWindow):
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.smoothing_panel.setEnabled(self.document.is_open)
         self.looking.set_enabled(self.document.is_open)
+        self.tag_panel.setEnabled(self.document.is_open)
         self.histogram.setEnabled(self.document.is_open)
         self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
         self.setWindowModified(self.document.modified)
