@@ -14,7 +14,6 @@ from hexmend_app.state.look import Look
 from hexmend_app.state.view import View
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
-from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.structure_panel import StructurePanel
 
@@ -29,7 +28,7 @@ class Looking:
     ----------
     document, view, finder
         The window's state.
-    colour_panel, clip_panel, inside_panel, structure_panel, histogram
+    colour_panel, clip_panel, inside_panel, structure_panel
         The widgets that change the look.
     """
 
@@ -42,7 +41,6 @@ class Looking:
         clip_panel: ClipPanel,
         inside_panel: InsidePanel,
         structure_panel: StructurePanel,
-        histogram: QualityHistogram,
     ):
         self._document = document
         self._view = view
@@ -51,11 +49,9 @@ class Looking:
         self._clip = clip_panel
         self._inside = inside_panel
         self._structure = structure_panel
-        self._histogram = histogram
         self._canvas: Canvas | None = None
         view.look_changed.connect(self._on_look_changed)
         colour_panel.scale_changed.connect(lambda scale: view.change(scale=scale))
-        histogram.range_changed.connect(lambda chosen: view.change(quality_range=chosen))
         clip_panel.clip_changed.connect(view.set_clip)
         clip_panel.plane_chosen.connect(view.choose_plane)
         clip_panel.handles_changed.connect(view.set_handles)
@@ -129,7 +125,7 @@ class Looking:
 
     def set_enabled(self, on: bool) -> None:
         """Let the user change the look, or not."""
-        for panel in (self._colours, self._clip, self._inside, self._structure, self._histogram):
+        for panel in (self._colours, self._clip, self._inside, self._structure):
             panel.setEnabled(on)
 
     def _on_look_changed(self) -> None:
@@ -139,7 +135,6 @@ class Looking:
         self._clip.set_handles(self._view.handles)
         self._inside.set_look(look, self._view.rings)
         self._structure.set_structure(look.structure)
-        self._histogram.set_range(look.quality_range)
         self._draw()
         self.refresh()
 

@@ -12,7 +12,8 @@ from hexmend.errors import HexmendError
 from hexmend.report.documents import write_text
 from hexmend_app.commands import Commands
 from hexmend_app.state.document import Document
-from hexmend_app.widgets.histogram import QualityHistogram, write_histogram
+from hexmend_app.widgets.histogram import QualityHistogram
+from hexmend_app.widgets.histogram_file import write_histogram
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
 from hexmend_app.widgets.questions import ask_histogram, ask_list, ask_target

@@ -16,6 +16,7 @@ from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.commands import Commands, methods_offered
+from hexmend_app.counting import Counting
 from hexmend_app.docks import LAYOUT, add_docks, column
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
@@ -97,8 +98,8 @@ class Window(QMainWindow):
             self.clip_panel,
             self.inside_panel,
             self.structure_panel,
-            self.histogram,
         )
+        self.counting = Counting(self.document, self.view, self.smoothing, self.histogram)
         self.inspecting = Inspecting(
             self.document,
             self.view,
@@ -212,11 +213,10 @@ class Window(QMainWindow):
     # What the state tells
 
     def _on_mesh_replaced(self) -> None:
-        start = self.document.start
         self.welcome.setVisible(self.canvas is None)
         self.selection.choose(None)
+        self.counting.show_another()
         self.looking.show_another()
-        self.histogram.set_initial(start.figures.q, start.figures.inverted)
         self.smoothing_panel.set_state("idle")
         self.smoothing_panel.set_status()
         self._show_figures()
@@ -227,7 +227,7 @@ class Window(QMainWindow):
 
     def _show_figures(self) -> None:
         start, now = self.document.start, self.document.now
-        self.histogram.set_current(now.figures.q, now.figures.inverted)
+        self.counting.refresh()
         self.statistics.set_summaries(start.summary, now.summary)
         self.inspecting.refresh()
         self.tagging.refresh()
@@ -295,6 +295,7 @@ class Window(QMainWindow):
         self.smoothing_panel.setEnabled(self.document.is_open)
         self.looking.set_enabled(self.document.is_open)
         self.tag_panel.setEnabled(self.document.is_open)
+        self.histogram.setEnabled(self.document.is_open)
         self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
         self.setWindowModified(self.document.modified)
 

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QMessageBox
 from hexmend import gallery, io
 from hexmend_app.program import application
 from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import Isolation, Look
+from hexmend_app.state.look import Isolation, Look, ValueRange
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.window import Window
@@ -187,7 +187,7 @@ def test_everything_combines(window):
     view = window.view
     mesh, figures = window.document.now.mesh, window.document.now.figures
     clip = PlaneClip.at((1, 0, 0), tuple(mesh.points.mean(axis=0)))
-    view.change(clip=clip, peel=1, quality_range=(0.2, 0.9))
+    view.change(clip=clip, peel=1, quality_range=ValueRange("q", 0.2, 0.9))
     view.isolate([444], 3)
     view.dig(443)
     expected = clip.planes[0].signed_distance(mesh.points[mesh.hexes].mean(axis=1)) <= 0
@@ -213,7 +213,7 @@ def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtb
     before = window.canvas.viewport._faces
     window.smoothing_panel.set_method("laplacian")
     window.smoothing_panel.step()
-    qtbot.waitUntil(lambda: window.smoothing.phase is Phase.PAUSED, timeout=60000)
+    qtbot.waitUntil(lambda: window.smoothing.phase is Phase.PAUSED, timeout=FIRST_RUN)
     drawn = window.canvas.viewport
     assert drawn._faces is before  # nothing depends on quality, so no face is looked for anew
     corners = drawn._points[drawn.mesh.hexes[chosen]]

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import csv
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLineEdit
 
+from hexmend.quality import METRICS
 from hexmend_app.widgets.command_palette import CommandPalette
+from hexmend_app.widgets.histogram_legend import KEPT_COLOURS
 from tests.app.driving import LEFT, click, drag
 from tests.said import FIRST_RUN
 
@@ -116,12 +120,44 @@ def test_every_command_is_found_by_name(window, qtbot):
 def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix):
     path = tmp_path / f"histogram{suffix}"
     assert window.saving.histogram(path)
-    starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"from,to,at the start,now"}
+    starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"q from,q to,at the start,now"}
     assert path.read_bytes().startswith(starts[suffix])
     if suffix == ".csv":
         rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
         assert sum(int(row[3]) for row in rows) == window.document.now.mesh.n_hexes
         assert int(rows[0][3]) == window.document.now.summary.inverted
+
+
+def test_what_is_saved_is_what_is_drawn(window, tmp_path):
+    histogram, now = window.histogram, window.document.now
+    histogram.metric_chosen.emit("condition")
+    histogram.keep_requested.emit()
+    histogram.renamed.emit(0, "as it was, before")
+    histogram.head.bins.setValue(20)
+    histogram.head.cumulative.setChecked(True)
+    histogram.head.scale.button("log").click()
+    for suffix in (".csv", ".svg"):
+        assert window.saving.histogram(tmp_path / f"drawn{suffix}")
+    with open(tmp_path / "drawn.csv", newline="") as file:
+        head, inverted, *rows = csv.reader(file)
+    assert head == ["condition from", "condition to"] + [
+        f"% of hexes up to: {name}" for name in ("at the start", "now", "as it was, before")
+    ]
+    assert len(rows) == 21  # the last beyond the end of the axis
+    assert rows[-1][1:] == ["inf", "100", "100", "100"]
+    assert float(inverted[3]) == pytest.approx(100 * now.summary.inverted / 4000, rel=1e-5)
+    shares = [float(row[3]) for row in rows]
+    assert shares == sorted(shares)
+    values = METRICS["condition"].of(now.mesh.points, now.mesh.hexes, now.figures)
+    up_to = np.count_nonzero(now.figures.inverted | (values < float(rows[4][1])))
+    assert shares[4] == pytest.approx(100 * up_to / 4000, rel=1e-5)
+    drawing = (tmp_path / "drawn.svg").read_text()
+    for text in ("Condition number", "as it was, before (", "inverted", "% of hexes up to x, inverted first"):
+        assert f"<!-- {text}" in drawing
+    assert all(colour in drawing for colour in (KEPT_COLOURS[0], "#0072b2"))
+    histogram.head.scale.button("linear").click()
+    assert window.saving.histogram(tmp_path / "linear.svg")
+    assert (tmp_path / "linear.svg").read_text() != drawing
 
 
 def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):

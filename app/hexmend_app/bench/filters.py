@@ -46,7 +46,7 @@ def _turning(window: Window) -> float:
 def _changes(window: Window) -> dict[str, dict[str, float]]:
     """Median milliseconds of each change of the look, in the parts that it has."""
     from hexmend_app.state.clip import BoxClip, PlaneClip
-    from hexmend_app.state.look import Isolation
+    from hexmend_app.state.look import Isolation, ValueRange
 
     mesh = window.document.now.mesh
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
@@ -59,7 +59,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
         "box": [{"clip": BoxClip(tuple(low), place)} for place in places],
         "corner cut out": [{"clip": BoxClip(place, tuple(high), notch=True)} for place in places],
         "smooth corner": [{"clip": BoxClip(place, tuple(high), crinkle=False, notch=True)} for place in places],
-        "quality range": [{"quality_range": (0.5 + k / 100, 1.0)} for k in range(_CHANGES)],
+        "quality range": [{"quality_range": ValueRange("q", 0.5 + k / 100, 1.0)} for k in range(_CHANGES)],
         "peel": [{"peel": 1 + k % int(mesh.topology.layers.max())} for k in range(_CHANGES)],
         "isolate": [{"isolation": Isolation((deep,), 1 + k)} for k in range(_CHANGES)],
         "dig": [{"dug": frozenset(outer[: k + 1].tolist())} for k in range(_CHANGES)],

@@ -77,7 +77,7 @@ _NAMED = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
 def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
     from hexmend.quality import METRICS
     from hexmend_app.scene.colours import MAPS
-    from hexmend_app.state.look import ColourScale, Look, RangeMode, Structure
+    from hexmend_app.state.look import ColourScale, Look, RangeMode, Structure, ValueRange
 
     if args.colour_map not in MAPS:
         raise wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
@@ -91,7 +91,7 @@ def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
         mode, ends = RangeMode.FITTED, (0.0, 1.0)
     return Look(
         clip=clip.clip_of(args, mesh),
-        quality_range=span(args.quality_range, "--quality-range") if args.quality_range else None,
+        quality_range=ValueRange("q", *span(args.quality_range, "--quality-range")) if args.quality_range else None,
         scale=ColourScale(metric.name, args.colour_map, mode, ends),
         edges=not args.no_edges,
         structure=_structure(args.structure) if args.structure else Structure(),

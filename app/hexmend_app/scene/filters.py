@@ -10,8 +10,10 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene import sides
+from hexmend_app.scene.values import within
 from hexmend_app.state.clip import Clip
-from hexmend_app.state.look import Look
+from hexmend_app.state.look import Look, ValueRange
+from hexmend_app.state.measured import values
 
 
 class Filters:
@@ -52,10 +54,13 @@ class Filters:
                 lambda: topology.ring_of(look.isolation.hexes, look.isolation.rings),
             ),
             self._part("dug", look.dug or None, lambda: _all_but(look.dug, self._mesh.n_hexes)),
-            self._part("quality", chosen and (chosen, figures), lambda: _within(figures.q, *chosen)),
+            self._part("quality", chosen and (chosen, figures), lambda: self._within(chosen, points, figures)),
         )
         masks = [mask for mask in parts if mask is not None]
         return reduce(np.logical_and, masks) if masks else None
+
+    def _within(self, chosen: ValueRange, points: np.ndarray, figures: ElementQuality) -> np.ndarray:
+        return within(values(chosen.metric, points, self._mesh.hexes, figures), chosen)
 
     def _part(self, name: str, reason: Hashable | None, find: Callable[[], np.ndarray]) -> np.ndarray | None:
         if reason is None:
@@ -75,8 +80,3 @@ def _all_but(dug: frozenset[int], m: int) -> np.ndarray:
     answer = np.ones(m, dtype=bool)
     answer[list(dug)] = False
     return answer
-
-
-def _within(q: np.ndarray, low: float, high: float) -> np.ndarray:
-    # The best hex has q = 1 but for rounding.
-    return (q >= low) & ((q <= high) | (high >= 1))

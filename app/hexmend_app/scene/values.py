@@ -1,26 +1,22 @@
-"""Values that colours show: the one place where the app asks a metric for them."""
+"""Values of elements and what is declared of them, as colours, filters and histogram ask for them."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from hexmend.quality import METRICS, ElementQuality
-from hexmend_app.state.look import RangeMode
+from hexmend.quality import METRICS
+from hexmend_app.state.look import RangeMode, ValueRange
 
 
-def values(metric: str, points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
-    """Value of each hex, (m,) float64.
-
-    Parameters
-    ----------
-    metric : str
-        A name of `hexmend.quality.METRICS`.
-    points : (n, 3) float64
-    hexes : (m, 8) int32
-    figures : ElementQuality
-        Of the hexes at these points.
-    """
-    return METRICS[metric].of(points, hexes, figures)
+def within(values: np.ndarray, chosen: ValueRange) -> np.ndarray:
+    """True for each value of the range's metric that lies in the range, (m,) bool."""
+    least, most = METRICS[chosen.metric].full_range
+    inside = np.ones(len(values), dtype=bool)
+    if chosen.low > least:
+        inside &= values >= chosen.low
+    if chosen.high < most:
+        inside &= values <= chosen.high
+    return inside
 
 
 def better(metric: str) -> int:

@@ -20,8 +20,8 @@ from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
 from hexmend_app.scene.structure import StructureLayers
 from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
-from hexmend_app.scene.values import values
 from hexmend_app.state.look import Look
+from hexmend_app.state.measured import values
 
 _BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
@@ -91,7 +91,7 @@ class Viewport:
         self.select(None)
         self._cull()
         self._measure()
-        self._rebuild()
+        self._rebuild(self.kept())
         self.view("iso")
 
     def set_points(self, points: np.ndarray, figures: ElementQuality) -> None:
@@ -107,10 +107,11 @@ class Viewport:
         self._cull()
         self._show_selected()
         self._measure()
-        if self._look.quality_range is None:
-            self._move()
+        keep = self.kept()
+        if _same(keep, self._keep):
+            self._move(keep)
         else:
-            self._rebuild()
+            self._rebuild(keep)
 
     def set_pinned(self, pinned: np.ndarray | None) -> None:
         """Take which nodes are pinned, (n,) bool; drawn with the next points."""
@@ -126,7 +127,7 @@ class Viewport:
         if self._mesh is not None and look != before:
             if look.scale != before.scale:
                 self._measure()
-            self._rebuild()
+            self._rebuild(self.kept())
 
     # What is pointed at
 
@@ -212,9 +213,9 @@ class Viewport:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
         return self._filters.kept(self._look, self._points, self._figures)
 
-    def _rebuild(self) -> None:
+    def _rebuild(self, keep: np.ndarray | None) -> None:
         """Find the visible faces anew."""
-        keep = self.kept()
+        self._keep = keep
         faces = self._faces = self._visible(keep)
         self._whole = quads(faces.places(self._points), faces.quads, self._face_colours(), faces.hexes)
         self._cut(keep)
@@ -228,12 +229,12 @@ class Viewport:
             return self._skin.shrunk(look.shrink, keep, fine=not self._fast)
         return self._skin.visible(keep)
 
-    def _move(self) -> None:
+    def _move(self, keep: np.ndarray | None) -> None:
         """The same faces, elsewhere and in other colours."""
         set_points(self._whole, self._faces.places(self._points))
         set_colours(self._whole, self._face_colours())
         self._outline.move(self._points)
-        self._cut(self.kept())
+        self._cut(keep)
         self._structure.move(self._points, self._figures)
 
     def _cut(self, keep: np.ndarray | None) -> None:
@@ -323,7 +324,7 @@ class Viewport:
             self._fast = fast
             self._structure.set_fast(fast)
             if self._mesh is not None and self._faces.many:
-                self._rebuild()
+                self._rebuild(self.kept())
             elif self._mesh is not None:
                 self._outline_inverted()
 
@@ -351,3 +352,8 @@ class Viewport:
     def camera(self) -> pv.Camera:
         """The plotter's camera."""
         return self._plotter.camera
+
+
+def _same(one: np.ndarray | None, other: np.ndarray | None) -> bool:
+    """Whether two masks show the same hexes."""
+    return one is other or (one is not None and other is not None and np.array_equal(one, other))

@@ -107,6 +107,30 @@ class Structure:
 
 
 @dataclass(frozen=True)
+class ValueRange:
+    """Bounds of a metric, within which elements are shown.
+
+    Parameters
+    ----------
+    metric : str
+        A name of `hexmend.quality.METRICS`.
+    low, high : float
+        Infinite where there is no bound. An end of the metric's full range bounds nothing either: the best hex has
+        q = 1 but for rounding.
+    """
+
+    metric: str
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        if not self.low <= self.high:
+            raise ValueError(
+                f"the range of {self.metric} is {self.low} to {self.high}: expected the lower number first"
+            )
+
+
+@dataclass(frozen=True)
 class Look:
     """Everything that decides what is drawn of a mesh and how.
 
@@ -124,8 +148,8 @@ class Look:
         Draw the outline of the whole where a part is hidden.
     shrink : float
         The share of its size by which each element is drawn smaller, about its centre; not where a cut is smooth.
-    quality_range : (low, high), optional
-        Elements whose q lies outside are hidden; None shows all.
+    quality_range : ValueRange, optional
+        Elements whose value lies outside are hidden; None shows all.
     scale : ColourScale
         What the colours show.
     edges : bool
@@ -140,7 +164,7 @@ class Look:
     dug: frozenset[int] = frozenset()
     outline: bool = True
     shrink: float = 0.0
-    quality_range: tuple[float, float] | None = None
+    quality_range: ValueRange | None = None
     scale: ColourScale = ColourScale()
     edges: bool = True
     structure: Structure = Structure()

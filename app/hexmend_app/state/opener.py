@@ -10,6 +10,7 @@ from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend.mesh import Mesh
 from hexmend.quality import element, node
+from hexmend_app.state.binning import bin_counts
 from hexmend_app.state.document import Document, State
 
 
@@ -28,6 +29,7 @@ class _Reading(QThread):
         try:
             self.state = State.of(read(self.path))
             _ = self.state.mesh.topology.face_neighbours, self.state.mesh.topology.layers  # what the view draws from
+            bin_counts(self.state.figures.q, self.state.figures.inverted, (0.0, 1.0), 1)  # compiled here the first time
         except HexmendError as error:
             self.error = error
         except Exception as error:  # a reader that fails in a way of its own must not take the window down

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from enum import Enum
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -52,6 +53,8 @@ class Smoothing(QObject):
         self._before: State | None = None
         self._worker: Worker | None = None
         self._title = ""
+        self.method = ""  # name of the method that ran last
+        self._metrics: frozenset[str] = frozenset()
         self.phase = Phase.IDLE
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
@@ -67,12 +70,19 @@ class Smoothing(QObject):
         if self.busy or not self._document.is_open:
             return
         self._before = self._document.now
-        self._title = smoother.title
+        self._title, self.method = smoother.title, smoother.name
         self._worker = Worker(self._before.mesh, smoother, stop)
+        self._worker.metrics = self._metrics
         self._worker.grant(iterations)
         self._set_phase(Phase.PREPARING)
         self._worker.start()
         self._timer.start()
+
+    def want(self, metrics: Iterable[str]) -> None:
+        """Have the worker measure these metrics of every iteration, so that the window need not."""
+        self._metrics = frozenset(metrics)
+        if self._worker is not None:
+            self._worker.metrics = self._metrics
 
     def pause(self) -> None:
         """Pause after the iteration at hand."""

@@ -14,6 +14,7 @@ from hexmend.quality import summarise
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import State
+from hexmend_app.state.measured import values
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +65,7 @@ class Worker(QThread):
         self.last: Frame | None = None
         self.error: Exception | None = None
         self.prepared = threading.Event()
+        self.metrics: frozenset[str] = frozenset()  # what the window will ask of every iteration
         self._order = (mesh, smoother, stop)
         self._gate = threading.Condition()
         self._granted: float = 0  # iterations that may still be made; infinite while running
@@ -115,6 +117,8 @@ class Worker(QThread):
 
     def _report(self, iteration: Iteration) -> None:
         moved = self._order[0].with_points(iteration.points)
+        for metric in self.metrics:
+            values(metric, moved.points, moved.hexes, iteration.figures)
         self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)))
         self.mailbox.put(self.last)
 

@@ -11,10 +11,15 @@ _REACH = 6
 
 
 class BrushView(pg.ViewBox):
-    """Drags select a range in [0, 1]: on open ground a new one, on an edge that edge, inside the range all of it.
+    """Drags select a range of places: on open ground a new one, on an edge that edge, inside the range all of it.
 
-    Ends are rounded to hundredths, so that the range is what the texts about it say. The view is told which range is
-    shown; it never sets it.
+    The view is told which range is shown; it never sets it.
+
+    Attributes
+    ----------
+    range : (low, high) or None
+    reach : (low, high)
+        No range goes beyond these.
 
     Signals
     -------
@@ -30,6 +35,7 @@ class BrushView(pg.ViewBox):
     def __init__(self):
         super().__init__(enableMenu=False, defaultPadding=0)
         self.range: tuple[float, float] | None = None
+        self.reach = (0.0, 1.0)
         self._mode = ""
         self._grabbed = (0.0, 0.0)
         self.setAcceptHoverEvents(True)
@@ -57,16 +63,13 @@ class BrushView(pg.ViewBox):
             self._grabbed = self.range or (began, began)
         low, high = self._grabbed
         if self._mode == "move":
-            shift = min(max(x - began, -low), 1 - high)
+            shift = min(max(x - began, self.reach[0] - low), self.reach[1] - high)
             ends = (low + shift, high + shift)
         else:
             fixed = {"low": high, "high": low, "new": began}[self._mode]
             ends = (min(fixed, x), max(fixed, x))
-        low, high = (round(min(max(end, 0.0), 1.0), 2) for end in ends)
-        if high - low < 0.01:
-            # At least one hundredth wide, and inside [0, 1].
-            low = min(low, 0.99)
-            high = round(low + 0.01, 2)
+        least, most = self.reach
+        low, high = (min(max(end, least), most) for end in ends)
         self.brushed.emit((low, high))
 
     def mouseClickEvent(self, ev) -> None:

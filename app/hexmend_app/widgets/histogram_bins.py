@@ -7,59 +7,75 @@ from dataclasses import dataclass
 
 import numpy as np
 
-#: Bins over [0, 1].
-BINS = 50
+from hexmend_app.scene.values import within
+from hexmend_app.state.binning import bin_counts
+from hexmend_app.state.look import ValueRange
+from hexmend_app.widgets.histogram_axis import Axis
+
+#: Bins at first, and how few and how many there can be.
+BINS, FEWEST, MOST = 50, 10, 200
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Distribution:
-    """How the quality of elements is distributed.
+    """How the values of elements are distributed.
 
     Parameters
     ----------
-    q : (m,) float64
-        Quality in [0, 1].
+    values : (m,) float64
+        Of a metric.
     is_inverted : (m,) bool
-    counts : (BINS,) int64
-        Elements that are not inverted, by quality.
-    inverted : int
-        Number of inverted elements.
+    axis : Axis
+    counts : (bins,) int64
+        Elements that are not inverted, by value.
+    inverted, below, above : int
+        Inverted elements, and others beyond the ends of the axis.
     """
 
-    q: np.ndarray
+    values: np.ndarray
     is_inverted: np.ndarray
+    axis: Axis
     counts: np.ndarray
     inverted: int
+    below: int
+    above: int
 
     @property
     def total(self) -> int:
         """Number of elements."""
-        return len(self.q)
+        return len(self.values)
+
+    @property
+    def edges(self) -> np.ndarray:
+        """Ends of the bins as values, (bins + 1,) float64."""
+        return np.linspace(self.axis.low, self.axis.high, len(self.counts) + 1)
+
+    def cumulated(self) -> Distribution:
+        """The same with each count raised by those left of it: inverted elements first, those above the axis last."""
+        below = self.inverted + self.below
+        counts = below + np.cumsum(self.counts)
+        return Distribution(self.values, self.is_inverted, self.axis, counts, self.inverted, below, self.total)
 
     def within(self, low: float, high: float) -> tuple[int, int]:
-        """Elements with low <= q <= high, and how many of them are inverted."""
-        # A cube's q may exceed 1 by rounding.
-        inside = (self.q >= low) & (self.q <= (high if high < 1 else np.inf))
+        """Elements with low <= value <= high, and how many of them are inverted."""
+        inside = within(self.values, ValueRange(self.axis.metric, low, high))
         return int(np.count_nonzero(inside)), int(np.count_nonzero(inside & self.is_inverted))
 
 
-def distribute(q: np.ndarray, inverted: np.ndarray) -> Distribution:
-    """Count (m,) qualities, of which (m,) bool `inverted` says which have no place among the bins.
+def distribute(values: np.ndarray, inverted: np.ndarray, axis: Axis, bins: int = BINS) -> Distribution:
+    """Count (m,) values, of which (m,) bool `inverted` says which have no place among the bins.
 
-    >>> distribute(np.array([0.0, 0.011, 1.0, 0.3]), np.array([False, False, False, True])).counts[[0, 49]].tolist()
-    [2, 1]
+    >>> part = distribute(np.array([0.0, 0.011, 1.0, 0.3]), np.array([False, False, False, True]), Axis("q"))
+    >>> part.counts[[0, 49]].tolist(), part.inverted
+    ([2, 1], 1)
     """
-    q, inverted = np.asarray(q, dtype=np.float64), np.asarray(inverted, dtype=bool)
-    if q.ndim != 1 or q.shape != inverted.shape:
+    values, inverted = np.asarray(values, dtype=np.float64), np.asarray(inverted, dtype=bool)
+    if values.ndim != 1 or values.shape != inverted.shape:
         raise ValueError(
-            f"q has shape {q.shape} and inverted {inverted.shape}: expected one row of the same length each"
+            f"values have shape {values.shape} and inverted {inverted.shape}: expected one row of the same length each"
         )
-    # Uniform bins: the bin is the scaled value; ten times as fast as np.histogram.
-    scaled = q * BINS
-    np.minimum(scaled, BINS - 1, out=scaled)  # q = 1 belongs to the last bin
-    scaled[inverted] = BINS
-    counts = np.bincount(scaled.astype(np.int32), minlength=BINS + 1)
-    return Distribution(q, inverted, counts[:BINS], int(counts[BINS]))
+    counts = bin_counts(values, inverted, (axis.low, axis.high), bins, axis.open_low, axis.open_high)
+    return Distribution(values, inverted, axis, counts[:bins], *(int(counts[bins + k]) for k in (2, 1, 0)))
 
 
 def round_up(value: float) -> float:

@@ -17,3 +17,13 @@ def described(metric: Metric) -> str:
         f"<qt><b>{metric.title}</b>: {metric.formula}.<br>{metric.meaning}<br>"
         f"Acceptable from {low:g} to {high:g} {metric.unit}. <i>{metric.source}</i></qt>"
     )
+
+
+def in_sentence(metric: Metric) -> str:
+    """The title of a metric within a sentence.
+
+    >>> from hexmend.quality import METRICS
+    >>> [in_sentence(METRICS[name]) for name in ("q", "jacobian", "scaled-jacobian", "min-angle")]
+    ['q(H)', 'Jacobian', 'scaled Jacobian', 'smallest angle']
+    """
+    return metric.title if metric.title == "Jacobian" else metric.title[:1].lower() + metric.title[1:]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -71,23 +72,60 @@ def distributions(stem: Path, counts: Mapping[str, Sequence[int]], title: str) -
     HexmendError
         Where matplotlib is missing.
     """
-    figure = _distributions(counts, title)
+    figure, axes = _figure()
+    for k, (label, numbers) in enumerate(counts.items()):
+        edges = [bin / len(numbers) for bin in range(len(numbers) + 1)]
+        axes.stairs(numbers, edges, color=_COLOURS[k % len(_COLOURS)], linewidth=1.6, label=label)
+    axes.set(xlim=(0, 1), xlabel="q(H)", ylabel="hexes", title=title)
+    axes.grid(alpha=0.3)
+    axes.legend(loc="upper left", frameon=False)
     return _saved(figure, stem)
 
 
-def write_distributions(
-    path: Path, counts: Mapping[str, Sequence[int]], inverted: Mapping[str, int], title: str, log: bool = False
+@dataclass(frozen=True)
+class Outline:
+    """A distribution as it is drawn.
+
+    Parameters
+    ----------
+    label, colour : str
+    heights : sequence of float
+        Of the bins, which share the places from 0 to 1.
+    bars : sequence of (left, right, height)
+        What stands beside the bins.
+    filled : bool
+    """
+
+    label: str
+    colour: str
+    heights: Sequence[float]
+    bars: Sequence[tuple[float, float, float]] = ()
+    filled: bool = False
+
+
+def write_histogram_figure(
+    path: Path,
+    outlines: Sequence[Outline],
+    *,
+    title: str,
+    xlabel: str,
+    ylabel: str,
+    ticks: Sequence[tuple[float, str]],
+    extent: tuple[float, float],
+    log: bool = False,
 ) -> None:
     """Write one figure of distributions, as SVG, PDF or PNG by the path's suffix.
 
     Parameters
     ----------
     path : Path
-    counts : mapping
-        As for `distributions`, of hexes that are not inverted.
-    inverted : mapping
-        Numbers of inverted hexes, by the same names; the legend says them.
-    title : str
+    outlines : sequence of Outline
+        The first is drawn at the bottom.
+    title, xlabel, ylabel : str
+    ticks : sequence of (place, text)
+        Below the bins, which lie from 0 to 1, and below the bars beside them.
+    extent : (left, right)
+        Of the figure, in the same places.
     log : bool
         Heights by powers of ten.
 
@@ -99,21 +137,24 @@ def write_distributions(
     if path.suffix.lower() not in FIGURE_SUFFIXES:
         kinds = ", ".join(FIGURE_SUFFIXES)
         raise HexmendError(f"{path.name}: the name of a figure ends in one of {kinds}; choose one of them.")
-    figure = _distributions({f"{name} ({inverted[name]:,} inverted)": row for name, row in counts.items()}, title)
-    if log:
-        figure.axes[0].set(yscale="log", ylim=(0.8, None))
-    _save(figure, path)
-
-
-def _distributions(counts: Mapping[str, Sequence[int]], title: str) -> Figure:
     figure, axes = _figure()
-    for k, (label, numbers) in enumerate(counts.items()):
-        edges = [bin / len(numbers) for bin in range(len(numbers) + 1)]
-        axes.stairs(numbers, edges, color=_COLOURS[k % len(_COLOURS)], linewidth=1.6, label=label)
-    axes.set(xlim=(0, 1), xlabel="q(H)", ylabel="hexes", title=title)
+    for outline in outlines:
+        edges = [bin / len(outline.heights) for bin in range(len(outline.heights) + 1)]
+        width = 1.0 if outline.filled else 1.6
+        if outline.filled:
+            axes.stairs(outline.heights, edges, color=outline.colour, fill=True, alpha=0.35)
+        axes.stairs(outline.heights, edges, color=outline.colour, linewidth=width, label=outline.label)
+        for left, right, height in outline.bars:
+            fill = {"facecolor": (outline.colour, 0.35 if outline.filled else 0.0)}
+            axes.bar(left, height, right - left, align="edge", edgecolor=outline.colour, linewidth=width, **fill)
+    if log:
+        drawn = [h for one in outlines for h in (*one.heights, *(bar[2] for bar in one.bars)) if h > 0]
+        axes.set(yscale="log", ylim=(0.8 * min(drawn, default=1.0), None))
+    axes.set(xlim=extent, xlabel=xlabel, ylabel=ylabel, title=title)
+    axes.set_xticks([place for place, _ in ticks], [text for _, text in ticks])
     axes.grid(alpha=0.3)
-    axes.legend(loc="upper left", frameon=False)
-    return figure
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
+    _save(figure, path)
 
 
 def _figure() -> tuple[Figure, Axes]:

@@ -17,9 +17,9 @@ from hexmend_app.cli.clip import clip_of, plane
 from hexmend_app.cli.render import _look, command
 from hexmend_app.scene.colours import INVERTED, resolve
 from hexmend_app.scene.picture import picture
-from hexmend_app.scene.values import values
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.look import Look
+from hexmend_app.state.measured import values
 from tests.core.grids import grid, scrambled
 from tests.said import complaints
 

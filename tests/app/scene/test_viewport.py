@@ -10,7 +10,7 @@ from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import ClipPlane, PlaneClip
-from hexmend_app.state.look import ColourScale, Look, RangeMode
+from hexmend_app.state.look import ColourScale, Look, RangeMode, ValueRange
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)
@@ -111,7 +111,7 @@ def test_edges_are_drawn_or_not(seen):
 def test_the_same_picture_however_its_look_was_reached(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 0.6)
-    look = Look(clip=INSIDE, quality_range=(0.3, 0.9), scale=ColourScale(map="plasma"))
+    look = Look(clip=INSIDE, quality_range=ValueRange("q", 0.3, 0.9), scale=ColourScale(map="plasma"))
     viewport.set_look(look)
     viewport.set_points(tangled.points, figures_of(tangled))
     moved = pixels()
@@ -167,7 +167,7 @@ def test_inverted_elements_that_are_hidden_are_not_outlined(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 1.5)
     viewport.set_points(tangled.points, figures_of(tangled))
-    viewport.set_look(Look(quality_range=(1.5, 2)))  # nothing
+    viewport.set_look(Look(quality_range=ValueRange("q", 1.5, 2)))  # nothing
     assert white(pixels()) == 0
 
 

@@ -10,6 +10,7 @@ from hexmend.optimise import Step
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.local_sd import LocalSteepestDescent
+from hexmend_app.state import measured
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.run import Phase, Smoothing
 from hexmend_app.state.worker import Mailbox
@@ -133,3 +134,17 @@ def test_a_mailbox_holds_the_newest_only():
     box.put("two")
     assert box.take() == "two"
     assert box.take() is None
+
+
+def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing, qtbot):
+    frames = []
+    smoothing.iterated.connect(frames.append)
+    smoothing.want({"condition"})
+    smoothing.start(LocalSteepestDescent(), Stop(), iterations=1)
+    qtbot.waitUntil(lambda: len(frames) == 1, timeout=FIRST_RUN)
+    assert "condition" in measured._known[frames[0].state.figures]
+    assert smoothing.method == "local-sd"
+    smoothing.want({"taper", "q"})  # in the middle of a run
+    smoothing.step()
+    qtbot.waitUntil(lambda: len(frames) == 2, timeout=FIRST_RUN)
+    assert set(measured._known[frames[1].state.figures]) == {"taper", "q"}

@@ -1,0 +1,56 @@
+"""Counting values by bins in one pass: while a million elements move, the window has no time for more."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.kernels import serial
+from hexmend.quality.measure import read_only
+
+
+def bin_counts(
+    values: np.ndarray,
+    inverted: np.ndarray,
+    ends: tuple[float, float],
+    bins: int,
+    open_low: bool = False,
+    open_high: bool = False,
+) -> np.ndarray:
+    """How many values lie in each of so many equal bins, (bins + 3,) int64: after them above, below and inverted.
+
+    Values beyond an end that is not open belong to the bin there: they are so by rounding.
+
+    Parameters
+    ----------
+    values : (m,) float64
+    inverted : (m,) bool
+        These have no place among the bins.
+    ends : (low, high)
+        What the bins span.
+    bins : int
+    open_low, open_high : bool
+
+    Examples
+    --------
+    >>> bin_counts(np.array([-1.0, 0.0, 0.3, 1.0, 7.0]), np.zeros(5, bool), (0.0, 1.0), 2, open_high=True).tolist()
+    [3, 0, 2, 0, 0]
+    """
+    counts = np.zeros(bins + 3, dtype=np.int64)
+    low, high = ends
+    _count(read_only(values), read_only(inverted), float(low), bins / (high - low), open_low, open_high, counts)
+    return counts
+
+
+@serial
+def _count(values, inverted, low, scale, open_low, open_high, counts):
+    bins = counts.shape[0] - 3
+    for i in range(values.shape[0]):
+        place = (values[i] - low) * scale
+        if inverted[i] or np.isnan(place):
+            counts[bins + 2] += 1
+        elif place < 0:
+            counts[bins + 1 if open_low else 0] += 1
+        elif place >= bins:
+            counts[bins if open_high else bins - 1] += 1
+        else:
+            counts[int(place)] += 1

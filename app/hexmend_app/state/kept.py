@@ -1,0 +1,81 @@
+"""Places of the open mesh's nodes that the user keeps, to compare how quality was distributed then."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from hexmend_app.state.document import State
+
+#: How many can be kept: as many as there are colours that all kinds of colour vision tell apart.
+MOST = 6
+
+
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """A moment of the open mesh.
+
+    Only the points are kept, which a change that undo remembers shares: the figures of a million hexes would take as
+    much again, and are measured anew when another metric is looked at.
+
+    Parameters
+    ----------
+    slot : int
+        From 0 to `MOST` - 1; it keeps its colour while others come and go.
+    name : str
+    points : (n, 3) float64
+    inverted : (m,) bool
+    """
+
+    slot: int
+    name: str
+    points: np.ndarray
+    inverted: np.ndarray
+
+
+class KeptMoments(QObject):
+    """What is kept of the open mesh, in the order of keeping.
+
+    Signals
+    -------
+    changed
+    """
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.all: tuple[Kept, ...] = ()
+
+    @property
+    def full(self) -> bool:
+        """Whether no further one can be kept."""
+        return len(self.all) == MOST
+
+    def keep(self, name: str, state: State) -> None:
+        """Keep a moment, unless there are as many as can be; a name that one has already gets a number."""
+        if not self.full:
+            slot = min(set(range(MOST)) - {one.slot for one in self.all})
+            names = {one.name for one in self.all}
+            name = next(free for k in range(1, MOST + 1) if (free := f"{name} ({k})" if k > 1 else name) not in names)
+            self._take(*self.all, Kept(slot, name, state.mesh.points, state.figures.inverted))
+
+    def remove(self, slot: int) -> None:
+        """Keep one no longer."""
+        self._take(*(one for one in self.all if one.slot != slot))
+
+    def rename(self, slot: int, name: str) -> None:
+        """Call one otherwise."""
+        self._take(*(dataclasses.replace(one, name=name) if one.slot == slot else one for one in self.all))
+
+    def clear(self) -> None:
+        """Keep none: another mesh is open."""
+        self._take()
+
+    def _take(self, *all: Kept) -> None:
+        if all != self.all:
+            self.all = all
+            self.changed.emit()
