@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QSettings, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMessageBox
+from PySide6.QtWidgets import QApplication
 
 from hexmend import gallery, io
 from hexmend_app.program import application
@@ -15,7 +15,7 @@ from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation, Look, ValueRange
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.inside_panel import InsidePanel
-from hexmend_app.window import Window
+from tests.said import FIRST_RUN
 
 LEFT = Qt.MouseButton.LeftButton
 BOX = QPoint(8, 8)
@@ -35,22 +35,11 @@ def panel(qtbot):
 
 
 @pytest.fixture
-def window(qtbot, tmp_path, monkeypatch):
-    """A window with a tangled mesh open in it."""
-    for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
-        QSettings.setPath(form, QSettings.Scope.UserScope, str(tmp_path / "settings"))
-    monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Discard)
-    io.write(tmp_path / "cube.vtu", gallery.make("cube", size=1000, scramble=0.3, seed=1))
-    application()
-    window = Window()
-    window.resize(1400, 900)
-    window.show()
-    qtbot.waitExposed(window)
-    window.build_canvas()
-    with qtbot.waitSignals([window.opener.ended], timeout=20000):
-        window.open(tmp_path / "cube.vtu")
-    yield window
-    window.close()
+def mesh_file(tmp_path):
+    """A tangled mesh that can be peeled."""
+    path = tmp_path / "cube.vtu"
+    io.write(path, gallery.make("cube", size=1000, scramble=0.3, seed=1))
+    return path
 
 
 def faces(window):
