@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QMainWindow, QToolBar
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
 from hexmend_app.actions import ACTIONS, ActionSpec
 from hexmend_app.widgets.style import icon
@@ -31,10 +31,13 @@ def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str,
     bar.setMovable(False)
     bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
     window.addToolBar(bar)
-    actions, menus = {}, {}
+    actions: dict[str, QAction] = {}
+    menus: dict[str, QMenu] = {}
+    groups: dict[str, QActionGroup] = {}
     for spec in ACTIONS:
         if spec.menu not in menus:
-            menus[spec.menu] = window.menuBar().addMenu(spec.menu)
+            within, _, name = spec.menu.rpartition("/")
+            menus[spec.menu] = (menus[within] if within else window.menuBar()).addMenu(name)
             if bar.actions() and not bar.actions()[-1].isSeparator():
                 bar.addSeparator()
         action = actions[spec.id] = _action(window, spec)
@@ -43,6 +46,9 @@ def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str,
             action.toggled.connect(handle)
         else:
             action.triggered.connect(lambda checked=False, handle=handle: handle())
+        if spec.exclusive:
+            groups.setdefault(spec.menu, QActionGroup(window)).addAction(action)
+            action.setProperty("within", menus[spec.menu].title().replace("&", ""))
         if spec.separated:
             menus[spec.menu].addSeparator()
         menus[spec.menu].addAction(action)

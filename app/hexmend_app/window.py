@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QSettings, Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import QLabel, QMainWindow, QProgressBar, QVBoxLayout, QWidget
 
 from hexmend.errors import FileError
@@ -26,7 +27,9 @@ from hexmend_app.state.document import Document
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Frame, Phase, Smoothing
 from hexmend_app.state.selection import Selection
+from hexmend_app.state.theme import Choice
 from hexmend_app.state.view import View
+from hexmend_app.widgets import theming
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
@@ -158,6 +161,7 @@ class Window(QMainWindow):
         self.selection.changed.connect(self._enable)
         self.messages.filled.connect(self._enable)
         self.messages.emptied.connect(self._enable)
+        QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_desktop_theme)
         self.welcome.open_requested.connect(self._on_open)
         self.welcome.demo_requested.connect(self._on_open_demo)
 
@@ -175,6 +179,7 @@ class Window(QMainWindow):
             "reset": self.commands.reset,
             "commands": self._on_commands,
             "about": self._on_about,
+            **{f"theme_{choice.value}": partial(self._on_theme, choice) for choice in Choice},
             **self.saving.handlers(),
             **self.looking.handlers(),
             **self.inspecting.handlers(),
@@ -259,7 +264,7 @@ class Window(QMainWindow):
             self.actions_by_id[id].setEnabled(on)
         if not self.messages.isHidden():
             self.actions_by_id["back"].setEnabled(False)  # Esc dismisses a message first
-        for id, on in self.looking.checked().items():
+        for id, on in (self.looking.checked() | {f"theme_{theming.chosen().value}": True}).items():
             self.actions_by_id[id].setChecked(on)
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.smoothing_panel.setEnabled(self.document.is_open)
@@ -289,6 +294,13 @@ class Window(QMainWindow):
         palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         palette.move(self.mapToGlobal(QPoint((self.width() - palette.width()) // 2, 90)))
         palette.open()
+
+    def _on_theme(self, choice: Choice, on: bool) -> None:
+        if on and choice is not theming.chosen():
+            theming.choose(choice)
+
+    def _on_desktop_theme(self) -> None:
+        theming.wear()
 
     def _on_about(self) -> None:
         from hexmend import __version__

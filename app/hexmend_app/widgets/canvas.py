@@ -19,7 +19,9 @@ from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import ClipPlane, Look
+from hexmend_app.state.theme import THEME
 from hexmend_app.widgets.colour_bar import ColourBar
+from hexmend_app.widgets.style import dress
 
 #: Milliseconds of rest after which the fine still frame is drawn.
 _REST = 300
@@ -76,6 +78,15 @@ class Canvas(QWidget):
         self._fly = QTimer(self)
         self._fly.setInterval(_FRAME)
         self._fly.timeout.connect(self._fly_on)
+        self._closed = False
+        dress(self, self._wear_theme)
+
+    def _wear_theme(self) -> None:
+        if self._closed:
+            return
+        self.viewport.set_dark(THEME.dark)
+        self.plane.set_dark(THEME.dark)
+        self._changed()
 
     def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
         """Draw another mesh."""
@@ -167,6 +178,7 @@ class Canvas(QWidget):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""
+        self._closed = True
         self._frame.stop()
         self._rest.stop()
         self._fly.stop()

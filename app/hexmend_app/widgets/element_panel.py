@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.quality import METRICS, Element, Node
 from hexmend_app.widgets.metrics import described, metrics_offered
-from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, TEXT, WORSE, explain, icon, note, tabular, tint
+from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, TEXT, WORSE, dress, explain, icon, note, tabular, tint
 from hexmend_app.widgets.wording import counted, figure
 
 _FACES = ("x−", "x+", "y−", "y+", "z−", "z+")
@@ -103,6 +103,13 @@ class ElementPanel(QWidget):
             )
             node.linkActivated.connect(lambda link: self.node_chosen.emit(int(link)))
         self._lay_out(page)
+        dress(self, self._paint_links)
+
+    def _paint_links(self) -> None:
+        for label in (self._neighbours, *(node for node, _, _ in self._corners)):
+            text = label.text()
+            label.clear()  # Qt colours links as the text is set, and not again for the same text
+            label.setText(text)
 
     def _number(self) -> QLabel:
         label = QLabel()

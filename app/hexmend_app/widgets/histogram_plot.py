@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from hexmend_app.widgets.brush import BrushView
 from hexmend_app.widgets.histogram_bins import BINS, Distribution, decades, round_up
 from hexmend_app.widgets.plots import calm_plot
-from hexmend_app.widgets.style import BLUE, GREY, INVERTED, INVERTED_TEXT, smaller, tabular
+from hexmend_app.widgets.style import BLUE, GREY, INVERTED, INVERTED_TEXT, dress, smaller, tabular
 
 EDGES = np.linspace(0, 1, BINS + 1)
 #: Where on the x axis the bar of inverted elements stands: apart, left of 0.
@@ -59,16 +59,23 @@ class HistogramPlot(QWidget):
             axis.label.setFont(smaller(self.font()))
 
     def _make_items(self) -> None:
-        self._region = pg.LinearRegionItem(
-            (0, 1), movable=False, brush=pg.mkBrush(BLUE + "20"), pen=pg.mkPen(BLUE, width=1.5)
-        )
+        self._region = pg.LinearRegionItem((0, 1), movable=False)
         self._region.setZValue(-10)
         self._region.hide()
-        self._was, self._now = _Outline(GREY, GREY, "50"), _Outline(BLUE, INVERTED, "70")
-        self._number = pg.TextItem(color=INVERTED_TEXT, anchor=(0.5, 1.0))
+        self._was, self._now = _Outline(), _Outline()
+        self._number = pg.TextItem(anchor=(0.5, 1.0))
         self._number.setFont(tabular(smaller(self.font())))
         for item in (self._region, *self._was.items, *self._now.items, self._number):
             self.plot.addItem(item, ignoreBounds=True)
+        dress(self, self._paint)
+
+    def _paint(self) -> None:
+        self._region.setBrush(f"{BLUE}20")
+        for line in self._region.lines:
+            line.setPen(str(BLUE), width=1.5)
+        self._was.paint(str(GREY), str(GREY), "50")
+        self._now.paint(str(BLUE), INVERTED, "70")
+        self._number.setColor(str(INVERTED_TEXT))
 
     @property
     def log(self) -> bool:
@@ -119,20 +126,17 @@ class HistogramPlot(QWidget):
 class _Outline:
     """The items of one distribution: a filled outline over the bins, and a bar for inverted elements."""
 
-    def __init__(self, colour: str, apart_colour: str, alpha: str):
-        self._curve = pg.PlotCurveItem(
-            EDGES,
-            np.zeros(BINS),
-            stepMode="center",
-            fillLevel=0,
-            pen=pg.mkPen(colour),
-            brush=pg.mkBrush(colour + alpha),
-        )
-        self._bar = pg.BarGraphItem(
-            x0=[0.0], x1=[0.0], height=[0.0], pen=pg.mkPen(apart_colour), brush=pg.mkBrush(apart_colour + alpha)
-        )
+    def __init__(self):
+        self._curve = pg.PlotCurveItem(EDGES, np.zeros(BINS), stepMode="center", fillLevel=0)
+        self._bar = pg.BarGraphItem(x0=[0.0], x1=[0.0], height=[0.0])
         self.items = (self._curve, self._bar)
         self._drawn: tuple[Distribution | None, float] | None = None
+
+    def paint(self, colour: str, apart_colour: str, alpha: str) -> None:
+        """Take colours."""
+        self._curve.setPen(colour)
+        self._curve.setBrush(colour + alpha)
+        self._bar.setOpts(pen=pg.mkPen(apart_colour), brush=pg.mkBrush(apart_colour + alpha))
 
     def draw(self, part: Distribution | None, heights: Callable, floor: float) -> None:
         """Show a distribution, its counts mapped by `heights` and standing on `floor`."""
