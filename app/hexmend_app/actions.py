@@ -161,5 +161,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Find any command by its name.",
         needs_mesh=False,
     ),
+    ActionSpec(
+        "keys",
+        "&Mouse and keys",
+        "&Help",
+        "F1",
+        "mouse",
+        "Say beside the view how it is turned, zoomed and panned.",
+        needs_mesh=False,
+    ),
     ActionSpec("about", "&About Hexmend", "&Help", help="Version, licence and sources.", needs_mesh=False),
 )

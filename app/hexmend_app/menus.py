@@ -12,7 +12,7 @@ from hexmend_app.actions import ACTIONS, ActionSpec
 from hexmend_app.widgets.style import icon
 
 
-def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str, QAction]:
+def build_menus(window: QMainWindow, handlers: dict[str, Callable], above: dict[str, QMenu]) -> dict[str, QAction]:
     """Give a window its menus and tool bar.
 
     Parameters
@@ -20,6 +20,8 @@ def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str,
     window : QMainWindow
     handlers : dict
         What each action calls, by its id; that of a checkable action takes whether it is on.
+    above : dict
+        Menus that stand above an action in its menu, by its id.
 
     Returns
     -------
@@ -51,6 +53,8 @@ def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str,
             action.setProperty("within", menus[spec.menu].title().replace("&", ""))
         if spec.separated:
             menus[spec.menu].addSeparator()
+        if spec.id in above:
+            menus[spec.menu].addMenu(above[spec.id])
         menus[spec.menu].addAction(action)
         if spec.tool:
             bar.addAction(action)

@@ -16,6 +16,7 @@ from hexmend_app.commands import methods_offered
 from hexmend_app.scene.picture import picture
 from hexmend_app.state import theme
 from hexmend_app.state.look import Look
+from hexmend_app.state.recent import Recent
 from hexmend_app.state.theme import THEME, Choice, Role
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.clip_panel import ClipPanel
@@ -23,6 +24,7 @@ from hexmend_app.widgets.colour_bar import ColourBar
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
 from hexmend_app.widgets.element_panel import ElementPanel
+from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
@@ -152,7 +154,8 @@ BUILT = {
     "info": told,
     "chart": chart,
     "colour bar": ColourBar,
-    "welcome": Welcome,
+    "welcome": lambda: Welcome(Recent()),
+    "hint": Hint,
     "palette": palette,
 }
 

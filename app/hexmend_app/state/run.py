@@ -7,6 +7,7 @@ from enum import Enum
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from hexmend import compiling
 from hexmend.optimise import Result
 from hexmend.run import Stop
 from hexmend.smoothers import Smoother
@@ -22,6 +23,7 @@ class Phase(Enum):
 
     IDLE = "idle"
     PREPARING = "preparing"
+    STOPPING = "stopping"
     RUNNING = "running"
     PAUSED = "paused"
     FINISHED = "finished"
@@ -53,6 +55,7 @@ class Smoothing(QObject):
         self._worker: Worker | None = None
         self._title = ""
         self.phase = Phase.IDLE
+        self._compiled, self._said = 0, False
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
         self._timer.timeout.connect(self._look)
@@ -62,6 +65,11 @@ class Smoothing(QObject):
         """Whether a run is under way, paused or not."""
         return self._worker is not None
 
+    @property
+    def compiling(self) -> bool:
+        """Whether kernels had to be compiled since the run was asked for."""
+        return compiling.begun > self._compiled
+
     def start(self, smoother: Smoother, stop: Stop, iterations: float = math.inf) -> None:
         """Begin a run on the document's mesh and make that many iterations of it."""
         if self.busy or not self._document.is_open:
@@ -70,6 +78,7 @@ class Smoothing(QObject):
         self._title = smoother.title
         self._worker = Worker(self._before.mesh, smoother, stop)
         self._worker.grant(iterations)
+        self._compiled, self._said = compiling.begun, False
         self._set_phase(Phase.PREPARING)
         self._worker.start()
         self._timer.start()
@@ -92,9 +101,11 @@ class Smoothing(QObject):
             self._look()
 
     def stop(self) -> None:
-        """End the run after the iteration at hand; what was reached stays."""
+        """End the run after the iteration at hand, or once it is prepared; what was reached stays."""
         if self._worker is not None:
             self._worker.end()
+            if self.phase is Phase.PREPARING:
+                self._set_phase(Phase.STOPPING)
 
     def end_now(self) -> None:
         """End the run and wait for the iteration at hand; what was reached is recorded as usual."""
@@ -122,7 +133,10 @@ class Smoothing(QObject):
             self._show(frame)
         if over:
             self._finish(worker)
-        elif worker.prepared.is_set():
+        elif self.phase is Phase.PREPARING and self.compiling and not self._said:
+            self._said = True
+            self.phase_changed.emit()
+        elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
             self._set_phase(Phase.PAUSED if worker.waiting else Phase.RUNNING)
 
     def _show(self, frame: Frame) -> None:

@@ -71,7 +71,11 @@ class ElementPanel(QWidget):
         explain(self._in_view, "Corner qualities in the view", "Write q(T) beside the element's corners in the view.")
         self._in_view.toggled.connect(self.corners_toggled)
         self._fly = QPushButton(icon("target"), "Fly to it")
-        explain(self._fly, "Fly to it", "Bring the element before the camera (Enter in the list does the same).")
+        explain(
+            self._fly,
+            "Fly to it",
+            "Bring the element before the camera (Enter or a double-click in the list of the worst does the same).",
+        )
         self._fly.clicked.connect(self.fly_requested)
         self._values = {name: self._number() for name in METRICS}
         self._corners = [tuple(self._number() for _ in range(3)) for _ in range(8)]

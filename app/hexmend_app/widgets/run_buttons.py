@@ -32,6 +32,9 @@ STATES = {
     "preparing": RunState(
         "Preparing", "timer-sand", "The method gets ready.", run=False, step=False, stop=True, reset=False, edit=False
     ),
+    "stopping": RunState(
+        "Stopping", "timer-sand", "The run ends soon.", run=False, step=False, stop=False, reset=False, edit=False
+    ),
     "running": RunState(
         "Pause", "pause", "Hold after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
     ),

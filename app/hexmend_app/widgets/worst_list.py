@@ -163,6 +163,7 @@ class WorstList(QWidget):
         for column, widest in ((_ELEMENT, "000,000,000"), (_VALUE, "Scaled Jacobian"), (_JACOBIAN, "Scaled Jacobian")):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
         table.selectionModel().currentRowChanged.connect(self._on_row)
+        table.activated.connect(self._on_row)  # Enter, or a double-click
         return table
 
     def _lay_out(self) -> None:
