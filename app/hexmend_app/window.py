@@ -17,7 +17,7 @@ from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.commands import Commands, methods_offered
-from hexmend_app.docks import LAYOUT, add_docks, column
+from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
 from hexmend_app.menus import build_menus
@@ -138,6 +138,8 @@ class Window(QMainWindow):
 
         self.canvas = Canvas()
         self._centre.addWidget(self.canvas, 1)
+        name_tabs(self)
+        self.setTabOrder(self.hint.close_button, self.canvas.interactor)
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
         self.saving.canvas = self.canvas

@@ -93,6 +93,7 @@ class ClipPanel(QWidget):
             grid.addWidget(label, row, 0)
             grid.addWidget(widget, row, 1, 1, 2 if widget is self._cut else 1)
         grid.addWidget(self._flip, 1, 2)
+        self.setTabOrder(self._axis.button("free"), self._flip)
         grid.addWidget(self._value, 2, 2)
 
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float] | None) -> None:

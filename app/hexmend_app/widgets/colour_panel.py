@@ -104,6 +104,7 @@ class ColourPanel(QWidget):
             grid.addWidget(label, row, 0)
             grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
         grid.addWidget(self._reverse, 1, 2)
+        self.setTabOrder(self._map, self._reverse)
         numbers = QHBoxLayout()
         numbers.setSpacing(8)
         for part in (self._low, QLabel("to"), self._high):

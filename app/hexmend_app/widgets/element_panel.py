@@ -74,7 +74,7 @@ class ElementPanel(QWidget):
         explain(
             self._fly,
             "Fly to it",
-            "Bring the element before the camera (Enter or a double-click in the list of the worst does the same).",
+            "Bring the element before the camera; Enter or a double-click in the list of the worst does so too.",
         )
         self._fly.clicked.connect(self.fly_requested)
         self._values = {name: self._number() for name in METRICS}
@@ -100,7 +100,8 @@ class ElementPanel(QWidget):
             self._pin, "Pinned", "Keep this node where it is, whatever smooths the mesh. Boundary nodes always are."
         )
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
-        for node, _, _ in self._corners:
+        for corner, (node, _, _) in enumerate(self._corners):
+            node.setAccessibleName(f"Node at corner {corner}")
             node.setTextFormat(Qt.TextFormat.RichText)
             node.setTextInteractionFlags(
                 Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard

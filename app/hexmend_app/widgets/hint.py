@@ -10,13 +10,13 @@ from hexmend_app.widgets.style import dress, explain, icon
 
 _DISMISSED = "hint dismissed"
 _KEYS = (
-    ("Turn", "drag, or arrow keys"),
-    ("Zoom", "wheel, or + and −"),
-    ("Pan", "Shift and drag, middle button, or Shift and arrows"),
+    ("Turn", "drag, arrows"),
+    ("Zoom", "wheel, + −"),
+    ("Pan", "middle or Shift+drag, Shift+arrows"),
     ("Element", "click"),
     ("Next worst", "N"),
-    ("Smooth", "F5"),
-    ("Every command", "Ctrl+Shift+P"),
+    ("Run", "F5"),
+    ("Commands", "Ctrl+Shift+P"),
 )
 
 
@@ -32,16 +32,16 @@ class Hint(QFrame):
         text.setTextFormat(Qt.TextFormat.RichText)
         text.setWordWrap(True)
         text.setAccessibleName("Mouse and keys")
-        self._close = QToolButton()
-        self._close.setIcon(icon("close"))
-        self._close.setAutoRaise(True)
-        self._close.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self._close.clicked.connect(self.dismiss)
-        explain(self._close, "Dismiss the hint", "Do not show this again; F1 does.")
+        self.close_button = QToolButton()
+        self.close_button.setIcon(icon("close"))
+        self.close_button.setAutoRaise(True)
+        self.close_button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.close_button.clicked.connect(self.dismiss)
+        explain(self.close_button, "Dismiss the hint", "Do not show this again; F1 does.")
         layout = QHBoxLayout(self)
         layout.setContentsMargins(10, 5, 6, 5)
         layout.addWidget(text, 1)
-        layout.addWidget(self._close, 0, Qt.AlignmentFlag.AlignTop)
+        layout.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
         dress(self, lambda: self.setStyleSheet(f"#hint {{ background: {TOLD}; }} #hint QLabel {{ color: {TEXT}; }}"))
         self.setHidden(QSettings().value(_DISMISSED, "") == "yes")
 

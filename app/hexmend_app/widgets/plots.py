@@ -43,6 +43,8 @@ def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
     )
     plot.setFrameShape(QFrame.Shape.NoFrame)
     plot.hideButtons()
+    plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # keys do nothing here
+    plot.viewport().setFocusPolicy(Qt.FocusPolicy.NoFocus)
     plot.setMenuEnabled(False)
     plot.getViewBox().setMouseEnabled(x=False, y=False)
     plot.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

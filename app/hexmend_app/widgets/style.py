@@ -67,6 +67,9 @@ _FRAMED = ("QCheckBox", "QPushButton", "QComboBox", "QAbstractSpinBox", "QLineEd
 
 def apply_style(app: QApplication, dark: bool) -> None:
     """Give the program the Fusion look in the light theme or the dark one, and have all widgets change with it."""
+    if app.property("dark") is dark:
+        return
+    app.setProperty("dark", dark)
     app.setStyle("Fusion")
     palette = QPalette(QColor(BUTTON.of(dark)), QColor(PANEL.of(dark)))
     for role, colour in _PALETTE:

@@ -7,7 +7,7 @@ import io
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QAbstractTableModel, QItemSelectionModel, QModelIndex, QObject, Qt, Signal
+from PySide6.QtCore import QAbstractTableModel, QItemSelection, QItemSelectionModel, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -162,7 +162,8 @@ class WorstList(QWidget):
         dress(header, lambda: header.setStyleSheet(sheet.format(PANEL)))
         for column, widest in ((_ELEMENT, "000,000,000"), (_VALUE, "Scaled Jacobian"), (_JACOBIAN, "Scaled Jacobian")):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
-        table.selectionModel().currentRowChanged.connect(self._on_row)
+        # Not when a row becomes the current one: the first does so as the list gets the focus.
+        table.selectionModel().selectionChanged.connect(self._on_selected)
         table.activated.connect(self._on_row)  # Enter, or a double-click
         return table
 
@@ -278,6 +279,9 @@ class WorstList(QWidget):
         choice.blockSignals(False)
         self._table.viewport().update()
 
+    def _on_selected(self, selected: QItemSelection) -> None:
+        if selected.indexes():
+            self._on_row(selected.indexes()[0])
+
     def _on_row(self, index: QModelIndex) -> None:
-        if index.isValid():
-            self.chosen.emit(int(self._model.elements[index.row()]))
+        self.chosen.emit(int(self._model.elements[index.row()]))
