@@ -47,6 +47,10 @@ class Busy(QWidget):
         self._cancel.setVisible(bool(word))
         self.show()
 
+    def text(self) -> str:
+        """What is being done."""
+        return self._text.text()
+
     def done(self) -> None:
         """Nothing is being done any more."""
         self._escape.setEnabled(False)

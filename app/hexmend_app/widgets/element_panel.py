@@ -187,7 +187,8 @@ class ElementPanel(QWidget):
             tint(label, WORSE if bad else TEXT)
         worst = int(one.corners.argmin()) if np.ptp(one.corners) > 1e-9 else -1
         for k, (node, kind, quality) in enumerate(self._corners):
-            node.setText(f'<a href="{one.nodes[k]}">{one.nodes[k]:,}</a>')
+            # Nothing, and yet before the link: from one at the very beginning Shift+Tab does not get away.
+            node.setText(f'&#8203;<a href="{one.nodes[k]}">{one.nodes[k]:,}</a>')
             kind.setText("fixed" if one.fixed[k] else "free")
             tint(kind, MUTED)
             quality.setText(figure(float(one.corners[k]), 3))
