@@ -36,7 +36,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
-    {"docks", "inspecting", "looking", "menus", "saving"},
+    {"docks", "inspecting", "looking", "menus", "opening", "saving"},
     {"window"},
     {"program"},
     {"bench", "cli"},

@@ -11,7 +11,6 @@ from PySide6.QtCore import QPoint, QSettings, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import QLabel, QMainWindow, QVBoxLayout, QWidget
 
-from hexmend.errors import FileError
 from hexmend.parameters import declared
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
@@ -21,6 +20,7 @@ from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
 from hexmend_app.menus import build_menus
+from hexmend_app.opening import Opening
 from hexmend_app.resources import demo_mesh
 from hexmend_app.saving import Saving
 from hexmend_app.state.document import Document
@@ -40,7 +40,7 @@ from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
-from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, remember_folder, show_about
+from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
 from hexmend_app.widgets.recent_menu import RecentMenu
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
@@ -102,6 +102,7 @@ class Window(QMainWindow):
             self.element_panel,
             self.docks["element"],
         )
+        self.opening = Opening(self.document, self.opener, self.recent, self.busy, self.messages)
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
@@ -152,11 +153,7 @@ class Window(QMainWindow):
         self.document.points_moved.connect(self._on_points_moved)
         self.document.changes_changed.connect(self._enable)
         self.view.look_changed.connect(self._enable)
-        self.opener.began.connect(self._on_opening)
-        self.opener.told.connect(self._on_reading)
-        self.opener.ended.connect(self._on_opened)
-        self.opener.cancelled.connect(self._on_cancelled)
-        self.opener.failed.connect(self._on_open_failed)
+        self.opener.began.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
         self.smoothing.ended.connect(self._on_ended)
@@ -167,7 +164,6 @@ class Window(QMainWindow):
         self.smoothing_panel.resume_requested.connect(self.smoothing.resume)
         self.smoothing_panel.stop_requested.connect(self.smoothing.stop)
         self.smoothing_panel.reset_requested.connect(self.commands.reset)
-        self.busy.cancel_requested.connect(self._on_cancel)
         self.recent_menu.chosen.connect(self.open)
         self.selection.changed.connect(self._enable)
         self.messages.filled.connect(self._enable)
@@ -223,41 +219,6 @@ class Window(QMainWindow):
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
 
-    def _on_opening(self, path: Path) -> None:
-        self._on_reading(f"Reading {path.name}…")
-
-    def _on_reading(self, what: str) -> None:
-        if self.opener.busy:
-            self.busy.show_work(what, "Cancel", "Do not open this mesh (Esc).")
-            self._enable()
-
-    def _on_cancel(self) -> None:
-        if self.opener.busy:
-            self.opener.cancel()
-        else:
-            self.smoothing.stop()
-
-    def _on_cancelled(self, path: Path) -> None:
-        self.busy.done()
-        self.messages.show_info(f"{path.name} was not opened: cancelled.{self._what_stays()}")
-        self._enable()
-
-    def _on_opened(self, path: Path) -> None:
-        self.busy.done()
-        self.messages.clear()
-        self._enable()
-        if path.resolve() != demo_mesh().resolve():
-            remember_folder(path)
-            self.recent.add(path)
-
-    def _on_open_failed(self, path: Path, error: Exception) -> None:
-        self.busy.done()
-        detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
-        self.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._what_stays()}")
-
-    def _what_stays(self) -> str:
-        return f" {self.document.name} stays open." if self.document.is_open else ""
-
     def _on_phase(self) -> None:
         phase = self.smoothing.phase
         self.smoothing_panel.set_state(phase.value)
@@ -276,7 +237,8 @@ class Window(QMainWindow):
             sentence = f"Stopping: the run ends as soon as the method is ready, before its first iteration.{once}"
         else:
             what = "Compiling the method…" if once else "Preparing the method…"
-            self.busy.show_work(what, "Stop", "End the run before its first iteration (Shift+F5).")
+            help = "End the run before its first iteration (Shift+F5)."
+            self.busy.show_work(what, "Stop", help, self.smoothing.stop)
             sentence = f"Preparing the method.{once}"
         self.smoothing_panel.set_status(sentence=sentence)
 

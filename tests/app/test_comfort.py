@@ -103,7 +103,7 @@ def test_opening_says_what_it_does_and_is_cancelled(window, qtbot, slow_read, me
     assert not window.opener.busy
     assert not window.busy.isVisible()
     assert window.selection.hex == 3  # Esc was for the opening alone
-    assert "slow.vtu was not opened" in window.messages.messages()[-1][1]
+    assert "Opening slow.vtu was cancelled" in window.messages.messages()[-1][1]
     slow_read.set()
     qtbot.wait(300)
     assert window.document.now is before

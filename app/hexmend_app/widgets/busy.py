@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
 
@@ -10,15 +12,7 @@ from hexmend_app.widgets.style import explain
 
 
 class Busy(QWidget):
-    """A line for the status bar: what is being done, that it goes on, and a button that ends it.
-
-    Signals
-    -------
-    cancel_requested
-        The user pressed the button, or Esc.
-    """
-
-    cancel_requested = Signal()
+    """A line for the status bar: what is being done, that it goes on, and a button that ends it."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -29,18 +23,19 @@ class Busy(QWidget):
         bar.setFixedSize(140, 10)  # no higher than text, or the view jumps as it comes and goes
         bar.setTextVisible(False)
         self._cancel = QPushButton()
-        self._cancel.setFlat(True)
-        self._cancel.setFixedHeight(self._text.fontMetrics().height() + 2)
-        self._cancel.clicked.connect(self.cancel_requested)
-        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.cancel_requested.emit)
+        self._cancel.setFixedHeight(self._text.fontMetrics().height() + 4)
+        self._cancel.clicked.connect(lambda: self._end())
+        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end())
+        self._end: Callable[[], object] = self.done
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         for part in (self._text, bar, self._cancel):
             layout.addWidget(part)
         self.done()
 
-    def show_work(self, text: str, word: str = "", help: str = "") -> None:
-        """Say what is being done; `word` on the button that ends it, with its `help`, or no button."""
+    def show_work(self, text: str, word: str = "", help: str = "", end: Callable[[], object] | None = None) -> None:
+        """Say what is being done; `word` on the button that calls `end`, with its `help`, or no button."""
+        self._end = end or self.done
         self._text.setText(text)
         self._cancel.setText(word)
         explain(self._cancel, word, help)

@@ -62,7 +62,7 @@ _PALETTE = (
 )
 
 #: Controls in whose palette the window's colour is nothing but that of their frames.
-_FRAMED = ("QCheckBox", "QPushButton", "QComboBox", "QAbstractSpinBox", "QLineEdit", "QSlider")
+_FRAMED = ("QCheckBox", "QPushButton", "QComboBox", "QAbstractSpinBox", "QLineEdit", "QSlider", "QMenu")
 
 
 def apply_style(app: QApplication, dark: bool) -> None:
