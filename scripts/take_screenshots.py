@@ -13,7 +13,7 @@ from PIL import Image
 from PySide6.QtCore import QEventLoop, QSettings, QTimer
 
 from hexmend_app.program import application
-from hexmend_app.state.look import ClipPlane
+from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.run import Phase
 from hexmend_app.window import Window
 
@@ -58,7 +58,7 @@ def main(mesh: str, folder: Path) -> None:
     until(lambda: window.document.is_open)
     shoot(window, folder / "window-open.png")
     middle = tuple(window.document.now.mesh.points.mean(axis=0))
-    window.view.set_clip(ClipPlane((1, 0, 0), middle, crinkle=True))
+    window.view.set_clip(PlaneClip.at((1, 0, 0), middle, crinkle=True))
     shoot(window, folder / "window-cut.png")
     window.smoothing_panel.run_or_pause()
     until(lambda: window.smoothing.phase is Phase.RUNNING)
@@ -69,7 +69,7 @@ def main(mesh: str, folder: Path) -> None:
     if window.smoothing.phase is Phase.PAUSED:
         window.smoothing_panel.step()
         turn(1)
-    window.view.set_clip(ClipPlane((1, 0, 0), middle, crinkle=False))
+    window.view.set_clip(PlaneClip.at((1, 0, 0), middle, crinkle=False))
     shoot(window, folder / "window-smoothing.png")
     if window.smoothing.phase is not Phase.FINISHED:
         window.smoothing.stop()

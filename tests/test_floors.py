@@ -36,7 +36,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
-    {"docks", "inspecting", "looking", "menus", "opening", "saving"},
+    {"docks", "inspecting", "looking", "menus", "opening", "saving", "tagging"},
     {"window"},
     {"program"},
     {"bench", "cli"},

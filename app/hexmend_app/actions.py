@@ -91,11 +91,11 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("edges", "&Edges", "&View", "E", "grid", "Draw the edges of the elements.", "Edges", checkable=True),
     ActionSpec(
         "clip",
-        "&Clipping plane",
+        "&Clip",
         "&View",
         "C",
         "box-cutter",
-        "Cut the mesh open along a plane.",
+        "Cut the mesh open along planes or a box.",
         "Clip",
         checkable=True,
     ),
@@ -144,6 +144,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec(
         "undig", "&Undo digging", "&Inspect", "Backspace", help="Show the element again that was dug away last."
+    ),
+    ActionSpec(
+        "tag",
+        "&Tag the element",
+        "&Inspect",
+        "T",
+        "tag-outline",
+        "Give the chosen element the tag that the tags' panel names, or take it away; tags are saved with the mesh.",
     ),
     ActionSpec(
         "back",

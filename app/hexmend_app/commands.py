@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from hexmend.io import write
+from hexmend.io import left_out, write
 from hexmend.parameters import declared
 from hexmend.quality import summarise
 from hexmend.run import Stop
@@ -36,8 +37,8 @@ class Commands:
         """Open a mesh; a run under way ends first. What is open stays where the file cannot be read."""
         self.opener.open(path)
 
-    def save(self, path: str | Path) -> None:
-        """Write the mesh as it is now.
+    def save(self, path: str | Path) -> list[str]:
+        """Write the mesh as it is now; the tags that the file's format cannot hold.
 
         Raises
         ------
@@ -46,6 +47,7 @@ class Commands:
         """
         write(path, self.document.now.mesh)
         self.document.saved(Path(path))
+        return left_out(path, self.document.now.mesh)
 
     def run(self, method: str, values: dict, stop: dict) -> None:
         """Run a method on the mesh as it is now."""
@@ -65,13 +67,40 @@ class Commands:
 
     def pin(self, node: int, on: bool) -> None:
         """Keep a node where it is whatever smooths the mesh, or let it go; not while a run is under way."""
-        if self.smoothing.busy:
-            return
-        now = self.document.now
-        pinned = np.zeros(now.mesh.n_nodes, bool) if now.mesh.pinned is None else now.mesh.pinned.copy()
+        mesh = self.document.now.mesh
+        pinned = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()
         pinned[node] = on
-        mesh = now.mesh.replace(pinned=pinned)
-        self.document.commit("pin" if on else "unpin", State(mesh, now.figures, summarise(mesh, now.figures)))
+        self._amend("pin" if on else "unpin", pinned=pinned)
+
+    def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
+        """Add elements to a named group of the mesh, or take them out; not while a run is under way.
+
+        A group of which nothing is left is no more.
+        """
+        sets = dict(self.document.now.mesh.hex_sets)
+        before = np.asarray(sets.get(name, ()), dtype=np.int64)
+        sets[name] = np.union1d(before, hexes) if on else np.setdiff1d(before, hexes)
+        if not len(sets[name]):
+            del sets[name]
+        if len(before) != len(sets.get(name, ())):
+            self._amend("tag" if on else "untag", hex_sets=sets)
+
+    def remove_tag(self, name: str) -> None:
+        """Let a named group of elements be no more; not while a run is under way."""
+        self._amend("untag", hex_sets={k: v for k, v in self.document.now.mesh.hex_sets.items() if k != name})
+
+    def rename_tag(self, name: str, other: str) -> None:
+        """Call a group of elements otherwise; not while a run is under way."""
+        sets = self.document.now.mesh.hex_sets
+        self._amend("rename the tag", hex_sets={other if k == name else k: v for k, v in sets.items()})
+
+    def _amend(self, title: str, **changes: object) -> None:
+        """Change what the mesh carries beside its nodes' places."""
+        if not self.smoothing.busy:
+            now = self.document.now
+            mesh = now.mesh.replace(**changes)
+            summary = summarise(mesh, now.figures) if "pinned" in changes else now.summary
+            self.document.commit(title, State(mesh, now.figures, summary))
 
     def undo(self) -> None:
         """Take back the last change, unless a run is under way."""

@@ -99,7 +99,11 @@ class Inspecting:
 
     def _show_element(self) -> None:
         chosen, mesh = self._selection, self._document.now.mesh
-        self._element_panel.show_element(None if chosen.hex is None else element(mesh, chosen.hex))
+        if chosen.hex is None:
+            self._element_panel.show_element(None)
+        else:
+            tags = [name for name, members in mesh.hex_sets.items() if (members == chosen.hex).any()]
+            self._element_panel.show_element(element(mesh, chosen.hex), tags)
         at = None if chosen.node is None else node(mesh, chosen.node)
         self._element_panel.show_node(at, self._smoothing.busy)
         if self._canvas is not None:

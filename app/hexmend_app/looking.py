@@ -47,7 +47,9 @@ class Looking:
         colour_panel.scale_changed.connect(lambda scale: view.change(scale=scale))
         histogram.range_changed.connect(lambda chosen: view.change(quality_range=chosen))
         clip_panel.clip_changed.connect(view.set_clip)
-        clip_panel.plane_shown_changed.connect(view.set_plane_shown)
+        clip_panel.plane_chosen.connect(view.choose_plane)
+        clip_panel.handles_changed.connect(view.set_handles)
+        clip_panel.snap_changed.connect(view.set_snap)
         inside_panel.peel_changed.connect(lambda layers: view.change(peel=layers))
         inside_panel.shrink_changed.connect(lambda share: view.change(shrink=share))
         inside_panel.outline_changed.connect(lambda on: view.change(outline=on))
@@ -59,8 +61,9 @@ class Looking:
     def set_canvas(self, canvas: Canvas) -> None:
         """Take the 3D view, which comes later than the rest."""
         self._canvas = canvas
-        canvas.clip_dragged.connect(self._view.set_clip)
-        canvas.set_look(self._view.look, self._view.plane_shown)
+        canvas.plane_dragged.connect(self._view.drag_plane)
+        canvas.box_dragged.connect(self._view.drag_box)
+        self._draw()
 
     def handlers(self) -> dict[str, Callable]:
         """What its actions do, by id."""
@@ -108,14 +111,17 @@ class Looking:
     def _on_look_changed(self) -> None:
         look = self._view.look
         self._colours.set_scale(look.scale)
-        self._clip.set_clip(look.clip)
-        self._clip.set_plane_shown(self._view.plane_shown)
+        self._clip.set_clip(look.clip, self._view.plane_at)
+        self._clip.set_handles(self._view.handles)
         self._inside.set_look(look, self._view.rings)
         self._histogram.set_range(look.quality_range)
-        if self._canvas is not None:
-            self._canvas.set_look(look, self._view.plane_shown)
+        self._draw()
         self.refresh()
+
+    def _draw(self) -> None:
+        if self._canvas is not None:
+            self._canvas.set_look(self._view.look, self._view.handles, self._view.plane_at)
 
     def _switch_clip(self, on: bool) -> None:
         if on != (self._view.look.clip is not None):
-            self._view.set_clip(self._clip.plane() if on else None)
+            self._view.set_clip(self._clip.proposal() if on else None)

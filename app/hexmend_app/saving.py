@@ -68,7 +68,17 @@ class Saving:
 
     def mesh(self, path: str | Path) -> bool:
         """Write the mesh as it is now."""
-        return self._said("The mesh was not saved", lambda: self._commands.save(path), f"Saved to {path}")
+        left_out: list[str] = []
+        saved = self._said(
+            "The mesh was not saved", lambda: left_out.extend(self._commands.save(path)), f"Saved to {path}"
+        )
+        if left_out:
+            self._messages.show_warning(
+                "The tags are not in it",
+                f"A {Path(path).suffix} file cannot hold {counted(len(left_out), 'tag')}: {', '.join(left_out)}. "
+                "Save as .vtu or .vtk to keep them.",
+            )
+        return saved
 
     def ask_picture(self) -> None:
         """Ask how large the picture is to be and where it goes, and write it."""

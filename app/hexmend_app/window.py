@@ -30,6 +30,7 @@ from hexmend_app.state.run import Frame, Phase, Smoothing
 from hexmend_app.state.selection import Selection
 from hexmend_app.state.theme import Choice
 from hexmend_app.state.view import View
+from hexmend_app.tagging import Tagging
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.clip_panel import ClipPanel
@@ -44,6 +45,7 @@ from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_ab
 from hexmend_app.widgets.recent_menu import RecentMenu
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
+from hexmend_app.widgets.tag_panel import TagPanel
 from hexmend_app.widgets.welcome import Welcome
 from hexmend_app.widgets.worst_list import WorstList
 
@@ -78,6 +80,7 @@ class Window(QMainWindow):
         self.statistics = StatisticsTable()
         self.worst_list = WorstList()
         self.element_panel = ElementPanel()
+        self.tag_panel = TagPanel()
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
@@ -103,6 +106,16 @@ class Window(QMainWindow):
             self.docks["element"],
         )
         self.opening = Opening(self.document, self.opener, self.recent, self.busy, self.messages)
+        self.tagging = Tagging(
+            self.document,
+            self.view,
+            self.selection,
+            self.smoothing,
+            self.commands,
+            self.tag_panel,
+            self.worst_list,
+            lambda: self.canvas.viewport.kept(),
+        )
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
@@ -127,6 +140,7 @@ class Window(QMainWindow):
             ("quality", "Quality", self.statistics),
             ("worst", "Worst elements", self.worst_list),
             ("element", "Element", self.element_panel),
+            ("tags", "Tags", self.tag_panel),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs)
         self.statusBar().addWidget(self.counts, 1)
@@ -192,6 +206,7 @@ class Window(QMainWindow):
             **self.saving.handlers(),
             **self.looking.handlers(),
             **self.inspecting.handlers(),
+            **self.tagging.handlers(),
         }
 
     # What the state tells
@@ -215,6 +230,7 @@ class Window(QMainWindow):
         self.histogram.set_current(now.figures.q, now.figures.inverted)
         self.statistics.set_summaries(start.summary, now.summary)
         self.inspecting.refresh()
+        self.tagging.refresh()
         self.looking.refresh()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
@@ -262,7 +278,7 @@ class Window(QMainWindow):
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
             self.actions_by_id[id].setIconText(word.replace("&", ""))
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
-        for id, on in self.inspecting.offered().items():
+        for id, on in (self.inspecting.offered() | self.tagging.offered()).items():
             self.actions_by_id[id].setEnabled(on)
         # Esc is for a message first, then for what is being opened.
         self.busy.take_escape(self.opener.busy and self.messages.isHidden())
@@ -273,6 +289,7 @@ class Window(QMainWindow):
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.smoothing_panel.setEnabled(self.document.is_open)
         self.looking.set_enabled(self.document.is_open)
+        self.tag_panel.setEnabled(self.document.is_open)
         self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
         self.setWindowModified(self.document.modified)
 

@@ -85,16 +85,19 @@ class Mesh:
         check_finite(points)
         check_node_numbers(numbers, len(points))
         self._set(points=_frozen(points), hexes=_frozen(np.array(numbers, dtype=np.int32, order="C", copy=True)))
+        self._check_carried()
+        self._set(topology=Topology(self.hexes, len(points)))
+
+    def _check_carried(self) -> None:
         if self.pinned is not None:
-            pinned = np.asarray(self.pinned, dtype=bool)
-            if pinned.shape != (len(points),):
-                raise MeshError(f"pinned has shape {pinned.shape}: expected ({len(points)},)")
-            self._set(pinned=_frozen(pinned.copy()))
-        for kind, data, length in (("node", self.node_data, len(points)), ("hex", self.hex_data, len(numbers))):
+            pinned = np.array(self.pinned, dtype=bool, copy=True)
+            if pinned.shape != (self.n_nodes,):
+                raise MeshError(f"pinned has shape {pinned.shape}: expected ({self.n_nodes},)")
+            self._set(pinned=_frozen(pinned))
+        for kind, data, length in (("node", self.node_data, self.n_nodes), ("hex", self.hex_data, self.n_hexes)):
             for name, values in data.items():
                 if len(values) != length:
                     raise MeshError(f"{kind} data {name!r} has {len(values)} rows: expected {length}")
-        self._set(topology=Topology(self.hexes, len(points)))
 
     def _set(self, **values: object) -> None:
         for name, value in values.items():
@@ -141,9 +144,7 @@ class Mesh:
         if points.shape != self.points.shape:
             raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
         check_finite(points)
-        copy = object.__new__(Mesh)
-        for one in dataclasses.fields(self):
-            object.__setattr__(copy, one.name, getattr(self, one.name))
+        copy = self._copy()
         for known in ("fixed", "free"):
             if known in self.__dict__:
                 object.__setattr__(copy, known, self.__dict__[known])
@@ -151,11 +152,21 @@ class Mesh:
         return copy
 
     def replace(self, **changes: object) -> Mesh:
-        """A copy with other pins, data, sets or name (not points or hexes); topology is shared."""
+        """A copy with other pins, data, sets or name (not points or hexes); all else is shared."""
         if "points" in changes or "hexes" in changes:
             raise MeshError("replace() changes what is carried; use with_points() or make a new Mesh")
-        copy = dataclasses.replace(self, **changes)
-        copy._set(topology=self.topology)
+        unknown = changes.keys() - {one.name for one in dataclasses.fields(self) if one.init}
+        if unknown:
+            raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")
+        copy = self._copy()
+        copy._set(**changes)
+        copy._check_carried()
+        return copy
+
+    def _copy(self) -> Mesh:
+        """A copy that shares everything; nothing is checked."""
+        copy = object.__new__(Mesh)
+        copy._set(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self)})
         return copy
 
 

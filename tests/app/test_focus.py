@@ -64,7 +64,7 @@ def everything_on(window):
     return window
 
 
-@pytest.mark.parametrize("front", ["quality", "worst", "element"])
+@pytest.mark.parametrize("front", ["quality", "worst", "element", "tags"])
 def test_tab_reaches_every_control_once_and_comes_back(everything_on, qtbot, front):
     window = everything_on
     window.selection.choose(7)
@@ -122,7 +122,7 @@ def test_every_control_has_a_name(everything_on):
     window = everything_on
     window.selection.choose(7, int(window.document.now.mesh.hexes[7, 0]))
     nameless = []
-    for name in ("quality", "worst", "element"):
+    for name in ("quality", "worst", "element", "tags"):
         window.docks[name].raise_()
         QTest.qWait(30)
         for one in [window.canvas.interactor, *controls(window)]:
@@ -200,7 +200,7 @@ def test_keys_pan_and_zoom(window, parallel):
     QTest.keyClick(view, Qt.Key.Key_Minus)
     assert shown_at(window)[2] == pytest.approx(area / 1.44, rel=0.15)
     QTest.keyClick(view, Qt.Key.Key_Plus)
-    assert shown_at(window)[2] == pytest.approx(area, rel=0.02)
+    assert shown_at(window)[2] == pytest.approx(area, rel=0.05)
     for _ in range(3):  # room to move in
         QTest.keyClick(view, Qt.Key.Key_Minus)
     x, y, _ = shown_at(window)

@@ -32,6 +32,7 @@ from hexmend_app.widgets.progress_chart import ProgressChart
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
 from hexmend_app.widgets.style import apply_style
+from hexmend_app.widgets.tag_panel import TagPanel
 from hexmend_app.widgets.welcome import Welcome
 from hexmend_app.widgets.worst_list import WorstList
 from tests.app.driving import pixels
@@ -156,6 +157,7 @@ BUILT = {
     "colour bar": ColourBar,
     "welcome": lambda: Welcome(Recent()),
     "hint": Hint,
+    "tags": TagPanel,
     "palette": palette,
 }
 

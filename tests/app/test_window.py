@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PIL import Image
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QThread, QUrl
+from PySide6.QtCore import QMimeData, QPointF, Qt, QThread, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QMessageBox, QPushButton
+from PySide6.QtWidgets import QMessageBox, QPushButton
 
 from hexmend import gallery, io
 from hexmend_app.program import report_unexpected_errors
@@ -46,7 +46,7 @@ def test_run_pause_step_stop_reset_by_mouse(window, qtbot):
     assert window.isWindowModified()
     assert window.document.undo_title == "Local steepest descent"
     click(window, "Reset")
-    assert window.document.now is start
+    np.testing.assert_array_equal(window.document.now.mesh.points, start.mesh.points)
     assert window.document.undo_title == "reset"
 
 
@@ -68,7 +68,7 @@ def test_keys_step_undo_and_redo(window, qtbot):
     after = window.document.now
     assert after is not start
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
-    assert window.document.now is start
+    np.testing.assert_array_equal(window.document.now.mesh.points, start.mesh.points)
     QTest.keyClick(
         window.windowHandle(), Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
     )  # fmt: skip
@@ -80,31 +80,6 @@ def test_the_picture_follows_the_iterations(window, qtbot):
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=60000)
     qtbot.waitUntil(lambda: (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002, timeout=5000)
-
-
-@pytest.mark.parametrize("cut", ["crinkle", "smooth"])
-def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
-    whole = pixels(window)
-    panel = window.clip_panel
-    box = next(b for b in panel.findChildren(QCheckBox) if b.text() == "Clipping plane")
-    QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
-    assert window.view.look.clip is not None
-    assert window.actions_by_id["clip"].isChecked()
-    for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole elements"):
-        QTest.mouseClick(next(b for b in panel.findChildren(QPushButton) if b.text() == text), LEFT)
-    clip = window.view.look.clip
-    assert np.abs(clip.normal).tolist() == [0, 1, 0]
-    assert clip.crinkle == (cut == "crinkle")
-    halved = pixels(window)
-    assert (np.abs(halved - whole).sum(axis=2) > 60).mean() > 0.02
-    panel._slider.setFocus()
-    for _ in range(3):
-        QTest.keyClick(panel._slider, Qt.Key.Key_PageDown)
-    assert window.view.look.clip.origin[1] != pytest.approx(clip.origin[1])
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
-    assert window.view.look.clip is None
-    qtbot.wait(50)
-    assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
 def test_the_colours_by_metric_map_and_range(window, qtbot):
@@ -144,25 +119,6 @@ def test_nothing_is_cut_off(window, qtbot, size):
         assert part.width() >= part.minimumWidth()
     corner = panel.mapTo(window, panel.rect().bottomRight())
     assert corner.x() < size[0]
-
-
-def test_the_plane_is_dragged_in_the_view(window, qtbot):
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
-    QTest.mouseClick(next(b for b in window.clip_panel.findChildren(QPushButton) if b.text() == "Z"), LEFT)
-    qtbot.wait(200)
-    before = window.view.look.clip
-    interactor = window.canvas.interactor
-    renderer = interactor.renderer
-    x, y, z = before.origin
-    renderer.SetWorldPoint(x + 0.3, y - 0.3, z, 1)  # on the plane, beside its arrow
-    renderer.WorldToDisplay()
-    right, up, _ = renderer.GetDisplayPoint()
-    ratio = interactor.devicePixelRatioF()
-    place = QPoint(round(right / ratio), round(interactor.height() - up / ratio))
-    drag(interactor, place, place + QPoint(0, -60))
-    after = window.view.look.clip
-    assert after != before
-    assert window.clip_panel.clip() == after
 
 
 def test_brushing_the_histogram_keeps_a_range_in_view(window, qtbot):
@@ -227,7 +183,7 @@ def test_saving_writes_the_mesh_as_it_is_now(window, qtbot, tmp_path):
 
 @pytest.mark.parametrize("size", [(640, 480), (1500, 500)])
 def test_a_picture_has_the_size_asked_for_whatever_the_window(window, tmp_path, size):
-    window.view.set_clip(window.clip_panel.plane())
+    window.view.set_clip(window.clip_panel.proposal())
     assert window.saving.picture(tmp_path / "view.png", size)
     image = Image.open(tmp_path / "view.png")
     assert image.size == size

@@ -7,10 +7,12 @@ import re
 from math import isfinite
 from typing import TYPE_CHECKING
 
+from hexmend_app.cli import clip
+from hexmend_app.cli.numbers import direction, span, wrong
+
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
     from hexmend.quality import ElementQuality
-    from hexmend_app.state.look import ClipPlane
 
 
 class Render:
@@ -24,13 +26,7 @@ class Render:
         parser._negative_number_matcher = re.compile(r"-(\d|\.\d|[xyz]$)")
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
         parser.add_argument("-o", "--output", metavar="PNG", required=True, help="where to write the picture")
-        parser.add_argument(
-            "--clip", metavar="PLANE", help="x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5)"
-        )
-        parser.add_argument("--flip", action="store_true", help="hide the other side of the plane")
-        cut = parser.add_mutually_exclusive_group()
-        cut.add_argument("--crinkle", action="store_true", help="show elements whole (the default)")
-        cut.add_argument("--smooth", action="store_true", help="cut through the elements")
+        clip.add_arguments(parser)
         parser.add_argument("--size", metavar="WxH", default="1600x1000", help="in pixels (default %(default)s)")
         parser.add_argument(
             "--metric", metavar="NAME", default="q", help="q, scaled-jacobian, edge-ratio, ... (default %(default)s)"
@@ -54,7 +50,7 @@ class Render:
         mesh = read(args.mesh)
         figures = measure(mesh.points, mesh.hexes)
         look = _look(args, mesh, figures)
-        view = args.view if args.view in _NAMED else _direction(args.view, "--view")
+        view = args.view if args.view in _NAMED else direction(args.view, "--view")
         from hexmend_app.scene.graphics import prepare_off_screen
 
         prepare_off_screen()
@@ -69,7 +65,6 @@ class Render:
 
 
 _NAMED = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
-_AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
 def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
@@ -78,76 +73,28 @@ def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
     from hexmend_app.state.look import ColourScale, Look, RangeMode
 
     if args.colour_map not in MAPS:
-        raise _wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
+        raise wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
     metric = METRICS[args.metric]
     if args.colour_range:
-        mode, ends = RangeMode.PINNED, _range(args.colour_range, "--colour-range")
+        mode, ends = RangeMode.PINNED, span(args.colour_range, "--colour-range")
     elif all(map(isfinite, metric.full_range)):
         # What is negative is inverted, and has a colour of its own.
         mode, ends = RangeMode.PINNED, (max(metric.full_range[0], 0.0), metric.full_range[1])
     else:
         mode, ends = RangeMode.FITTED, (0.0, 1.0)
     return Look(
-        clip=plane(args.clip, mesh, crinkle=not args.smooth, flip=args.flip) if args.clip else None,
-        quality_range=_range(args.quality_range, "--quality-range") if args.quality_range else None,
+        clip=clip.clip_of(args, mesh),
+        quality_range=span(args.quality_range, "--quality-range") if args.quality_range else None,
         scale=ColourScale(metric.name, args.colour_map, mode, ends),
         edges=not args.no_edges,
     )
 
 
-def plane(text: str, mesh: Mesh, *, crinkle: bool, flip: bool) -> ClipPlane:
-    """The plane that `--clip` names: an axis or a normal, and how far through the mesh it stands."""
-    from hexmend_app.state.look import ClipPlane
-
-    direction, _, position = text.partition(":")
-    normal = _AXES.get(direction.lower()) or _direction(direction, "--clip")
-    (share,) = _numbers(position, 1, "--clip") if position else (0.5,)
-    if not 0 <= share <= 1:
-        raise _wrong("--clip", text, "a position from 0 to 1, as in x:0.5")
-    along = mesh.points[mesh.topology.used] @ normal
-    place = along.min() + share * (along.max() - along.min())
-    origin = tuple(c * place / sum(n * n for n in normal) for c in normal)
-    answer = ClipPlane(normal, origin, crinkle)
-    return answer.flipped() if flip else answer
-
-
 def _size(text: str) -> tuple[int, int]:
     width, _, height = text.lower().partition("x")
     if not (width.isdecimal() and height.isdecimal() and 64 <= int(width) <= 8192 and 64 <= int(height) <= 8192):
-        raise _wrong("--size", text, "WIDTHxHEIGHT of 64 to 8192 pixels each, as in 1600x1000")
+        raise wrong("--size", text, "WIDTHxHEIGHT of 64 to 8192 pixels each, as in 1600x1000")
     return int(width), int(height)
-
-
-def _direction(text: str, option: str) -> tuple[float, ...]:
-    """A vector, scaled so that its largest component is 1 or -1."""
-    numbers = _numbers(text, 3, option)
-    largest = max(map(abs, numbers))
-    if not largest > 0:
-        raise _wrong(option, text, "a direction that is not zero")
-    return tuple(number / largest for number in numbers)
-
-
-def _range(text: str, option: str) -> tuple[float, ...]:
-    low, high = _numbers(text, 2, option)
-    if not low < high:
-        raise _wrong(option, text, "the lower number first, as in 0.2,0.8")
-    return low, high
-
-
-def _numbers(text: str, count: int, option: str) -> tuple[float, ...]:
-    try:
-        numbers = tuple(float(word) for word in text.split(","))
-    except ValueError:
-        numbers = ()
-    if len(numbers) != count or any(number != number or abs(number) == float("inf") for number in numbers):
-        raise _wrong(option, text, f"{count} number{'s' * (count > 1)} separated by commas")
-    return numbers
-
-
-def _wrong(option: str, text: str, expected: str):
-    from hexmend.errors import ParameterError
-
-    return ParameterError(f"{option} {text!r} cannot be used: expected {expected}")
 
 
 command = Render()

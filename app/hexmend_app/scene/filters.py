@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene import sides
+from hexmend_app.state.clip import Clip
 from hexmend_app.state.look import Look
 
 
@@ -28,7 +29,7 @@ class Filters:
     def kept(self, look: Look, points: np.ndarray, figures: ElementQuality) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all.
 
-        A cut by whole elements is made where the nodes are as the plane comes, so that none flickers as they move.
+        A cut by whole elements is made where the nodes are as a plane comes, so that none flickers as they move.
 
         Parameters
         ----------
@@ -37,12 +38,12 @@ class Filters:
         figures : ElementQuality
             Of the mesh at these points.
         """
-        plane, chosen, topology = look.clip, look.quality_range, self._mesh.topology
+        clip, chosen, topology = look.clip, look.quality_range, self._mesh.topology
         parts = (
             self._part(
                 "clip",
-                plane if plane is not None and plane.crinkle else None,
-                lambda: sides.centres_kept(points, self._mesh.hexes, *plane.equation),
+                clip if clip is not None and clip.crinkle else None,
+                lambda: _uncut(points, self._mesh.hexes, clip),
             ),
             self._part("peel", look.peel or None, lambda: topology.layers >= look.peel),
             self._part(
@@ -63,6 +64,11 @@ class Filters:
         if name not in self._known or self._known[name][0] != reason:
             self._known[name] = reason, find()
         return self._known[name][1]
+
+
+def _uncut(points: np.ndarray, hexes: np.ndarray, clip: Clip) -> np.ndarray:
+    normals, offsets = zip(*(plane.equation for plane in clip.planes), strict=True)
+    return sides.centres_kept(points, hexes, np.array(normals), np.array(offsets), clip.notch)
 
 
 def _all_but(dug: frozenset[int], m: int) -> np.ndarray:

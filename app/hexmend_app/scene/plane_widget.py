@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pyvista as pv
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
 
-from hexmend_app.state.look import ClipPlane
+from hexmend_app.state.clip import ClipPlane
 from hexmend_app.state.theme import PLANE, PLANE_EDGE, PLANE_HELD
 
 
@@ -19,12 +19,14 @@ class PlaneWidget:
     plotter : pyvista.BasePlotter
         One with an interactor.
     moved : callable
-        Called with (origin, normal) as the user drags; never for what is set by `set`.
+        Called with the ClipPlane as the user drags; never for what is set by `set`.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, moved: Callable[[tuple, tuple], None]):
+    def __init__(self, plotter: pv.BasePlotter, moved: Callable[[ClipPlane], None]):
         self._moved = moved
         self._placed = False
+        self._dragging = False
+        self._plane: ClipPlane | None = None
         shape = vtkImplicitPlaneRepresentation()
         shape.SetPlaceFactor(1.08)
         shape.OutlineTranslationOff()
@@ -41,6 +43,8 @@ class PlaneWidget:
         self._widget.SetInteractor(plotter.iren.interactor)
         self._widget.SetCurrentRenderer(plotter.renderer)
         self._widget.SetRepresentation(shape)
+        self._widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
+        self._widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
         self._widget.AddObserver("InteractionEvent", self._announce)
 
     def set_dark(self, dark: bool) -> None:
@@ -56,12 +60,17 @@ class PlaneWidget:
         self._shape.PlaceWidget(bounds)
         self._placed = True
 
-    def set(self, clip: ClipPlane | None, shown: bool = True) -> None:
-        """Show the plane where `clip` has it, or nothing."""
-        on = clip is not None and shown and self._placed
-        if on:
-            self._shape.SetNormal(clip.normal)
-            self._shape.SetOrigin(clip.origin)
+    def set(self, plane: ClipPlane | None, shown: bool = True) -> None:
+        """Show a plane, or nothing.
+
+        While it is dragged it follows the hand: turned on from where it has been set straight, it would never get away
+        from there.
+        """
+        self._plane = plane
+        on = plane is not None and shown and self._placed
+        if on and not self._dragging:
+            self._shape.SetNormal(plane.normal)
+            self._shape.SetOrigin(plane.origin)
         if bool(self._widget.GetEnabled()) != on:
             self._widget.SetEnabled(on)
 
@@ -70,5 +79,10 @@ class PlaneWidget:
         self._widget.Off()
         self._widget.SetInteractor(None)
 
+    def _drag(self, on: bool) -> None:
+        self._dragging = on
+        if not on:
+            self.set(self._plane)
+
     def _announce(self, *_: object) -> None:
-        self._moved(tuple(self._shape.GetOrigin()), tuple(self._shape.GetNormal()))
+        self._moved(ClipPlane(self._shape.GetNormal(), self._shape.GetOrigin()))

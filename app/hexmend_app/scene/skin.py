@@ -14,6 +14,8 @@ from hexmend.mesh import Mesh
 #: a graphics card.
 WHOLE = 4_000
 
+_NONE = np.empty((0, 6), np.int32)
+
 
 @dataclass(frozen=True, eq=False)
 class Faces:
@@ -65,12 +67,13 @@ class Skin:
         """
         return Faces(*_visible(self._hexes, self._neighbours, self._all if keep is None else keep, self._place))
 
-    def shrunk(self, shrink: float, keep: np.ndarray | None = None) -> Faces:
-        """All six faces of kept hexes; of more than `WHOLE`, of those that have a visible face."""
+    def shrunk(self, shrink: float, keep: np.ndarray | None = None, fine: bool = True) -> Faces:
+        """All six faces of kept hexes; of more than `WHOLE`, of those that have a visible face, and not `fine` that."""
         keep = self._all if keep is None else keep
-        if np.count_nonzero(keep) > WHOLE:
-            keep = _outer(self._neighbours, keep)
-        return Faces(*_all_faces(self._hexes, np.flatnonzero(keep)), shrink)
+        if np.count_nonzero(keep) <= WHOLE:
+            return Faces(*_faces_of(self._hexes, np.flatnonzero(keep), _NONE, keep), shrink)
+        chosen = np.flatnonzero(_outer(self._neighbours, keep))
+        return Faces(*_faces_of(self._hexes, chosen, _NONE if fine else self._neighbours, keep), shrink)
 
 
 @serial
@@ -87,19 +90,24 @@ def _outer(neighbours, keep):
 
 
 @serial
-def _all_faces(hexes, chosen):
+def _faces_of(hexes, chosen, neighbours, keep):
+    """Faces of chosen hexes with nodes of their own; of none that a kept hex is behind where `neighbours` are given."""
     nodes = np.empty(8 * chosen.size, np.int32)
     quads = np.empty((6 * chosen.size, 4), np.int32)
     owners = np.empty(6 * chosen.size, np.int32)
+    row = 0
     for at in range(chosen.size):
         h = chosen[at]
         for c in range(8):
             nodes[8 * at + c] = hexes[h, c]
         for f in range(6):
+            if neighbours.size and neighbours[h, f] >= 0 and keep[neighbours[h, f]]:
+                continue
             for k in range(4):
-                quads[6 * at + f, k] = 8 * at + FACES[f, k]
-            owners[6 * at + f] = h
-    return nodes, quads, owners
+                quads[row, k] = 8 * at + FACES[f, k]
+            owners[row] = h
+            row += 1
+    return nodes, quads[:row].copy(), owners[:row].copy()
 
 
 @serial

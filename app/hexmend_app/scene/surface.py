@@ -21,6 +21,7 @@ class Surface:
 
     def __init__(self, plotter: pv.BasePlotter, name: str):
         self.poly = pv.PolyData()
+        self._edges, self._without_edges = True, False
         self.actor = plotter.add_mesh(
             pv.Triangle(),
             name=name,
@@ -66,6 +67,12 @@ class Surface:
         """Recolour the polygons, (k, 3) uint8."""
         set_colours(self.poly, colours)
 
+    def stand_in(self, poly: pv.PolyData | None) -> None:
+        """Draw other polygons for a while, without edges; None draws the own again."""
+        self.actor.mapper.SetInputData(self.poly if poly is None else poly)
+        self._without_edges = poly is not None
+        self._fit_edges()
+
     def hide(self) -> None:
         """Draw nothing."""
         self.actor.SetVisibility(False)
@@ -81,7 +88,11 @@ class Surface:
 
     def show_edges(self, on: bool) -> None:
         """Draw the polygons' edges or not."""
-        self.actor.GetProperty().SetEdgeVisibility(on)
+        self._edges = on
+        self._fit_edges()
+
+    def _fit_edges(self) -> None:
+        self.actor.GetProperty().SetEdgeVisibility(self._edges and not self._without_edges)
 
 
 def quads(points: np.ndarray, faces: np.ndarray, colours: np.ndarray, hexes: np.ndarray) -> pv.PolyData:
@@ -100,6 +111,11 @@ def coloured(data: pv.DataSet, colours: np.ndarray, hexes: np.ndarray) -> pv.Dat
 def hex_of(data: pv.DataSet, cell: int) -> int:
     """The hex that a cell shows."""
     return int(data.cell_data[_HEX][cell])
+
+
+def hexes_of(poly: pv.PolyData) -> np.ndarray:
+    """The hexes that polygons show, (k,) int32."""
+    return np.asarray(poly.cell_data[_HEX])
 
 
 def colours_of(poly: pv.PolyData) -> np.ndarray:

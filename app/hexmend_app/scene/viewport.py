@@ -9,6 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkCellPicker
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, Node, corner_qualities
 from hexmend_app.scene import cut
+from hexmend_app.scene.coarse import MANY, coarse
 from hexmend_app.scene.colours import Colouring, resolve
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.fitting import fit
@@ -54,6 +55,8 @@ class Viewport:
         self._mesh: Mesh | None = None
         self._look = Look()
         self._fast = False
+        self._coarse: pv.PolyData | None = None  # of the skin, drawn while the camera moves
+        self._steady = False  # nothing but the camera has moved since the last fine frame
         self._colouring: Colouring | None = None
         self._dark = False
         plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
@@ -199,7 +202,7 @@ class Viewport:
     @property
     def shown(self) -> int:
         """Number of hexes that are shown whole or in part, before a smooth cut."""
-        keep = self._kept()
+        keep = self.kept()
         return self._mesh.n_hexes if keep is None else int(np.count_nonzero(keep))
 
     def _measure(self) -> None:
@@ -208,13 +211,13 @@ class Viewport:
         self._values = values(scale.metric, self._points, self._mesh.hexes, figures)
         self._colouring = resolve(scale, self._values, figures.inverted)
 
-    def _kept(self) -> np.ndarray | None:
+    def kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
         return self._filters.kept(self._look, self._points, self._figures)
 
     def _rebuild(self) -> None:
         """Find the visible faces anew."""
-        keep = self._kept()
+        keep = self.kept()
         faces = self._faces = self._visible(keep)
         self._whole = quads(faces.places(self._points), faces.quads, self._face_colours(), faces.hexes)
         self._cut(keep)
@@ -224,7 +227,7 @@ class Viewport:
     def _visible(self, keep: np.ndarray | None) -> Faces:
         look = self._look
         if look.shrink and (look.clip is None or look.clip.crinkle):
-            return self._skin.shrunk(look.shrink, keep)
+            return self._skin.shrunk(look.shrink, keep, fine=not self._fast)
         return self._skin.visible(keep)
 
     def _move(self) -> None:
@@ -232,9 +235,11 @@ class Viewport:
         set_points(self._whole, self._faces.places(self._points))
         set_colours(self._whole, self._face_colours())
         self._outline.move(self._points)
-        self._cut(self._kept())
+        self._cut(self.kept())
 
     def _cut(self, keep: np.ndarray | None) -> None:
+        self._steady, self._coarse = False, None
+        self._skin_surface.stand_in(None)
         self._replace(keep)
         self._outline_inverted()
 
@@ -248,15 +253,15 @@ class Viewport:
                 halo.hide()
 
     def _replace(self, keep: np.ndarray | None) -> None:
-        plane = self._look.clip
-        if plane is None or plane.crinkle:
+        clip = self._look.clip
+        if clip is None or clip.crinkle:
             if self._skin_surface.poly is not self._whole:
                 self._skin_surface.replace(self._whole)
             self._section_surface.hide()
             return
-        self._skin_surface.replace(cut.behind(self._whole, plane))
+        self._skin_surface.replace(cut.behind(self._whole, clip))
         every = self._colours(slice(None))
-        self._section_surface.replace(cut.section(self._points, self._mesh.hexes, keep, plane, every))
+        self._section_surface.replace(cut.sections(self._points, self._mesh.hexes, keep, clip, every))
 
     def _cull(self) -> None:
         """Leave out faces seen from behind, a third of the frame, unless an inverted element may turn them to us."""
@@ -299,15 +304,27 @@ class Viewport:
         self._plotter.render_window.SetMultiSamples(0)
         self._set_fast(True)
 
+    def turning(self) -> None:
+        """Prepare for fast frames in which nothing but the camera moves."""
+        self.moving()
+        if self._steady and self._skin_surface.poly is self._whole and len(self._faces.quads) > MANY:
+            if self._coarse is None:
+                self._coarse = coarse(self._whole)
+            self._skin_surface.stand_in(self._coarse)
+
     def still(self) -> None:
         """Prepare for a fine frame: smooth edges."""
         self._plotter.render_window.SetMultiSamples(4)
         self._set_fast(False)
+        self._skin_surface.stand_in(None)
+        self._steady = True
 
     def _set_fast(self, fast: bool) -> None:
         if fast != self._fast:
             self._fast = fast
-            if self._mesh is not None:
+            if self._mesh is not None and self._faces.shrink:
+                self._rebuild()  # many shrunk elements show their sides in fine frames alone
+            elif self._mesh is not None:
                 self._outline_inverted()
 
     @property

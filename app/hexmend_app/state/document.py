@@ -102,9 +102,9 @@ class Document(QObject):
         self.points_moved.emit()
 
     def commit(self, title: str, state: State) -> None:
-        """Record where the nodes are now, and which are pinned, as one change that undo takes back."""
-        before = self._changes[self._at].state.mesh
-        if state.mesh.points is not before.points or state.mesh.pinned is not before.pinned:
+        """Record where the nodes are now, what is pinned and what is tagged, as one change that undo takes back."""
+        before, after = self._changes[self._at].state.mesh, state.mesh
+        if any(getattr(after, part) is not getattr(before, part) for part in ("points", "pinned", "hex_sets")):
             del self._changes[self._at + 1 :]
             if self._saved > self._at:
                 self._saved = -1  # what was saved can no longer be reached
@@ -135,9 +135,14 @@ class Document(QObject):
             self._show()
 
     def reset(self) -> None:
-        """Put the nodes back to where they were when the mesh was opened; undo takes that back too."""
-        if not np.array_equal(self.now.mesh.points, self.start.mesh.points):
-            self.commit("reset", self.start)
+        """Put the nodes back to where they were when the mesh was opened; undo takes that back too.
+
+        What was pinned or tagged since stays so.
+        """
+        start = self.start
+        if not np.array_equal(self.now.mesh.points, start.mesh.points):
+            mesh = self.now.mesh.with_points(start.mesh.points)
+            self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
 
     def saved(self, path: Path) -> None:
         """Remember that the mesh as it is now is on disk."""

@@ -2,51 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
-
-@dataclass(frozen=True)
-class ClipPlane:
-    """A half-space that is cut away: what lies on the side that `normal` points to is hidden.
-
-    Parameters
-    ----------
-    normal : tuple of 3 floats
-        Of unit length.
-    origin : tuple of 3 floats
-        A point of the plane, in the mesh's unit of length.
-    crinkle : bool
-        Whole elements (True: an element is shown when its centre is on the kept side) or a smooth cut through them.
-    """
-
-    normal: tuple[float, float, float] = (1.0, 0.0, 0.0)
-    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    crinkle: bool = True
-
-    def __post_init__(self) -> None:
-        length = float(np.linalg.norm(self.normal))
-        if not length > 0 or not np.isfinite(length):
-            raise ValueError(f"the plane's normal is {self.normal}: expected a direction")
-        object.__setattr__(self, "normal", tuple(float(c) / length for c in self.normal))
-        object.__setattr__(self, "origin", tuple(float(c) for c in self.origin))
-
-    @property
-    def equation(self) -> tuple[np.ndarray, float]:
-        """Normal (3,) and offset: points of the plane have x . normal = offset."""
-        return np.array(self.normal), float(np.dot(self.normal, self.origin))
-
-    def signed_distance(self, points: np.ndarray) -> np.ndarray:
-        """Distance of (k, 3) points from the plane, positive on the hidden side."""
-        normal, offset = self.equation
-        return np.asarray(points) @ normal - offset
-
-    def flipped(self) -> ClipPlane:
-        """The same plane hiding the other side."""
-        return dataclasses.replace(self, normal=tuple(-c for c in self.normal))
+from hexmend_app.state.clip import Clip
 
 
 class RangeMode(StrEnum):
@@ -115,7 +76,7 @@ class Look:
 
     Parameters
     ----------
-    clip : ClipPlane, optional
+    clip : PlaneClip or BoxClip, optional
         None shows the mesh uncut.
     peel : int
         Elements with fewer than so many others between them and the boundary are hidden.
@@ -135,7 +96,7 @@ class Look:
         Draw the elements' edges.
     """
 
-    clip: ClipPlane | None = None
+    clip: Clip | None = None
     peel: int = 0
     isolation: Isolation | None = None
     dug: frozenset[int] = frozenset()

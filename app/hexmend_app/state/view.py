@@ -7,7 +7,8 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.state.look import ClipPlane, Isolation, Look
+from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, PlaneClip
+from hexmend_app.state.look import Isolation, Look
 
 
 class View(QObject):
@@ -23,7 +24,9 @@ class View(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.look = Look()
-        self.plane_shown = True
+        self.handles = True  # of the plane or the box, in the view
+        self.plane_at = 0  # which of several planes has them
+        self.snap = True
         self.rings = 1
         self._dug: list[int] = []  # in the order of digging
 
@@ -40,15 +43,37 @@ class View(QObject):
         """Hide nothing: another mesh is open, of which other elements would be meant."""
         self.change(clip=None, quality_range=None, peel=0, isolation=None, dug=frozenset())
 
-    def set_clip(self, clip: ClipPlane | None) -> None:
+    def set_clip(self, clip: Clip | None) -> None:
         """Cut, move the cut, or cut no more."""
+        if not isinstance(clip, PlaneClip) or self.plane_at >= len(clip.planes):
+            self.plane_at = 0
         self.change(clip=clip)
 
-    def set_plane_shown(self, shown: bool) -> None:
-        """Show or hide the plane that is dragged in the view; the cut stays."""
-        if shown != self.plane_shown:
-            self.plane_shown = shown
+    def choose_plane(self, at: int) -> None:
+        """Let another of several planes be the one that is moved."""
+        if at != self.plane_at:
+            self.plane_at = at
             self.look_changed.emit()
+
+    def drag_plane(self, plane: ClipPlane) -> None:
+        """Move the plane that is chosen to where the hand has it, set straight where it is to snap."""
+        if isinstance(self.look.clip, PlaneClip):
+            self.set_clip(self.look.clip.with_plane(self.plane_at, plane.snapped() if self.snap else plane))
+
+    def drag_box(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
+        """Move the sides of the box to where the hand has them."""
+        if isinstance(self.look.clip, BoxClip):
+            self.set_clip(dataclasses.replace(self.look.clip, low=low, high=high))
+
+    def set_handles(self, shown: bool) -> None:
+        """Show or hide what the cut is dragged by in the view; the cut stays."""
+        if shown != self.handles:
+            self.handles = shown
+            self.look_changed.emit()
+
+    def set_snap(self, on: bool) -> None:
+        """Set planes straight that come near to an axis, or leave them."""
+        self.snap = on
 
     def isolate(self, hexes: Iterable[int], rings: int | None = None) -> None:
         """Show some elements with so many rings of neighbours around them, and nothing else.

@@ -1,4 +1,4 @@
-"""The 3D view as a widget: the scene in a Qt interactor, the plane that is dragged in it, the colour bar below."""
+"""The 3D view as a widget: the scene in a Qt interactor, what is dragged in it, the colour bar below."""
 
 from __future__ import annotations
 
@@ -14,12 +14,14 @@ from pyvistaqt import QtInteractor
 from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, Node
+from hexmend_app.scene.box_widget import BoxWidget
 from hexmend_app.scene.colours import INVERTED, Colouring
 from hexmend_app.scene.flight import Flight
 from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.look import ClipPlane, Look
+from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.state.look import Look
 from hexmend_app.state.theme import BLUE, THEME
 from hexmend_app.widgets.colour_bar import ColourBar
 from hexmend_app.widgets.style import dress, explain
@@ -44,15 +46,18 @@ class Canvas(QWidget):
 
     Signals
     -------
-    clip_dragged(ClipPlane)
+    plane_dragged(ClipPlane)
         The user moved or turned the plane in the view.
+    box_dragged(low, high)
+        The user moved a side of the box in the view.
     clicked(hit)
         The user clicked on an element, (hex, its nearest node), or beside the mesh, None.
     dug(hex)
         The user clicked on an element with Ctrl held down.
     """
 
-    clip_dragged = Signal(object)
+    plane_dragged = Signal(object)
+    box_dragged = Signal(object, object)
     clicked = Signal(object)
     dug = Signal(int)
 
@@ -60,14 +65,14 @@ class Canvas(QWidget):
         super().__init__(parent)
         self.interactor = QtInteractor(self, auto_update=False)
         self.viewport = Viewport(self.interactor)
-        self.plane = PlaneWidget(self.interactor, self._on_dragged)
+        self.plane = PlaneWidget(self.interactor, self.plane_dragged.emit)
+        self.box = BoxWidget(self.interactor, self.box_dragged.emit)
         self.colour_bar = ColourBar()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(_RING, _RING, _RING, 0)
         layout.setSpacing(_RING)
         layout.addWidget(self.interactor, 1)
         layout.addWidget(self.colour_bar)
-        self._look = Look()
         self._frame = QTimer(self)  # several changes in one turn of the event loop are one frame
         self._frame.setSingleShot(True)
         self._frame.timeout.connect(self._draw)
@@ -75,7 +80,7 @@ class Canvas(QWidget):
         self._rest.setSingleShot(True)
         self._rest.setInterval(_REST)
         self._rest.timeout.connect(self._draw_still)
-        self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._moving())
+        self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._turning())
         self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
         self._pressed: QPointF | None = None
         self.interactor.installEventFilter(self)
@@ -97,12 +102,14 @@ class Canvas(QWidget):
             return
         self.viewport.set_dark(THEME.dark)
         self.plane.set_dark(THEME.dark)
+        self.box.set_dark(THEME.dark)
         self._changed()
 
     def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
         """Draw another mesh."""
         self.viewport.set_mesh(mesh, figures)
-        self.plane.set_bounds(self.viewport.bounds)
+        for handles in (self.plane, self.box):
+            handles.set_bounds(self.viewport.bounds)
         self._show_colours()
         self._changed()
 
@@ -114,11 +121,12 @@ class Canvas(QWidget):
         if live:
             self._rest.stop()
 
-    def set_look(self, look: Look, plane_shown: bool) -> None:
-        """Draw it differently."""
-        self._look = look
+    def set_look(self, look: Look, handles: bool, at: int = 0) -> None:
+        """Draw it differently, with handles at the box, or at one of the planes, or without."""
         self.viewport.set_look(look)
-        self.plane.set(look.clip, plane_shown)
+        clip = look.clip
+        self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) else None, handles)
+        self.box.set(clip if isinstance(clip, BoxClip) else None, handles)
         self._show_colours()
         self._changed()
 
@@ -152,7 +160,8 @@ class Canvas(QWidget):
         share = min(self._flown.elapsed() / _FLIGHT, 1.0)
         self._flight.at(share)
         self.viewport.reset_depth()
-        self._changed()
+        self._turning()
+        self._draw_soon()
         if share == 1.0:
             self._fly.stop()
 
@@ -223,6 +232,7 @@ class Canvas(QWidget):
         self._rest.stop()
         self._fly.stop()
         self.plane.close()
+        self.box.close()
         self.interactor.close()
         super().closeEvent(event)
 
@@ -239,19 +249,18 @@ class Canvas(QWidget):
             self.colour_bar.set_range(colouring.low, colouring.high)
             self.colour_bar.set_inverted(self.viewport.figures.n_inverted, INVERTED)
 
-    def _on_dragged(self, origin: tuple, normal: tuple) -> None:
-        crinkle = self._look.clip.crinkle if self._look.clip else True
-        self.clip_dragged.emit(ClipPlane(normal, origin, crinkle))
-
     def _changed(self) -> None:
-        self._moving()
+        self.viewport.moving()
+        self._draw_soon()
+
+    def _draw_soon(self) -> None:
         self._rest.start()
         if not self._frame.isActive():
             self._frame.start(0)
 
-    def _moving(self) -> None:
+    def _turning(self) -> None:
         self._rest.stop()
-        self.viewport.moving()
+        self.viewport.turning()
 
     def _draw(self) -> None:
         self.interactor.render()

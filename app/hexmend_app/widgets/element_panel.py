@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFont
@@ -173,12 +175,12 @@ class ElementPanel(QWidget):
         """Whether the corners' qualities are wanted in the view."""
         return self._in_view.isChecked()
 
-    def show_element(self, one: Element | None) -> None:
-        """Show an element, or how to choose one."""
+    def show_element(self, one: Element | None, tags: Sequence[str] = ()) -> None:
+        """Show an element and the tags that it has, or how to choose one."""
         self._stack.setCurrentIndex(0 if one is None else 1)
         if one is None:
             return
-        self._title.setText(f"Element {one.number:,}")
+        self._title.setText(f"Element {one.number:,}" + (f": {', '.join(tags)}" if tags else ""))
         state = "inverted, and its fixed nodes keep it so" if one.locked else "inverted" if one.inverted else ""
         self._state.setText(state)
         for name, label in self._values.items():

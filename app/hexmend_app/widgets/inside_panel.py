@@ -21,7 +21,7 @@ _PEEL = (
 _NO_LAYERS = "Nothing to peel: every element has a face on the boundary."
 _SHRINK = (
     "Draw each element smaller, about its centre, to see its shape and what lies behind it. Of more than "
-    f"{WHOLE:,} elements only those with a face in sight are drawn, so that the view stays quick."
+    f"{WHOLE:,} elements only those with a face in sight are drawn, and their sides when the view rests."
 )
 _CUT_SMOOTHLY = "Elements that are cut through cannot be shrunk: choose <i>Whole elements</i> for the cut."
 _RINGS = (

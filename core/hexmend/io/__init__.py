@@ -5,7 +5,7 @@
 """
 
 from hexmend.io import medit, medit_binary, vtk_legacy, vtu  # noqa: F401  (they register themselves)
-from hexmend.io.files import read, readable_suffixes, writable_suffixes, write, writer_for
+from hexmend.io.files import left_out, read, readable_suffixes, writable_suffixes, write, writer_for
 from hexmend.io.format import FORMATS, Format
 
-__all__ = ["FORMATS", "Format", "read", "readable_suffixes", "writable_suffixes", "write", "writer_for"]
+__all__ = ["FORMATS", "Format", "left_out", "read", "readable_suffixes", "writable_suffixes", "write", "writer_for"]

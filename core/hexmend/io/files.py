@@ -95,6 +95,11 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
     return write
 
 
+def left_out(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
+    """The named groups of hexes that a file with this suffix cannot hold."""
+    return [] if _by_suffix(Path(path), "write").holds_hex_sets else sorted(mesh.hex_sets)
+
+
 def readable_suffixes() -> tuple[str, ...]:
     """Suffixes of the files that `read` understands, with the dot."""
     return tuple(suffix for format in FORMATS.values() for suffix in format.suffixes)

@@ -28,6 +28,8 @@ class Format:
         From path to Mesh; raises FileError or MeshError, and OSError where the file system fails.
     write : callable
         From path, mesh and an encoding to nothing; opens the path itself.
+    holds_hex_sets : bool
+        Whether named groups of hexes are written; where not, they are left out.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Format:
     encodings: tuple[str, ...]
     read: Callable[[Path], Mesh]
     write: Callable[[Path, Mesh, str], None]
+    holds_hex_sets: bool = True
 
 
 #: Every format by name.

@@ -81,4 +81,4 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write("End\n")
 
 
-FORMATS.add("medit", Format("medit", "Medit", (".mesh",), ("ascii",), read, write))
+FORMATS.add("medit", Format("medit", "Medit", (".mesh",), ("ascii",), read, write, holds_hex_sets=False))

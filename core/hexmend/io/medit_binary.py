@@ -93,4 +93,6 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(struct.pack(offset, 0))
 
 
-FORMATS.add("medit-binary", Format("medit-binary", "binary Medit", (".meshb",), ("binary",), read, write))
+FORMATS.add(
+    "medit-binary", Format("medit-binary", "binary Medit", (".meshb",), ("binary",), read, write, holds_hex_sets=False)
+)

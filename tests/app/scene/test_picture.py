@@ -9,14 +9,17 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from hexmend.errors import ParameterError
 from hexmend.io import write
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, measure
-from hexmend_app.cli.render import _look, command, plane
+from hexmend_app.cli.clip import clip_of, plane
+from hexmend_app.cli.render import _look, command
 from hexmend_app.scene.colours import INVERTED, resolve
 from hexmend_app.scene.picture import picture
 from hexmend_app.scene.values import values
-from hexmend_app.state.look import ClipPlane, Look
+from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
+from hexmend_app.state.look import Look
 from tests.core.grids import grid, scrambled
 from tests.said import complaints
 
@@ -119,8 +122,8 @@ def test_words_that_begin_with_a_minus_are_values():
     parser = argparse.ArgumentParser(allow_abbrev=False)
     command.arguments(parser)
     args = parser.parse_args(["a.vtk", "-o", "a.png", "--view", "-x", "--clip", "-1,0,0:0.4", "--no-bar"])
-    assert (args.view, args.clip, args.output, args.no_bar) == ("-x", "-1,0,0:0.4", "a.png", True)
-    assert parser.parse_args(["a.vtk", "-o", "a.png", "--clip", "-.5,1,0"]).clip == "-.5,1,0"
+    assert (args.view, args.clip, args.output, args.no_bar) == ("-x", ["-1,0,0:0.4"], "a.png", True)
+    assert parser.parse_args(["a.vtk", "-o", "a.png", "--clip", "-.5,1,0"]).clip == ["-.5,1,0"]
 
 
 @pytest.mark.parametrize("size", [(64, 64), (128, 96), (320, 160), (200, 600)])
@@ -129,19 +132,35 @@ def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
     assert picture(mesh, measure(mesh.points, mesh.hexes), Look(), size).size == size
 
 
+def asked(mesh, *words):
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    command.arguments(parser)
+    return clip_of(parser.parse_args(["a.vtk", "-o", "a.png", *words]), mesh)
+
+
 def test_planes_are_named_by_axis_or_normal_and_position():
     mesh = grid(4)
-    assert plane("x:0.25", mesh, crinkle=True, flip=False) == ClipPlane((1, 0, 0), (1, 0, 0))
-    assert plane("z", mesh, crinkle=False, flip=True) == ClipPlane((0, 0, -1), (0, 0, 2), False)
-    slanted = plane("1,1,0:0.5", mesh, crinkle=True, flip=False)
+    assert asked(mesh) is None
+    assert asked(mesh, "--clip", "x:0.25") == PlaneClip.at((1, 0, 0), (1, 0, 0))
+    assert asked(mesh, "--clip", "z", "--flip", "--smooth") == PlaneClip.at((0, 0, -1), (0, 0, 2), False)
+    slanted = plane("1,1,0:0.5", mesh)
     assert slanted.signed_distance(np.array([[2.0, 2.0, 0.0]]))[0] == pytest.approx(0)
-    assert plane("1e300,0,0:0.25", mesh, crinkle=True, flip=False) == ClipPlane((1, 0, 0), (1, 0, 0))
+    assert plane("1e300,0,0:0.25", mesh) == ClipPlane((1, 0, 0), (1, 0, 0))
+
+
+def test_several_planes_and_boxes_are_asked_for():
+    mesh = grid(4)
+    two = asked(mesh, "--clip", "x:0.25", "--clip", "y:0.5", "--notch")
+    assert two == PlaneClip((ClipPlane((1, 0, 0), (1, 0, 0)), ClipPlane((0, 1, 0), (0, 2, 0))), True, True)
+    assert asked(mesh, "--clip-box", "0,0.5,0.25,1,0,1") == BoxClip((0, 1, 0), (2, 4, 4))
+    with pytest.raises(ParameterError, match="the lower first"):
+        asked(mesh, "--clip-box", "0.5,0,0,1,0,1")
 
 
 def test_nodes_that_no_hex_uses_do_not_count():
     mesh = grid(4)
     stray = Mesh(np.vstack([mesh.points, [[100.0, 0.0, 0.0]]]), mesh.hexes)
-    assert plane("x", stray, crinkle=True, flip=False) == ClipPlane((1, 0, 0), (2, 0, 0))
+    assert plane("x", stray) == ClipPlane((1, 0, 0), (2, 0, 0))
 
 
 def test_looks_are_values():

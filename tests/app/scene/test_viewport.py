@@ -9,11 +9,12 @@ from hexmend.quality import measure
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.look import ClipPlane, ColourScale, Look, RangeMode
+from hexmend_app.state.clip import ClipPlane, PlaneClip
+from hexmend_app.state.look import ColourScale, Look, RangeMode
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)
-INSIDE = ClipPlane((0, 0, 1), (0, 0, 2), False)
+INSIDE = PlaneClip.at((0, 0, 1), (0, 0, 2), False)
 
 
 def figures_of(mesh):
@@ -61,7 +62,7 @@ def test_pixels_follow_the_points_and_come_back_with_them(seen):
 @pytest.mark.parametrize("crinkle", [True, False])
 def test_inside_a_cut_elements_turn_over_and_back(seen, crinkle):
     viewport, pixels = seen
-    viewport.set_look(Look(clip=ClipPlane((0, 0, 1), (0, 0, 2), crinkle)))
+    viewport.set_look(Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2), crinkle)))
     before = pixels()
     assert magenta(before) == 0
     tangled = scrambled(MESH, 1.5)
@@ -114,7 +115,7 @@ def test_the_same_picture_however_its_look_was_reached(seen):
     viewport.set_look(look)
     viewport.set_points(tangled.points, figures_of(tangled))
     moved = pixels()
-    lower = Look(clip=ClipPlane((0, 0, 1), (0, 0, 1)))
+    lower = Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 1)))
     viewport.set_look(lower)
     crinkle = pixels()
     assert np.abs(crinkle - moved).max() > 50
@@ -131,7 +132,9 @@ def white(image):
 
 
 @pytest.mark.parametrize("edges", [True, False])
-@pytest.mark.parametrize("clip", [None, ClipPlane((0, 0, 1), (0, 0, 2)), ClipPlane((0, 0, 1), (0, 0, 2.2), False)])
+@pytest.mark.parametrize(
+    "clip", [None, PlaneClip.at((0, 0, 1), (0, 0, 2)), PlaneClip.at((0, 0, 1), (0, 0, 2.2), False)]
+)
 def test_inverted_elements_that_are_seen_are_outlined(seen, edges, clip):
     viewport, pixels = seen
     viewport.set_look(Look(edges=edges, clip=clip))
@@ -194,13 +197,13 @@ def test_nodes_that_no_hex_uses_do_not_count(seen):
 def test_setting_the_plane_is_no_wish_of_the_user(plotter):
     told = []
     plotter.show(auto_close=False, interactive=False)
-    widget = PlaneWidget(plotter, lambda *plane: told.append(plane))
+    widget = PlaneWidget(plotter, told.append)
     widget.set_bounds((0, 4, 0, 4, 0, 4))
-    for clip in (INSIDE, ClipPlane((1, 0, 0), (1, 0, 0)), None, INSIDE):
-        widget.set(clip)
+    for plane in (INSIDE.planes[0], ClipPlane((1, 0, 0), (1, 0, 0)), None, INSIDE.planes[0]):
+        widget.set(plane)
     assert told == []
     widget._widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
-    assert told == [(INSIDE.origin, INSIDE.normal)]
+    assert told == [INSIDE.planes[0]]
     widget.close()
 
 
@@ -238,3 +241,26 @@ def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there
     near = pixels()
     viewport.select(inner)
     assert (near != pixels()).any()
+
+
+def test_a_large_skin_is_drawn_coarsely_while_the_camera_turns_and_finely_at_rest(seen, monkeypatch):
+    viewport, pixels = seen
+    monkeypatch.setattr("hexmend_app.scene.viewport.MANY", 50)
+    viewport.still()
+    fine = pixels()
+    viewport.turning()
+    mapper = viewport._skin_surface.actor.mapper
+    rough = mapper.GetInput()
+    assert 0 < rough.GetNumberOfCells() != viewport._whole.GetNumberOfCells()
+    turned = pixels()
+    body = (fine != fine[0, 0]).any(axis=2)
+    assert ((turned != turned[0, 0]).any(axis=2) == body).mean() > 0.98  # the same shape
+    viewport.turning()
+    assert mapper.GetInput() is rough  # made once
+    h, _ = viewport.pick(100, 75)
+    assert (MESH.topology.face_neighbours[h] < 0).any()
+    viewport.set_points(MESH.points, figures_of(MESH))
+    viewport.turning()
+    assert mapper.GetInput() is viewport._whole  # nodes that move are seen as they are
+    viewport.still()
+    np.testing.assert_array_equal(pixels(), fine)

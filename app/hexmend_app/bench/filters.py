@@ -1,0 +1,122 @@
+"""Milliseconds a change of what is hidden and a frame in which the view turns, and the memory of the program."""
+
+from __future__ import annotations
+
+from statistics import median
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hexmend.gallery import make
+from hexmend.study.section import Section, peak_mb
+from hexmend_app.bench.windows import measured, turn
+
+if TYPE_CHECKING:
+    from hexmend_app.window import Window
+
+_CHANGES = 9
+_FRAMES = 40
+
+
+def _measure() -> dict[str, Any]:
+    sizes = (("bridge-sharp", {}), ("five-side", {"size": 110450}), ("five-side", {"size": 1_000_000}))
+    return measured((make(name, **size) for name, size in sizes), _row)
+
+
+def _row(window: Window) -> dict[str, Any]:
+    turning = _turning(window)
+    return {"turning_ms": turning, "memory_mb": peak_mb(), "ms": _changes(window)}
+
+
+def _turning(window: Window) -> float:
+    """Median milliseconds of a frame while the camera moves around the whole mesh."""
+    canvas, times = window.canvas, []
+    turn(0.5)  # until the fine frame is drawn
+    for _ in range(_FRAMES):
+        canvas.viewport.turning()
+        canvas.viewport.camera.Azimuth(4)
+        canvas.viewport.reset_depth()
+        began = perf_counter()
+        canvas.interactor.render()
+        times.append(perf_counter() - began)
+    return 1e3 * median(times)
+
+
+def _changes(window: Window) -> dict[str, dict[str, float]]:
+    """Median milliseconds of each change of the look, in the parts that it has."""
+    from hexmend_app.state.clip import BoxClip, PlaneClip
+    from hexmend_app.state.look import Isolation
+
+    mesh = window.document.now.mesh
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    places = [tuple(low + (high - low) * share) for share in np.linspace(0.4, 0.6, _CHANGES)]
+    deep = int(mesh.topology.layers.argmax())
+    outer = np.flatnonzero(mesh.topology.layers == 0)[:: max(1, mesh.n_hexes // 500)]
+    looks = {
+        "clip": [{"clip": PlaneClip.at((1, 0, 0), place)} for place in places],
+        "smooth cut": [{"clip": PlaneClip.at((1, 0, 0), place, crinkle=False)} for place in places],
+        "box": [{"clip": BoxClip(tuple(low), place)} for place in places],
+        "corner cut out": [{"clip": BoxClip(place, tuple(high), notch=True)} for place in places],
+        "smooth corner": [{"clip": BoxClip(place, tuple(high), crinkle=False, notch=True)} for place in places],
+        "quality range": [{"quality_range": (0.5 + k / 100, 1.0)} for k in range(_CHANGES)],
+        "peel": [{"peel": 1 + k % int(mesh.topology.layers.max())} for k in range(_CHANGES)],
+        "isolate": [{"isolation": Isolation((deep,), 1 + k)} for k in range(_CHANGES)],
+        "dig": [{"dug": frozenset(outer[: k + 1].tolist())} for k in range(_CHANGES)],
+        "shrink": [{"shrink": 0.2 + k / 50} for k in range(_CHANGES)],
+        "clip, peel, shrink": [{"clip": PlaneClip.at((1, 0, 0), place), "peel": 1, "shrink": 0.3} for place in places],
+    }
+    viewport, canvas = window.canvas.viewport, window.canvas
+    window.view.set_handles(False)
+    kept, spent = viewport.kept, [0.0]
+
+    def timed() -> np.ndarray | None:
+        began = perf_counter()
+        answer = kept()
+        spent.append(perf_counter() - began)
+        return answer
+
+    viewport.kept = timed
+    answer = {}
+    for name, changes in looks.items():
+        masks, faces, frames = [], [], []
+        for fields in changes:
+            spent.clear()
+            began = perf_counter()
+            window.view.change(**fields)
+            done = perf_counter()
+            canvas.interactor.render()
+            frames.append(perf_counter() - done)
+            masks.append(sum(spent))
+            faces.append(done - began - masks[-1])
+        answer[name] = {
+            "mask": 1e3 * median(masks),
+            "faces": 1e3 * median(faces),
+            "drawing": 1e3 * median(frames),
+            "quads": len(viewport._faces.quads),
+        }
+        window.view.show_another()
+        window.view.change(shrink=0.0)
+    return answer
+
+
+def _lines(figures: dict[str, Any]) -> list[str]:
+    rows = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
+    for row in figures["meshes"]:
+        rows.append(f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing, quads drawn at last")
+        for name, ms in row["ms"].items():
+            rows.append(
+                f"  {name:<18} {ms['mask']:6.1f} + {ms['faces']:6.1f} + {ms['drawing']:6.1f} ms   {ms['quads']:>8,}"
+            )
+        rows.append(
+            f"  a frame while the view turns: {row['turning_ms']:.1f} ms; memory at most {row['memory_mb']:,.0f} MB"
+        )
+    return rows
+
+
+filters = Section(
+    "filters",
+    f"The viewer: a change of what is hidden, and turning (medians of {_CHANGES})",
+    _measure,
+    _lines,
+)

@@ -1,0 +1,106 @@
+"""Milliseconds a frame, and how late the event loop is beside a smoother."""
+
+from __future__ import annotations
+
+from statistics import median
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hexmend.errors import HexmendError
+from hexmend.gallery import make
+from hexmend.study.section import Section
+from hexmend_app.bench.windows import measured, turn
+
+if TYPE_CHECKING:
+    from hexmend_app.window import Window
+
+_FRAMES = 40
+_SECONDS = 6.0
+_BEAT = 5  # milliseconds between two beats of the event loop
+
+
+def _measure() -> dict[str, Any]:
+    return measured((make("bridge-sharp"), make("five-side", size=110450)), _row)
+
+
+def _row(window: Window) -> dict[str, Any]:
+    view = [window.canvas.width(), window.canvas.height()]
+    frames = {name: _frame(window, name) for name in ("whole", "crinkle", "smooth")}
+    return {"view": view, "frame_ms": frames, **_while_running(window)}
+
+
+def _frame(window: Window, cut: str) -> float:
+    """Median milliseconds from new points and qualities to the finished picture."""
+    from hexmend_app.state.clip import PlaneClip
+    from hexmend_app.state.document import State
+
+    start = window.document.start
+    middle = tuple(start.mesh.points.mean(axis=0))
+    window.view.set_handles(False)
+    window.view.set_clip(None if cut == "whole" else PlaneClip.at((1, 0, 0), middle, cut == "crinkle"))
+    shift = start.mesh.mean_edge_length * 0.05 * np.random.default_rng(0).normal(size=start.mesh.points.shape)
+    shift *= start.mesh.free[:, None]
+    states = [State.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]
+    canvas = window.canvas
+    canvas.interactor.render()
+    times = []
+    for k in range(_FRAMES):
+        state = states[k % 3]
+        began = perf_counter()
+        canvas.set_points(state.mesh.points, state.figures)
+        canvas.interactor.render()
+        times.append(perf_counter() - began)
+    return 1e3 * median(times)
+
+
+def _while_running(window: Window) -> dict[str, Any]:
+    """Run local-sd in the window with a crinkle cut: frames a second, and how late timers fire."""
+    from PySide6.QtCore import QTimer
+
+    from hexmend.run import Stop
+    from hexmend.smoothers.local_sd import LocalSteepestDescent
+
+    window.document.preview(window.document.start)
+    window.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
+    while window.smoothing.phase.value != "running":
+        turn(0.1)
+    beats: list[float] = []
+    timer = QTimer()
+    timer.setInterval(_BEAT)
+    timer.timeout.connect(lambda: beats.append(perf_counter()))
+    frames: list[int] = []
+    window.smoothing.iterated.connect(lambda frame: frames.append(frame.iteration.number))
+    timer.start()
+    turn(_SECONDS)
+    timer.stop()
+    window.smoothing.end_now()
+    late = np.maximum(np.diff(beats) * 1e3 - _BEAT, 0)
+    if not len(late):
+        raise HexmendError("the event loop did not turn while the smoother ran")
+    return {
+        "lateness_median_ms": float(np.median(late)),
+        "lateness_95_ms": float(np.percentile(late, 95)),
+        "iterations_shown_per_second": len(frames) / _SECONDS,
+        "iterations_per_second": (frames[-1] - frames[0]) / _SECONDS if frames else 0.0,
+    }
+
+
+def _lines(figures: dict[str, Any]) -> list[str]:
+    rows = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
+    for row in figures["meshes"]:
+        rows.append(f"{row['mesh']}, {row['hexes']:,} hexes, view of {row['view'][0]} × {row['view'][1]} pixels")
+        for name, ms in row["frame_ms"].items():
+            rows.append(f"  frame, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} a second)")
+        rows.append(
+            f"  beside local-sd: event loop late by {row['lateness_median_ms']:.1f} ms (median), "
+            f"{row['lateness_95_ms']:.1f} ms (95th percentile); {row['iterations_shown_per_second']:.1f} of "
+            f"{row['iterations_per_second']:.1f} iterations a second shown"
+        )
+    return rows
+
+
+viewer = Section(
+    "viewer", f"The viewer: frames with points and colours changing (median of {_FRAMES})", _measure, _lines
+)

@@ -1,0 +1,48 @@
+"""Windows with meshes in them, to be measured."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from hexmend.mesh import Mesh
+    from hexmend_app.window import Window
+
+
+def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) -> dict[str, Any]:
+    """A row of figures for each mesh, found in a window of its own; why not, where there is no display."""
+    from hexmend_app.display import DisplayError, check_display
+
+    try:
+        check_display()
+    except DisplayError as error:
+        return {"skipped": str(error), "meshes": []}
+    from hexmend_app.program import application
+    from hexmend_app.state.document import State
+    from hexmend_app.window import Window
+
+    app = application()
+    rows = []
+    for mesh in meshes:
+        window = Window()
+        window.resize(1440, 900)
+        window.show()
+        window.build_canvas()
+        window.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
+        turn(0.5)  # until the layout has settled
+        rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, **row(window)})
+        window.document.saved(window.document.path)
+        window.close()
+        app.processEvents()
+    return {"meshes": rows}
+
+
+def turn(seconds: float) -> None:
+    """Let Qt's own event loop turn; one of ours would take the processor from the worker."""
+    from PySide6.QtCore import QEventLoop, QTimer
+
+    loop = QEventLoop()
+    QTimer.singleShot(round(seconds * 1e3), loop.quit)
+    loop.exec()

@@ -1,0 +1,79 @@
+"""The clipping box whose sides are dragged in the view."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pyvista as pv
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
+
+from hexmend_app.state.clip import BoxClip
+from hexmend_app.state.theme import PLANE_EDGE, PLANE_HELD
+
+
+class BoxWidget:
+    """VTK's box widget, which stays along the axes.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter
+        One with an interactor.
+    moved : callable
+        Called with (low, high) as the user drags; never for what is set by `set`.
+    """
+
+    def __init__(self, plotter: pv.BasePlotter, moved: Callable[[tuple, tuple], None]):
+        self._moved = moved
+        self._bounds: np.ndarray | None = None
+        self._dragging = False
+        shape = vtkBoxRepresentation()
+        shape.SetPlaceFactor(1.0)
+        shape.GetFaceProperty().SetOpacity(0)
+        shape.GetSelectedFaceProperty().SetOpacity(0.12)
+        shape.GetSelectedHandleProperty().SetColor(0.84, 0.37, 0.0)
+        shape.SetOutlineCursorWires(False)
+        self._shape = shape
+        self.set_dark(False)
+        self._widget = vtkBoxWidget2()
+        self._widget.SetInteractor(plotter.iren.interactor)
+        self._widget.SetCurrentRenderer(plotter.renderer)
+        self._widget.SetRepresentation(shape)
+        self._widget.RotationEnabledOff()
+        self._widget.ScalingEnabledOff()
+        self._widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
+        self._widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
+        self._widget.AddObserver("InteractionEvent", self._announce)
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw it for the dark ground, or for the light one."""
+        self._shape.GetOutlineProperty().SetColor(pv.Color(PLANE_EDGE.of(dark)).float_rgb)
+        for part in ("SelectedFace", "SelectedOutline", "Handle"):
+            getattr(self._shape, f"Get{part}Property")().SetColor(pv.Color(PLANE_HELD.of(dark)).float_rgb)
+
+    def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
+        """Take the size of the mesh; the box is not dragged out of it."""
+        self._bounds = np.array(bounds).reshape(3, 2)
+
+    def set(self, clip: BoxClip | None, shown: bool = True) -> None:
+        """Show the box where `clip` has it, or nothing."""
+        on = clip is not None and shown and self._bounds is not None
+        if on and not self._dragging:
+            self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])
+        if bool(self._widget.GetEnabled()) != on:
+            self._widget.SetEnabled(on)
+
+    def close(self) -> None:
+        """Let go of the interactor."""
+        self._widget.Off()
+        self._widget.SetInteractor(None)
+
+    def _drag(self, on: bool) -> None:
+        self._dragging = on
+
+    def _announce(self, *_: object) -> None:
+        data = vtkPolyData()
+        self._shape.GetPolyData(data)
+        ends = np.array(data.GetBounds()).reshape(3, 2).clip(self._bounds[:, :1], self._bounds[:, 1:])
+        self._moved(*(tuple(ends[:, k].tolist()) for k in range(2)))

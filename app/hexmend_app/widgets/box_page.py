@@ -1,0 +1,89 @@
+"""Where the sides of a clipping box stand."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
+from superqt import QRangeSlider
+
+from hexmend_app.widgets.style import explain, tabular
+
+_TICKS = 1000
+
+
+class BoxPage(QWidget):
+    """Moves the six sides of a box along the axes.
+
+    Signals
+    -------
+    changed(low, high)
+        The user moved a side; both corners as tuples of 3 floats.
+    """
+
+    changed = Signal(object, object)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._bounds = np.array([[0.0] * 3, [1.0] * 3])
+        self._corners = self._bounds.copy()  # low, high
+        self._sliders, self._texts = [], []
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(7)
+        grid.setColumnStretch(1, 1)
+        grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
+        for axis, name in enumerate("XYZ"):
+            slider = QRangeSlider(Qt.Orientation.Horizontal)
+            slider.setRange(0, _TICKS)
+            slider.setPageStep(_TICKS // 20)
+            slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+            help = f"Where the box begins and ends along {name}. Drag an end, or what is between them to move both."
+            explain(slider, f"{name} of the box", help)
+            slider.valueChanged.connect(lambda ticks, axis=axis: self._on_slider(axis, ticks))
+            text = QLabel()
+            text.setFont(tabular(text.font()))
+            text.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+            text.setMinimumWidth(text.fontMetrics().horizontalAdvance("-0.000 – -0.000"))
+            label = QLabel(name)
+            label.setBuddy(slider)
+            for column, part in enumerate((label, slider, text)):
+                grid.addWidget(part, axis, column)
+            self._sliders.append(slider)
+            self._texts.append(text)
+        self._refresh()
+
+    def set_bounds(self, bounds: np.ndarray) -> None:
+        """Take the lowest and the highest corner of the mesh, (2, 3); without a signal."""
+        self._bounds = bounds
+        self._refresh()
+
+    def set_corners(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
+        """Show a box; without a signal."""
+        self._corners = np.array([low, high])
+        self._refresh()
+
+    def _on_slider(self, axis: int, ticks: tuple[int, int]) -> None:
+        low, high = self._bounds[:, axis]
+        before = self._ticks(axis)
+        for end in range(2):
+            if ticks[end] != before[end]:  # or what was dragged in the view would be rounded
+                self._corners[end, axis] = low + (high - low) * ticks[end] / _TICKS
+        self._write()
+        self.changed.emit(*(tuple(corner.tolist()) for corner in self._corners))
+
+    def _ticks(self, axis: int) -> tuple[int, int]:
+        low, high = self._bounds[:, axis]
+        shares = (self._corners[:, axis] - low) / ((high - low) or 1.0)
+        return tuple(int(tick) for tick in np.clip(np.rint(_TICKS * shares), 0, _TICKS))
+
+    def _refresh(self) -> None:
+        for axis, slider in enumerate(self._sliders):
+            with QSignalBlocker(slider):
+                slider.setValue(self._ticks(axis))
+        self._write()
+
+    def _write(self) -> None:
+        for axis, text in enumerate(self._texts):
+            text.setText(" – ".join(f"{end:.3g}".replace("-", "−") for end in self._corners[:, axis]))

@@ -1,0 +1,122 @@
+"""Where one clipping plane stands."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QSlider, QWidget
+
+from hexmend_app.state.clip import ClipPlane
+from hexmend_app.widgets.segmented import Segmented
+from hexmend_app.widgets.style import explain, icon, tabular
+
+_AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+_TICKS = 1000
+
+
+class PlanePage(QWidget):
+    """Sets a plane straight, moves it and exchanges its sides.
+
+    The slider walks along the plane's axis through the mesh's bounds, in the direction of the axis also where the plane
+    is flipped.
+
+    Signals
+    -------
+    changed(ClipPlane)
+        The user moved or turned the plane.
+    """
+
+    changed = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._bounds = np.array([[0.0] * 3, [1.0] * 3])  # lowest and highest corner
+        self._plane = ClipPlane()
+        self._axis = Segmented(
+            "Axis",
+            [(key, key.upper(), f"A plane across the {key.upper()} axis.") for key in _AXES]
+            + [("free", "Free", "For a plane that has been turned in the view; choose X, Y or Z to set it straight.")],
+        )
+        self._flip = QPushButton(icon("swap-horizontal"), "Flip")
+        explain(self._flip, "Flip", "Hide the other side of the plane.")
+        self._slider = QSlider(Qt.Orientation.Horizontal)
+        self._slider.setRange(0, _TICKS)
+        self._slider.setPageStep(_TICKS // 20)
+        explain(self._slider, "Position", "Where the plane stands; arrow keys move it by a thousandth of the mesh.")
+        self._value = QLabel()
+        self._value.setFont(tabular(self._value.font()))
+        self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.0000e+00"))
+        explain(self._value, "Position in mesh units", "Position along the plane's axis in the mesh's unit of length.")
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(7)
+        grid.setColumnStretch(1, 1)
+        grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
+        for row, (text, widget, beside) in enumerate(
+            (("Axis", self._axis, self._flip), ("Position", self._slider, self._value))
+        ):
+            label = QLabel(text)
+            label.setBuddy(widget)
+            for column, part in enumerate((label, widget, beside)):
+                grid.addWidget(part, row, column)
+
+        self._axis.chosen.connect(self._on_axis)
+        self._slider.valueChanged.connect(self._on_slider)
+        self._flip.clicked.connect(lambda: self._change(self._plane.flipped()))
+        self._refresh()
+
+    def set_bounds(self, bounds: np.ndarray) -> None:
+        """Take the lowest and the highest corner of the mesh, (2, 3); without a signal."""
+        self._bounds = bounds
+        self._refresh()
+
+    def set_plane(self, plane: ClipPlane) -> None:
+        """Show a plane; without a signal."""
+        self._plane = plane
+        self._refresh()
+
+    def _direction(self) -> np.ndarray:
+        """(3,) unit normal in the sense in which its largest component is positive: the slider's axis."""
+        normal = np.array(self._plane.normal)
+        return normal if normal[np.argmax(np.abs(normal).round(9))] > 0 else -normal
+
+    def _span(self) -> tuple[float, float]:
+        """Lowest and highest place of the mesh's bounds along the slider's axis."""
+        direction = self._direction()
+        ends = self._bounds * direction
+        return float(ends.min(axis=0).sum()), float(ends.max(axis=0).sum())
+
+    def _written(self, place: float) -> str:
+        """A position; what is less than a tenth of the slider's step from 0 is 0, such as the middle of most meshes."""
+        extent = float(np.ptp(self._bounds, axis=0).max())
+        return f"{0.0 if abs(place) < 0.1 * extent / _TICKS else place:.4g}"
+
+    def _on_axis(self, key: str) -> None:
+        if key != "free":  # which says how the plane stands; there is nothing to set
+            self._change(ClipPlane(_AXES[key], tuple(self._bounds.mean(axis=0))))
+
+    def _on_slider(self, tick: int) -> None:
+        low, high = self._span()
+        direction, centre = self._direction(), self._bounds.mean(axis=0)
+        place = low + (high - low) * tick / _TICKS
+        origin = centre + direction * (place - centre @ direction)
+        self._change(dataclasses.replace(self._plane, origin=tuple(origin)))
+
+    def _change(self, plane: ClipPlane) -> None:
+        self.set_plane(plane)
+        self.changed.emit(plane)
+
+    def _refresh(self) -> None:
+        size = np.abs(self._plane.normal)
+        straight = [key for key, axis in _AXES.items() if np.allclose(size, axis, atol=1e-6)]
+        self._axis.set_value(straight[0] if straight else "free")
+        self._axis.button("free").setEnabled(not straight)
+        low, high = self._span()
+        place = float(self._direction() @ self._plane.origin)
+        with QSignalBlocker(self._slider):
+            self._slider.setValue(round(_TICKS * (place - low) / (high - low)) if high > low else 0)
+        self._value.setText(self._written(place))

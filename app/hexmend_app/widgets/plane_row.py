@@ -1,0 +1,69 @@
+"""Which of several clipping planes is the one that is moved."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QWidget
+
+from hexmend_app.widgets.style import explain, icon
+
+_SNAP = "A plane that is turned in the view is set straight where it comes near to an axis."
+
+
+class PlaneRow(QWidget):
+    """Numbers the planes; adds one and takes one away.
+
+    Parameters
+    ----------
+    most : int
+        So many planes there can be.
+
+    Signals
+    -------
+    chosen(int)
+    add_requested, remove_requested
+    snap_changed(bool)
+    """
+
+    chosen = Signal(int)
+    add_requested = Signal()
+    remove_requested = Signal()
+    snap_changed = Signal(bool)
+
+    def __init__(self, most: int, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._most = most
+        self._tabs = QTabBar()
+        self._tabs.setDrawBase(False)
+        self._tabs.setExpanding(False)
+        explain(self._tabs, "Plane", "The plane that is moved here and in the view.")
+        self._add, self._remove = QPushButton(icon("plus"), ""), QPushButton(icon("minus"), "")
+        explain(self._add, "Add a plane", "Cut along one more plane.")
+        explain(self._remove, "Remove the plane", "Cut along this plane no more.")
+        self._snap = QCheckBox("Snap")
+        self._snap.setChecked(True)
+        explain(self._snap, "Snap to the axes", _SNAP)
+        label = QLabel("Plane")
+        label.setBuddy(self._tabs)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        for part in (label, self._tabs, self._add, self._remove):
+            row.addWidget(part)
+        row.addStretch()
+        row.addWidget(self._snap)
+        self._tabs.currentChanged.connect(self.chosen)
+        self._add.clicked.connect(self.add_requested)
+        self._remove.clicked.connect(self.remove_requested)
+        self._snap.clicked.connect(self.snap_changed)
+        self.set_planes(1, 0)
+
+    def set_planes(self, count: int, at: int) -> None:
+        """Show so many planes, of which one is chosen; without a signal."""
+        with QSignalBlocker(self._tabs):
+            while self._tabs.count() < count:
+                self._tabs.addTab(str(self._tabs.count() + 1))
+            while self._tabs.count() > count:
+                self._tabs.removeTab(self._tabs.count() - 1)
+            self._tabs.setCurrentIndex(at)
+        self._add.setEnabled(count < self._most)
+        self._remove.setEnabled(count > 1)

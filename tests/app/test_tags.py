@@ -1,0 +1,123 @@
+"""Tagging elements in the window, with mouse and keys, and what becomes of the tags."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
+
+from hexmend import io
+from tests.app.driving import LEFT, click
+from tests.said import FIRST_RUN
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    window.docks["tags"].raise_()
+    qtbot.wait(50)
+    return window.tag_panel
+
+
+def press(panel, text):
+    button = next(b for b in panel.findChildren(QPushButton) if b.text() == text)
+    assert button.isEnabled()
+    QTest.mouseClick(button, LEFT)
+
+
+def listed(panel):
+    table = panel.findChild(QTableWidget)
+    return [[table.item(row, column).text() for column in range(4)] for row in range(table.rowCount())]
+
+
+def seen(window):
+    return [label.text() for label in window.element_panel.findChildren(QLabel)]
+
+
+def tags(window):
+    return {name: members.tolist() for name, members in window.document.now.mesh.hex_sets.items()}
+
+
+def test_an_element_is_tagged_by_key_and_the_tag_taken_away_undone_and_saved(window, panel, tmp_path):
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
+    assert tags(window) == {}
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_N)
+    first = window.selection.hex
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_N)
+    second = window.selection.hex
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
+    assert tags(window) == {"tagged": sorted([first, second])}
+    assert listed(panel) == [["tagged", "2", "2", f"{window.document.now.figures.q[[first, second]].min():.4f}"]]
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
+    assert tags(window) == {"tagged": [first]}
+    assert f"Element {second:,}" in seen(window)
+    window.commands.undo()
+    assert tags(window) == {"tagged": sorted([first, second])}
+    assert f"Element {second:,}: tagged" in seen(window)
+    assert window.document.redo_title == "untag"
+    assert window.saving.mesh(tmp_path / "tagged.vtk")
+    kept = io.read(tmp_path / "tagged.vtk")
+    assert kept.hex_sets["tagged"].tolist() == sorted([first, second])
+
+
+def test_what_is_shown_or_listed_is_tagged_under_a_name_and_isolated(window, panel):
+    name = panel.findChild(QComboBox)
+    name.lineEdit().selectAll()
+    QTest.keyClicks(name.lineEdit(), "bad ones")
+    window.view.change(peel=2)
+    press(panel, "Shown")
+    layers = window.document.now.mesh.topology.layers
+    assert tags(window) == {"bad ones": np.flatnonzero(layers >= 2).tolist()}
+    name.lineEdit().selectAll()
+    QTest.keyClicks(name.lineEdit(), "worst")
+    press(panel, "Worst")
+    assert tags(window)["worst"] == sorted(window.worst_list.elements.tolist())
+    table = panel.findChild(QTableWidget)
+    QTest.mouseClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(1, 0)).center())
+    press(panel, "Isolate")
+    assert sorted(window.view.look.isolation.hexes) == tags(window)["worst"]
+    press(panel, "Remove")
+    assert list(tags(window)) == ["bad ones"]
+
+
+def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, panel, qtbot):
+    window.commands.tag("one", [1, 2])
+    window.commands.tag("two", [3])
+    table = panel.findChild(QTableWidget)
+
+    def write(row, text):
+        QTest.mouseDClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(row, 0)).center())
+        editor = table.findChild(QLineEdit)
+        editor.selectAll()
+        QTest.keyClicks(editor, text)
+        QTest.keyClick(editor, Qt.Key.Key_Return)
+        qtbot.wait(20)  # Qt takes what was typed in a later turn of the event loop
+
+    QTest.mouseClick(table.viewport(), LEFT, pos=QPoint(20, 10))
+    write(0, "three")
+    assert tags(window) == {"three": [1, 2], "two": [3]}
+    write(0, "two")
+    assert tags(window) == {"three": [1, 2], "two": [3]}
+    assert listed(panel)[0][0] == "three"
+
+
+def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot):
+    window.commands.tag("kept", [5])
+    window.smoothing_panel.set_method("laplacian")
+    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+        click(window, "Run")
+    assert tags(window) == {"kept": [5]}
+    window.commands.tag("later", [6])
+    window.commands.reset()
+    assert tags(window) == {"kept": [5], "later": [6]}
+    np.testing.assert_array_equal(window.document.now.mesh.points, window.document.start.mesh.points)
+
+
+def test_a_format_that_cannot_hold_tags_is_said(window, panel, tmp_path):
+    window.commands.tag("lost", [5])
+    assert window.saving.mesh(tmp_path / "mesh.mesh")
+    kind, title, text = window.messages.messages()[-1]
+    assert (kind, title) == ("warning", "The tags are not in it")
+    assert "lost" in text
