@@ -129,6 +129,7 @@ class StatisticsTable(QWidget):
         table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
         self._fill()
         self._shape_columns()
+        dress(self, self._paint)
         self._copy = QAction(icon("content-copy"), "Copy table", self)
         self._copy.setShortcut(QKeySequence.StandardKey.Copy)
         self._copy.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
@@ -140,7 +141,6 @@ class StatisticsTable(QWidget):
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
         table.setMinimumWidth(self._title_width() + self._figures_width())
-        dress(self, self._paint)
 
     def _paint(self) -> None:
         palette = QPalette()
