@@ -19,7 +19,7 @@ CORE = [
     {"kernels"},
     {"topology"},
     {"mesh"},
-    {"quality"},
+    {"quality", "structure"},
     {"energy", "gallery"},
     {"optimise"},
     {"smoothers"},

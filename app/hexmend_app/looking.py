@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from hexmend_app.state.document import Document
+from hexmend_app.state.finder import Finder
+from hexmend_app.state.look import Look
 from hexmend_app.state.view import View
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
+from hexmend_app.widgets.structure_panel import StructurePanel
 
 if TYPE_CHECKING:
     from hexmend_app.widgets.canvas import Canvas
@@ -21,9 +27,9 @@ class Looking:
 
     Parameters
     ----------
-    document, view
+    document, view, finder
         The window's state.
-    colour_panel, clip_panel, inside_panel, histogram
+    colour_panel, clip_panel, inside_panel, structure_panel, histogram
         The widgets that change the look.
     """
 
@@ -31,16 +37,20 @@ class Looking:
         self,
         document: Document,
         view: View,
+        finder: Finder,
         colour_panel: ColourPanel,
         clip_panel: ClipPanel,
         inside_panel: InsidePanel,
+        structure_panel: StructurePanel,
         histogram: QualityHistogram,
     ):
         self._document = document
         self._view = view
+        self._finder = finder
         self._colours = colour_panel
         self._clip = clip_panel
         self._inside = inside_panel
+        self._structure = structure_panel
         self._histogram = histogram
         self._canvas: Canvas | None = None
         view.look_changed.connect(self._on_look_changed)
@@ -57,6 +67,8 @@ class Looking:
         inside_panel.all_requested.connect(view.end_isolation)
         inside_panel.undo_requested.connect(view.undig_last)
         inside_panel.put_back_requested.connect(view.undig_all)
+        structure_panel.structure_changed.connect(lambda structure: view.change(structure=structure))
+        finder.found.connect(self._on_found)
 
     def set_canvas(self, canvas: Canvas) -> None:
         """Take the 3D view, which comes later than the rest."""
@@ -74,27 +86,37 @@ class Looking:
             "edges": lambda on: self._view.change(edges=on),
             "clip": self._switch_clip,
             **{id: lambda along=along: self._canvas.look_along(along) for id, along in directions.items()},
+            **{f"show_{name}": lambda on, name=name: self._switch(name, on) for name in self._structure.offered()},
         }
+
+    def offered(self) -> dict[str, bool]:
+        """Which of its actions can be done now."""
+        return {f"show_{name}": on for name, on in self._structure.offered().items()}
 
     def checked(self) -> dict[str, bool]:
         """Which of its actions are on."""
-        return {"edges": self._view.look.edges, "clip": self._view.look.clip is not None}
+        look = self._view.look
+        layers = {f"show_{name}": on for name, on in dataclasses.asdict(look.structure).items()}
+        return {"edges": look.edges, "clip": look.clip is not None, **layers}
 
     def show_another(self) -> None:
         """Take another mesh, of which nothing is hidden."""
         now = self._document.now
         self._view.show_another()
+        self._structure.set_found(self._finder.structure)
         self._inside.set_layers(int(now.mesh.topology.layers.max()))
         low, high = now.mesh.points.min(axis=0), now.mesh.points.max(axis=0)
         self._clip.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
         if self._canvas is not None:
             self._canvas.show()
+            self._draw()
             self._canvas.set_mesh(now.mesh, now.figures)
 
     def move(self, live: bool) -> None:
         """Show the nodes where they are now; `live` where they go on moving."""
         if self._canvas is not None:
             now = self._document.now
+            self._canvas.set_pinned(now.mesh.pinned)
             self._canvas.set_points(now.mesh.points, now.figures, live)
 
     def refresh(self) -> None:
@@ -102,10 +124,12 @@ class Looking:
         if self._canvas is not None and self._document.is_open:
             self._colours.set_ends(self._canvas.colouring.low, self._canvas.colouring.high)
             self._inside.set_shown(self._canvas.viewport.shown, self._document.now.mesh.n_hexes)
+        if self._document.is_open:
+            self._count_nodes()
 
     def set_enabled(self, on: bool) -> None:
         """Let the user change the look, or not."""
-        for panel in (self._colours, self._clip, self._inside, self._histogram):
+        for panel in (self._colours, self._clip, self._inside, self._structure, self._histogram):
             panel.setEnabled(on)
 
     def _on_look_changed(self) -> None:
@@ -114,13 +138,35 @@ class Looking:
         self._clip.set_clip(look.clip, self._view.plane_at)
         self._clip.set_handles(self._view.handles)
         self._inside.set_look(look, self._view.rings)
+        self._structure.set_structure(look.structure)
         self._histogram.set_range(look.quality_range)
         self._draw()
         self.refresh()
 
     def _draw(self) -> None:
         if self._canvas is not None:
-            self._canvas.set_look(self._view.look, self._view.handles, self._view.plane_at)
+            self._canvas.set_look(self._drawable(), self._view.handles, self._view.plane_at)
+
+    def _on_found(self) -> None:
+        self._structure.set_found(self._finder.structure)
+        self._draw()
+
+    def _drawable(self) -> Look:
+        """The look, but for edges that are still being found: the view would wait for them."""
+        look = self._view.look
+        known = self._finder.structure is not None
+        return look if known else dataclasses.replace(look, structure=look.structure.without_edges())
+
+    def _switch(self, layer: str, on: bool) -> None:
+        self._view.change(structure=dataclasses.replace(self._view.look.structure, **{layer: on}))
+
+    def _count_nodes(self) -> None:
+        now = self._document.now
+        mesh, boundary = now.mesh, now.mesh.topology.boundary
+        pinned = 0 if mesh.pinned is None else np.count_nonzero(mesh.pinned & mesh.topology.used & ~boundary)
+        self._structure.set_nodes(
+            np.count_nonzero(boundary), pinned, now.summary.free_nodes, now.summary.locked_inverted
+        )  # fmt: skip
 
     def _switch_clip(self, on: bool) -> None:
         if on != (self._view.look.clip is not None):

@@ -24,6 +24,7 @@ from hexmend_app.opening import Opening
 from hexmend_app.resources import demo_mesh
 from hexmend_app.saving import Saving
 from hexmend_app.state.document import Document
+from hexmend_app.state.finder import Finder
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.recent import Recent
 from hexmend_app.state.run import Frame, Phase, Smoothing
@@ -45,6 +46,7 @@ from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_ab
 from hexmend_app.widgets.recent_menu import RecentMenu
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
+from hexmend_app.widgets.structure_panel import StructurePanel
 from hexmend_app.widgets.tag_panel import TagPanel
 from hexmend_app.widgets.welcome import Welcome
 from hexmend_app.widgets.worst_list import WorstList
@@ -69,6 +71,7 @@ class Window(QMainWindow):
         self.selection = Selection(self)
         self.smoothing = Smoothing(self.document, self)
         self.opener = Opener(self.document, self)
+        self.finder = Finder(self.document, self)
         self.commands = Commands(self.document, self.view, self.smoothing, self.opener)
         self.canvas: Canvas | None = None
 
@@ -86,6 +89,7 @@ class Window(QMainWindow):
         self.smoothing_panel.set_method(DEFAULT_METHOD)
         self.clip_panel = ClipPanel()
         self.inside_panel = InsidePanel()
+        self.structure_panel = StructurePanel()
         self.colour_panel = ColourPanel()
         self.busy = Busy()
         self.hint = Hint()
@@ -93,7 +97,14 @@ class Window(QMainWindow):
 
         self._lay_out()
         self.looking = Looking(
-            self.document, self.view, self.colour_panel, self.clip_panel, self.inside_panel, self.histogram
+            self.document,
+            self.view,
+            self.finder,
+            self.colour_panel,
+            self.clip_panel,
+            self.inside_panel,
+            self.structure_panel,
+            self.histogram,
         )
         self.inspecting = Inspecting(
             self.document,
@@ -135,7 +146,9 @@ class Window(QMainWindow):
         centre = QWidget()
         centre.setLayout(self._centre)
         self.setCentralWidget(centre)
-        tools = column(self.smoothing_panel, self.colour_panel, self.clip_panel, self.inside_panel)
+        tools = column(
+            self.smoothing_panel, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel
+        )
         tabs = [
             ("quality", "Quality", self.statistics),
             ("worst", "Worst elements", self.worst_list),
@@ -167,6 +180,7 @@ class Window(QMainWindow):
         self.document.points_moved.connect(self._on_points_moved)
         self.document.changes_changed.connect(self._enable)
         self.view.look_changed.connect(self._enable)
+        self.finder.found.connect(self._enable)
         self.opener.began.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
@@ -278,8 +292,8 @@ class Window(QMainWindow):
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
             self.actions_by_id[id].setIconText(word.replace("&", ""))
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
-        for id, on in (self.inspecting.offered() | self.tagging.offered()).items():
-            self.actions_by_id[id].setEnabled(on)
+        for id, on in (self.inspecting.offered() | self.tagging.offered() | self.looking.offered()).items():
+            self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.
         self.busy.take_escape(self.opener.busy and self.messages.isHidden())
         if self.opener.busy or not self.messages.isHidden():
@@ -363,6 +377,7 @@ class Window(QMainWindow):
         self.hide()  # threads may take a while to end
         self.smoothing.shut_down()
         self.opener.shut_down()
+        self.finder.shut_down()
         if self.canvas is not None:
             self.canvas.close()
         event.accept()

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.hexahedron import FACES
-from hexmend.kernels import incidence
+from hexmend.kernels import incidence, structure
 
 
 @dataclass(frozen=True)
@@ -126,11 +126,49 @@ class Topology:
         return Rows(*incidence.node_rings(self.hexes, self.node_corners.start, self.node_corners.items))
 
     @cached_property
+    def _edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        rows = self.node_corners
+        return structure.edges(self.hexes, rows.start, rows.items, self.face_neighbours)
+
+    @property
     def edges(self) -> np.ndarray:
-        """Every edge once, lower node first, (e, 2) int32."""
-        low = np.repeat(np.arange(self.n, dtype=np.int32), np.diff(self.rings.start))
-        once = low < self.rings.items
-        return np.column_stack([low[once], self.rings.items[once]])
+        """Every edge once, lower node first, ascending, (e, 2) int32."""
+        return self._edges[0]
+
+    @property
+    def edge_valence(self) -> np.ndarray:
+        """Number of hexes around each edge of `edges`, (e,) int32."""
+        return self._edges[1]
+
+    @property
+    def edge_on_boundary(self) -> np.ndarray:
+        """True for each edge of `edges` that is an edge of a boundary face, (e,) bool."""
+        return self._edges[2]
+
+    @cached_property
+    def irregular_edges(self) -> np.ndarray:
+        """Interior edges that not four hexes are around, as numbers of `edges`, (k,) int64.
+
+        They form the singularity graph of the mesh. After Gao, Deng and Chen, "Hexahedral mesh re-parameterization from
+        aligned base-complex" (2015), an edge is regular where four hexes are around it, on the boundary two; the graph
+        drawn of a mesh is usually that of its inside, and so the two are kept apart here.
+        """
+        return np.flatnonzero((self.edge_valence != 4) & ~self.edge_on_boundary)
+
+    @cached_property
+    def irregular_boundary_edges(self) -> np.ndarray:
+        """Boundary edges that not two hexes are around, as numbers of `edges`, (k,) int64.
+
+        By connectivity alone: the edges of a box are among them, with one hex each, and so is a concave one, with
+        three. `hexmend.structure` leaves out those at which the boundary is sharp.
+        """
+        return np.flatnonzero((self.edge_valence != 2) & self.edge_on_boundary)
+
+    @cached_property
+    def irregular_nodes(self) -> np.ndarray:
+        """Interior nodes at which irregular interior edges end or fork: not none and not two meet, (k,) int64."""
+        nodes, meeting = np.unique(self.edges[self.irregular_edges], return_counts=True)
+        return nodes[(meeting != 2) & ~self.boundary[nodes]].astype(np.int64)
 
     def colouring(self, chosen: np.ndarray) -> Rows:
         """The chosen nodes in groups, one a colour, so that no hex holds two nodes of one colour.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+from dataclasses import fields
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ from hexmend_app.cli.numbers import direction, span, wrong
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
     from hexmend.quality import ElementQuality
+    from hexmend_app.state.look import Structure
 
 
 class Render:
@@ -38,6 +40,11 @@ class Render:
             "--view", metavar="FROM", default="iso", help="iso, +x, -x, ..., or x,y,z (default %(default)s)"
         )
         parser.add_argument("--transparent", action="store_true", help="leave the background out")
+        parser.add_argument(
+            "--structure",
+            metavar="NAMES",
+            help="draw irregular, boundary or sharp edges, fixed, free or locked nodes; several separated by commas",
+        )
         parser.add_argument("--no-edges", action="store_true", help="leave the elements' edges out")
         parser.add_argument("--no-bar", action="store_true", help="leave the colour bar out")
 
@@ -70,7 +77,7 @@ _NAMED = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
 def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
     from hexmend.quality import METRICS
     from hexmend_app.scene.colours import MAPS
-    from hexmend_app.state.look import ColourScale, Look, RangeMode
+    from hexmend_app.state.look import ColourScale, Look, RangeMode, Structure
 
     if args.colour_map not in MAPS:
         raise wrong("--colour-map", args.colour_map, f"one of {', '.join(MAPS)}")
@@ -87,7 +94,18 @@ def _look(args: argparse.Namespace, mesh: Mesh, figures: ElementQuality):
         quality_range=span(args.quality_range, "--quality-range") if args.quality_range else None,
         scale=ColourScale(metric.name, args.colour_map, mode, ends),
         edges=not args.no_edges,
+        structure=_structure(args.structure) if args.structure else Structure(),
     )
+
+
+def _structure(text: str) -> Structure:
+    from hexmend_app.state.look import Structure
+
+    names, known = text.split(","), [one.name for one in fields(Structure)]
+    for name in names:
+        if name not in known:
+            raise wrong("--structure", text, f"names among {', '.join(known)}, separated by commas")
+    return Structure(**dict.fromkeys(names, True))
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -1,9 +1,10 @@
-"""Where a camera has to stand so that a box just fills the picture."""
+"""Where a camera has to stand so that a box just fills the picture, and how large a length is in the picture."""
 
 from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 #: Share of the picture's half that stays free at the tightest side.
 _MARGIN = 0.04
@@ -48,3 +49,22 @@ def fit(camera: pv.Camera, bounds: tuple[float, float, float, float, float, floa
     camera.SetFocalPoint(target)
     camera.SetPosition(target - distance * ahead)
     camera.SetParallelScale(scale)
+
+
+def pixels(renderer: vtkRenderer, length: float, at: np.ndarray) -> float:
+    """How many pixels a length is in the picture.
+
+    Parameters
+    ----------
+    renderer : vtkRenderer
+    length : float
+        Across the direction of the view, in the mesh's unit.
+    at : (3,) float64
+        Where it is.
+    """
+    camera = renderer.GetActiveCamera()
+    half = camera.GetParallelScale()
+    if not camera.GetParallelProjection():
+        away = (at - np.array(camera.GetPosition())) @ camera.GetDirectionOfProjection()
+        half = max(away, length) * np.tan(np.radians(camera.GetViewAngle()) / 2)
+    return float(length / half * renderer.GetSize()[1] / 2) if half > 0 else 0.0

@@ -7,6 +7,7 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkPolyDataMapper, vtkRenderer
 
 from hexmend.hexahedron import EDGES
+from hexmend_app.scene.fitting import pixels
 
 _LINE, _HALO, _ARROW = "#ffffff", "#11151c", "#ff8c00"
 _LINES = np.column_stack([np.full(12, 2), EDGES]).ravel()
@@ -110,14 +111,9 @@ class Highlight:
 
     def _pixels(self) -> float:
         """The radius of the hex in the picture."""
-        camera, corners = self._layer.GetActiveCamera(), self._box.points
+        corners = self._box.points
         centre = corners.mean(axis=0)
-        radius = np.sqrt(np.square(corners - centre).sum(axis=1).max())
-        half = camera.GetParallelScale()
-        if not camera.GetParallelProjection():
-            away = (centre - camera.GetPosition()) @ camera.GetDirectionOfProjection()
-            half = max(away, radius) * np.tan(np.radians(camera.GetViewAngle()) / 2)
-        return float(radius / half * self._layer.GetSize()[1] / 2) if half > 0 else 0.0
+        return pixels(self._layer, np.sqrt(np.square(corners - centre).sum(axis=1).max()), centre)
 
     def hide(self) -> None:
         """Mark none."""

@@ -6,11 +6,9 @@ import numpy as np
 import pyvista as pv
 
 from hexmend.mesh import Mesh
+from hexmend.structure import sharp_edges
 from hexmend_app.scene.surface import set_points
 from hexmend_app.state.theme import SHADE, SILHOUETTE
-
-#: Neighbouring faces whose normals differ by more than this, in degrees, meet in a sharp edge.
-_SHARP = 30.0
 
 #: Of the ends of sharp edges; where more belong to one sharp edge alone, a round body has facets that are sharp here
 #: and there, and what they give is a heap of splinters. Sharp edges of a body with corners go on at either end.
@@ -18,30 +16,6 @@ _MOST = 0.2
 
 #: How far the shade is drawn behind its place, in VTK's units: behind everything.
 _BEHIND = 66_000.0
-
-
-def sharp_edges(points: np.ndarray, faces: np.ndarray, degrees: float = _SHARP) -> np.ndarray:
-    """Edges in which two faces meet at an angle, or one or more than two faces meet at all, (e, 2) of nodes.
-
-    Parameters
-    ----------
-    points : (n, 3) float64
-    faces : (k, 4) int32
-        All counter-clockwise from the same side.
-    degrees : float
-        Angle between the normals of two faces beyond which their edge is sharp.
-    """
-    edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-    key = edges[:, 0].astype(np.int64) * len(points) + edges[:, 1]
-    order = np.argsort(key, kind="stable")
-    first = np.flatnonzero(np.diff(key[order], prepend=-1))
-    count = np.diff(first, append=len(key))
-    corners = points[faces]
-    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
-    pair = order[first] // 4, order[np.minimum(first + 1, len(key) - 1)] // 4
-    turned = np.einsum("ij,ij->i", normals[pair[0]], normals[pair[1]]) < np.cos(np.radians(degrees))
-    return edges[order[first[turned | (count != 2)]]]
 
 
 def form_lines(edges: np.ndarray) -> bool:

@@ -18,6 +18,7 @@ from hexmend_app.scene.halo import Halo
 from hexmend_app.scene.highlight import Highlight
 from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
+from hexmend_app.scene.structure import StructureLayers
 from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
 from hexmend_app.scene.values import values
 from hexmend_app.state.look import Look
@@ -69,6 +70,7 @@ class Viewport:
             for surface, name in ((self._skin_surface, "halo of skin"), (self._section_surface, "halo of section"))
         ]
         self._outline: Silhouette | None = None
+        self._structure = StructureLayers(plotter)
         self._highlight = Highlight(plotter)
         self._selected: int | None = None
         self._picker = vtkCellPicker()
@@ -97,6 +99,7 @@ class Viewport:
         self._filters = Filters(mesh)
         self._outline = Silhouette(self._plotter, mesh)
         self._outline.set_dark(self._dark)
+        self._structure.set_mesh(mesh)
         self.select(None)
         self._cull()
         self._measure()
@@ -120,6 +123,12 @@ class Viewport:
             self._move()
         else:
             self._rebuild()
+
+    def set_pinned(self, pinned: np.ndarray | None) -> None:
+        """Take which nodes are pinned, (n,) bool; drawn with the next points."""
+        if pinned is not self._mesh.pinned:
+            self._mesh = self._mesh.replace(pinned=pinned)
+            self._structure.set_pins(self._mesh)
 
     def set_look(self, look: Look) -> None:
         """Draw it differently."""
@@ -223,6 +232,7 @@ class Viewport:
         self._cut(keep)
         self._outline.move(self._points)
         self._outline.show(self._look.outline and (keep is not None or self._look.clip is not None))
+        self._structure.choose(self._look, self._points, self._figures, faces, keep)
 
     def _visible(self, keep: np.ndarray | None) -> Faces:
         look = self._look
@@ -236,6 +246,7 @@ class Viewport:
         set_colours(self._whole, self._face_colours())
         self._outline.move(self._points)
         self._cut(self.kept())
+        self._structure.move(self._points, self._figures)
 
     def _cut(self, keep: np.ndarray | None) -> None:
         self._steady, self._coarse = False, None
@@ -322,6 +333,7 @@ class Viewport:
     def _set_fast(self, fast: bool) -> None:
         if fast != self._fast:
             self._fast = fast
+            self._structure.set_fast(fast)
             if self._mesh is not None and self._faces.shrink:
                 self._rebuild()  # many shrunk elements show their sides in fine frames alone
             elif self._mesh is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -71,6 +72,41 @@ class Isolation:
 
 
 @dataclass(frozen=True)
+class Structure:
+    """What is drawn of a mesh's structure, over its elements.
+
+    Parameters
+    ----------
+    irregular : bool
+        Interior edges that not four elements are around, through the mesh, and the nodes where they end or fork.
+    boundary : bool
+        Edges of a smooth boundary that not two elements are around.
+    sharp : bool
+        Sharp edges of the boundary.
+    fixed, free : bool
+        Nodes that no method moves, and those that methods may move, of the elements in sight.
+    locked : bool
+        The nodes in sight of elements that fixed nodes alone keep inverted.
+    """
+
+    irregular: bool = False
+    boundary: bool = False
+    sharp: bool = False
+    fixed: bool = False
+    free: bool = False
+    locked: bool = False
+
+    @property
+    def edges(self) -> bool:
+        """Whether any edges are drawn, for which the structure has to be found."""
+        return self.irregular or self.boundary or self.sharp
+
+    def without_edges(self) -> Structure:
+        """The same but for edges."""
+        return dataclasses.replace(self, irregular=False, boundary=False, sharp=False)
+
+
+@dataclass(frozen=True)
 class Look:
     """Everything that decides what is drawn of a mesh and how.
 
@@ -94,6 +130,8 @@ class Look:
         What the colours show.
     edges : bool
         Draw the elements' edges.
+    structure : Structure
+        What is drawn of the mesh's structure.
     """
 
     clip: Clip | None = None
@@ -105,3 +143,4 @@ class Look:
     quality_range: tuple[float, float] | None = None
     scale: ColourScale = ColourScale()
     edges: bool = True
+    structure: Structure = Structure()

@@ -121,6 +121,10 @@ class Canvas(QWidget):
         if live:
             self._rest.stop()
 
+    def set_pinned(self, pinned: np.ndarray | None) -> None:
+        """Take which nodes are pinned, (n,) bool; drawn with the next points."""
+        self.viewport.set_pinned(pinned)
+
     def set_look(self, look: Look, handles: bool, at: int = 0) -> None:
         """Draw it differently, with handles at the box, or at one of the planes, or without."""
         self.viewport.set_look(look)

@@ -57,6 +57,13 @@ def test_the_command_draws_at_the_size_asked_for(pictures):
     assert ink(whole) > 0.15
 
 
+def test_structure_is_drawn_by_name(pictures):
+    bare = pictures("--no-edges")
+    black = np.array([0x11, 0x15, 0x1C])
+    assert (bare == black).all(axis=2).sum() == 0
+    assert (pictures("--no-edges", "--structure", "sharp,irregular") == black).all(axis=2).sum() > 50
+
+
 def test_a_plane_hides_half(pictures):
     whole = ink(pictures("--view", "+z"))
     for cut in ("--crinkle", "--smooth"):
@@ -106,6 +113,7 @@ def test_a_metric_other_than_q_is_drawn(pictures):
         (["--colour-range", "0.5,0.5"], "the lower number first"),
         (["--metric", "beauty"], "there is no metric 'beauty'"),
         (["--colour-map", "jet"], "one of viridis"),
+        (["--structure", "sharp,round"], "names among irregular, boundary, sharp, fixed, free, locked"),
         (["--view", "up"], "3 numbers separated by commas"),
         (["--view", "0,0,0"], "a direction that is not zero"),
     ],

@@ -5,7 +5,8 @@ import pytest
 import pyvista as pv
 
 from hexmend.mesh import Mesh
-from hexmend_app.scene.silhouette import Silhouette, form_lines, sharp_edges
+from hexmend.structure import sharp_edges
+from hexmend_app.scene.silhouette import Silhouette, form_lines
 from tests.core.grids import grid
 from tests.core.test_topology import closed
 
