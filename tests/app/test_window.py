@@ -200,6 +200,8 @@ def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
 
 
 def test_closing_while_running_leaves_no_thread(window, qtbot):
+    window.smoothing_panel.set_method("local-sd")
+    window.smoothing_panel.stop_form.set_values({"tolerance": 0.0})  # it shall not end before it is seen to run
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=60000)
     worker = window.smoothing._worker
