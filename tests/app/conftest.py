@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+import shiboken6
 from PySide6.QtCore import QEvent, QSettings
 from PySide6.QtWidgets import QApplication, QMessageBox
 
@@ -39,6 +40,8 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     qtbot.wait(200)
     yield window
     window.close()
+    # PySide would take what is made later at the same place in memory for the window's QWindow.
+    shiboken6.invalidate(window.windowHandle())
     window.deleteLater()  # or every theme and style would be put on all windows of the tests before
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []
