@@ -50,6 +50,7 @@ def main(mesh: str, folder: Path) -> None:
     app = application()
     window = Window()
     window.setGeometry(0, 0, 1320, 830)
+    window.hint.dismiss()
     window.show()
     turn(0.5)
     window.build_canvas()

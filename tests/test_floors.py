@@ -36,7 +36,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
-    {"counting", "docks", "inspecting", "looking", "menus", "saving", "tagging"},
+    {"counting", "docks", "inspecting", "looking", "menus", "opening", "saving", "tagging"},
     {"window"},
     {"program"},
     {"bench", "cli"},

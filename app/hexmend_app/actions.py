@@ -16,7 +16,7 @@ class ActionSpec:
     text : str
         In the menu.
     menu : str
-        The menu it stands in.
+        The menu it stands in; behind a slash, a menu in that one.
     shortcut : str
         Portable key sequence, "" for none.
     icon : str
@@ -30,6 +30,8 @@ class ActionSpec:
         Enabled only while a mesh is open.
     separated : bool
         A line stands above it.
+    exclusive : bool
+        Of the actions of its menu, one is on.
     """
 
     id: str
@@ -42,6 +44,7 @@ class ActionSpec:
     checkable: bool = False
     needs_mesh: bool = True
     separated: bool = False
+    exclusive: bool = False
 
 
 ACTIONS: tuple[ActionSpec, ...] = (
@@ -95,6 +98,22 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Cut the mesh open along planes or a box.",
         "Clip",
         checkable=True,
+    ),
+    *(
+        ActionSpec(
+            f"theme_{choice}",
+            text,
+            "&View/&Theme",
+            help=help,
+            checkable=True,
+            needs_mesh=False,
+            exclusive=True,
+        )
+        for choice, text, help in (
+            ("light", "&Light", "Dark on light, as pictures for reports are in any theme."),
+            ("dark", "&Dark", "Light on dark, easier on the eyes in a dim room."),
+            ("desktop", "&As the desktop", "Light or dark as the desktop is, and changing with it."),
+        )
     ),
     ActionSpec(
         "show_irregular",
@@ -176,6 +195,15 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Ctrl+Shift+P",
         "magnify",
         "Find any command by its name.",
+        needs_mesh=False,
+    ),
+    ActionSpec(
+        "keys",
+        "&Mouse and keys",
+        "&Help",
+        "F1",
+        "mouse",
+        "Say beside the view how it is turned, zoomed and panned.",
         needs_mesh=False,
     ),
     ActionSpec("about", "&About Hexmend", "&Help", help="Version, licence and sources.", needs_mesh=False),

@@ -3,10 +3,25 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDockWidget, QMainWindow, QScrollArea, QStyle, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QScrollArea, QStyle, QTabBar, QVBoxLayout, QWidget
 
 #: Number of the layout: one that was saved with other docks is not restored.
 LAYOUT = 3
+
+
+class _Column(QScrollArea):
+    """Shows what the focus comes to by keys, from within or from elsewhere, which Qt's own scrolls to only from within.
+
+    What a mouse button is pressed on is not moved away under it.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        QApplication.instance().focusChanged.connect(self._follow)
+
+    def _follow(self, before: QWidget | None, now: QWidget | None) -> None:
+        if now is not None and self.isAncestorOf(now) and not QApplication.mouseButtons():
+            self.ensureWidgetVisible(now)
 
 
 def column(*parts: QWidget) -> QScrollArea:
@@ -18,9 +33,10 @@ def column(*parts: QWidget) -> QScrollArea:
     for part in parts:
         layout.addWidget(part)
     layout.addStretch()
-    scroll = QScrollArea()
+    scroll = _Column()
     scroll.setWidget(tools)
     scroll.setWidgetResizable(True)
+    scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
     scroll.setFrameShape(QScrollArea.Shape.NoFrame)
     scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     bar = scroll.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
@@ -63,10 +79,21 @@ def add_docks(
     return docks
 
 
+def name_tabs(window: QMainWindow) -> None:
+    """Name the tabs of docks, which Qt makes as the window is shown, for who cannot see them."""
+    for tabs in window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly):
+        tabs.setAccessibleName("Panels")
+
+
 def _dock(window: QMainWindow, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
     dock = QDockWidget(title)
     dock.setObjectName(name)
     dock.setWidget(widget)
+    # A dock behind others is as good as hidden, which Qt does not say: Tab would walk through what cannot be seen.
+    policy = widget.sizePolicy()
+    policy.setRetainSizeWhenHidden(True)
+    widget.setSizePolicy(policy)
+    dock.visibilityChanged.connect(widget.setVisible)
     dock.setFeatures(
         QDockWidget.DockWidgetFeature.DockWidgetMovable | QDockWidget.DockWidgetFeature.DockWidgetFloatable
     )

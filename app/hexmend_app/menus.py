@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QMainWindow, QToolBar
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
 from hexmend_app.actions import ACTIONS, ActionSpec
 from hexmend_app.widgets.style import icon
 
 
-def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str, QAction]:
+def build_menus(window: QMainWindow, handlers: dict[str, Callable], above: dict[str, QMenu]) -> dict[str, QAction]:
     """Give a window its menus and tool bar.
 
     Parameters
@@ -20,6 +20,8 @@ def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str,
     window : QMainWindow
     handlers : dict
         What each action calls, by its id; that of a checkable action takes whether it is on.
+    above : dict
+        Menus that stand above an action in its menu, by its id.
 
     Returns
     -------
@@ -31,10 +33,13 @@ def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str,
     bar.setMovable(False)
     bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
     window.addToolBar(bar)
-    actions, menus = {}, {}
+    actions: dict[str, QAction] = {}
+    menus: dict[str, QMenu] = {}
+    groups: dict[str, QActionGroup] = {}
     for spec in ACTIONS:
         if spec.menu not in menus:
-            menus[spec.menu] = window.menuBar().addMenu(spec.menu)
+            within, _, name = spec.menu.rpartition("/")
+            menus[spec.menu] = (menus[within] if within else window.menuBar()).addMenu(name)
             if bar.actions() and not bar.actions()[-1].isSeparator():
                 bar.addSeparator()
         action = actions[spec.id] = _action(window, spec)
@@ -43,8 +48,13 @@ def build_menus(window: QMainWindow, handlers: dict[str, Callable]) -> dict[str,
             action.toggled.connect(handle)
         else:
             action.triggered.connect(lambda checked=False, handle=handle: handle())
+        if spec.exclusive:
+            groups.setdefault(spec.menu, QActionGroup(window)).addAction(action)
+            action.setProperty("within", menus[spec.menu].title().replace("&", ""))
         if spec.separated:
             menus[spec.menu].addSeparator()
+        if spec.id in above:
+            menus[spec.menu].addMenu(above[spec.id])
         menus[spec.menu].addAction(action)
         if spec.tool:
             bar.addAction(action)

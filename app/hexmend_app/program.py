@@ -19,7 +19,7 @@ from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
 from hexmend_app.resources import demo_mesh, resource
-from hexmend_app.widgets.style import apply_light_style
+from hexmend_app.widgets.theming import wear
 
 if TYPE_CHECKING:
     from hexmend_app.window import Window
@@ -35,7 +35,7 @@ def application() -> QApplication:
     app.setApplicationDisplayName("Hexmend")
     app.setDesktopFileName("hexmend")
     app.setWindowIcon(QIcon(str(resource("icon.svg"))))
-    apply_light_style(app)
+    wear()
     return app
 
 

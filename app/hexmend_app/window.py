@@ -3,41 +3,48 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QSettings, Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QLabel, QMainWindow, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
+from PySide6.QtWidgets import QLabel, QMainWindow, QVBoxLayout, QWidget
 
-from hexmend.errors import FileError
 from hexmend.parameters import declared
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.commands import Commands, methods_offered
 from hexmend_app.counting import Counting
-from hexmend_app.docks import LAYOUT, add_docks, column
+from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
 from hexmend_app.menus import build_menus
+from hexmend_app.opening import Opening
 from hexmend_app.resources import demo_mesh
 from hexmend_app.saving import Saving
 from hexmend_app.state.document import Document
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.opener import Opener
+from hexmend_app.state.recent import Recent
 from hexmend_app.state.run import Frame, Phase, Smoothing
 from hexmend_app.state.selection import Selection
+from hexmend_app.state.theme import Choice
 from hexmend_app.state.view import View
 from hexmend_app.tagging import Tagging
+from hexmend_app.widgets import theming
+from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
 from hexmend_app.widgets.element_panel import ElementPanel
+from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
-from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, remember_folder, show_about
+from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
+from hexmend_app.widgets.recent_menu import RecentMenu
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
 from hexmend_app.widgets.structure_panel import StructurePanel
@@ -70,7 +77,9 @@ class Window(QMainWindow):
         self.canvas: Canvas | None = None
 
         self.messages = MessageBar()
-        self.welcome = Welcome()
+        self.recent = Recent(self)
+        self.recent_menu = RecentMenu(self.recent, self)
+        self.welcome = Welcome(self.recent)
         self.histogram = QualityHistogram()
         self.statistics = StatisticsTable()
         self.worst_list = WorstList()
@@ -83,10 +92,8 @@ class Window(QMainWindow):
         self.inside_panel = InsidePanel()
         self.structure_panel = StructurePanel()
         self.colour_panel = ColourPanel()
-        self.progress = QProgressBar()
-        self.progress.setRange(0, 0)
-        self.progress.setFixedSize(140, 10)  # no higher than text, or the view jumps as it comes and goes
-        self.progress.setTextVisible(False)
+        self.busy = Busy()
+        self.hint = Hint()
         self.counts = QLabel()
 
         self._lay_out()
@@ -110,6 +117,7 @@ class Window(QMainWindow):
             self.element_panel,
             self.docks["element"],
         )
+        self.opening = Opening(self.document, self.opener, self.recent, self.busy, self.messages)
         self.tagging = Tagging(
             self.document,
             self.view,
@@ -121,7 +129,7 @@ class Window(QMainWindow):
             lambda: self.canvas.viewport.kept(),
         )
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
-        self.actions_by_id = build_menus(self, self._handlers())
+        self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
             {id: self.actions_by_id[id].shortcut().toString() for id in ("run", "step", "stop", "reset")}
         )
@@ -134,6 +142,7 @@ class Window(QMainWindow):
         self._centre.setContentsMargins(0, 0, 0, 0)
         self._centre.setSpacing(0)
         self._centre.addWidget(self.messages)
+        self._centre.addWidget(self.hint)
         self._centre.addWidget(self.welcome, 1)
         centre = QWidget()
         centre.setLayout(self._centre)
@@ -149,8 +158,8 @@ class Window(QMainWindow):
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs)
         self.statusBar().addWidget(self.counts, 1)
-        self.statusBar().addPermanentWidget(self.progress)
-        self.progress.hide()
+        self.statusBar().addPermanentWidget(self.busy)
+        self.busy.done()
 
     def build_canvas(self) -> None:
         """Load what draws in 3D and put it where the welcome is; slow the first time."""
@@ -158,6 +167,8 @@ class Window(QMainWindow):
 
         self.canvas = Canvas()
         self._centre.addWidget(self.canvas, 1)
+        name_tabs(self)
+        self.setTabOrder(self.hint.close_button, self.canvas.interactor)
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
         self.saving.canvas = self.canvas
@@ -171,9 +182,7 @@ class Window(QMainWindow):
         self.document.changes_changed.connect(self._enable)
         self.view.look_changed.connect(self._enable)
         self.finder.found.connect(self._enable)
-        self.opener.began.connect(self._on_opening)
-        self.opener.ended.connect(self._on_opened)
-        self.opener.failed.connect(self._on_open_failed)
+        self.opener.began.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
         self.smoothing.ended.connect(self._on_ended)
@@ -184,10 +193,13 @@ class Window(QMainWindow):
         self.smoothing_panel.resume_requested.connect(self.smoothing.resume)
         self.smoothing_panel.stop_requested.connect(self.smoothing.stop)
         self.smoothing_panel.reset_requested.connect(self.commands.reset)
+        self.recent_menu.chosen.connect(self.open)
         self.selection.changed.connect(self._enable)
         self.messages.filled.connect(self._enable)
         self.messages.emptied.connect(self._enable)
+        QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_desktop_theme)
         self.welcome.open_requested.connect(self._on_open)
+        self.welcome.recent_requested.connect(self.open)
         self.welcome.demo_requested.connect(self._on_open_demo)
 
     def _handlers(self) -> dict[str, Callable]:
@@ -203,7 +215,9 @@ class Window(QMainWindow):
             "stop": self.smoothing.stop,
             "reset": self.commands.reset,
             "commands": self._on_commands,
+            "keys": self.hint.show,
             "about": self._on_about,
+            **{f"theme_{choice.value}": partial(self._on_theme, choice) for choice in Choice},
             **self.saving.handlers(),
             **self.looking.handlers(),
             **self.inspecting.handlers(),
@@ -235,35 +249,28 @@ class Window(QMainWindow):
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
 
-    def _on_opening(self, path: Path) -> None:
-        self.progress.show()
-        self.statusBar().showMessage(f"Reading {path.name}…")
-
-    def _on_opened(self, path: Path) -> None:
-        self.progress.hide()
-        self.statusBar().clearMessage()
-        self.messages.clear()
-        if path.resolve() != demo_mesh().resolve():
-            remember_folder(path)
-
-    def _on_open_failed(self, path: Path, error: Exception) -> None:
-        self.progress.hide()
-        self.statusBar().clearMessage()
-        detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
-        stays = f" {self.document.name} stays open." if self.document.is_open else ""
-        self.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{stays}")
-
     def _on_phase(self) -> None:
         phase = self.smoothing.phase
         self.smoothing_panel.set_state(phase.value)
-        self.progress.setVisible(phase is Phase.PREPARING)  # its animation would slow a run that shows itself anyway
+        if phase in (Phase.PREPARING, Phase.STOPPING):
+            self._show_preparing(phase)
+        elif not self.opener.busy:
+            self.busy.done()  # its animation would slow a run that shows itself anyway
         if phase is Phase.PAUSED and self.canvas is not None:
             self.canvas.rest()
-        if phase is Phase.PREPARING:
-            self.smoothing_panel.set_status(
-                sentence="Preparing the method. Its kernels are compiled the first time, which takes about a minute."
-            )
         self._enable()
+
+    def _show_preparing(self, phase: Phase) -> None:
+        once = " Its kernels are compiled, which takes about a minute, once." if self.smoothing.compiling else ""
+        if phase is Phase.STOPPING:
+            self.busy.show_work("Stopping…")
+            sentence = f"Stopping: the run ends as soon as the method is ready, before its first iteration.{once}"
+        else:
+            what = "Compiling the method…" if once else "Preparing the method…"
+            help = "End the run before its first iteration (Shift+F5)."
+            self.busy.show_work(what, "Stop", help, self.smoothing.stop)
+            sentence = f"Preparing the method.{once}"
+        self.smoothing_panel.set_status(sentence=sentence)
 
     def _on_iterated(self, frame: Frame) -> None:
         self.smoothing_panel.set_status(frame.iteration.number, frame.iteration.seconds)
@@ -284,12 +291,14 @@ class Window(QMainWindow):
             self.actions_by_id[id].setEnabled(title is not None and not busy)
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
             self.actions_by_id[id].setIconText(word.replace("&", ""))
-        self.actions_by_id["stop"].setEnabled(busy)
+        self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
         for id, on in (self.inspecting.offered() | self.tagging.offered() | self.looking.offered()).items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
-        if not self.messages.isHidden():
-            self.actions_by_id["back"].setEnabled(False)  # Esc dismisses a message first
-        for id, on in self.looking.checked().items():
+        # Esc is for a message first, then for what is being opened.
+        self.busy.take_escape(self.opener.busy and self.messages.isHidden())
+        if self.opener.busy or not self.messages.isHidden():
+            self.actions_by_id["back"].setEnabled(False)
+        for id, on in (self.looking.checked() | {f"theme_{theming.chosen().value}": True}).items():
             self.actions_by_id[id].setChecked(on)
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.smoothing_panel.setEnabled(self.document.is_open)
@@ -321,6 +330,13 @@ class Window(QMainWindow):
         palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         palette.move(self.mapToGlobal(QPoint((self.width() - palette.width()) // 2, 90)))
         palette.open()
+
+    def _on_theme(self, choice: Choice, on: bool) -> None:
+        if on and choice is not theming.chosen():
+            theming.choose(choice)
+
+    def _on_desktop_theme(self) -> None:
+        theming.wear()
 
     def _on_about(self) -> None:
         from hexmend import __version__
@@ -356,12 +372,13 @@ class Window(QMainWindow):
         if not self._may_leave():
             event.ignore()
             return
-        self.smoothing.shut_down()
-        self.opener.shut_down()
-        self.finder.shut_down()
         settings = QSettings()
         settings.setValue("geometry", self.saveGeometry())
         settings.setValue("layout", self.saveState(LAYOUT))
+        self.hide()  # threads may take a while to end
+        self.smoothing.shut_down()
+        self.opener.shut_down()
+        self.finder.shut_down()
         if self.canvas is not None:
             self.canvas.close()
         event.accept()

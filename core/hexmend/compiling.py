@@ -7,13 +7,14 @@ from collections.abc import Callable
 #: Called, without arguments, when the first kernel of this process has to be compiled.
 listeners: list[Callable[[], None]] = []
 
-_told = False
+#: Number of kernels that this process had to compile so far, the one at hand included.
+begun = 0
 
 
 def tell() -> None:
     """A kernel is about to be compiled; the listeners hear of the first one alone."""
-    global _told
-    if not _told:
-        _told = True
+    global begun
+    begun += 1
+    if begun == 1:
         for listener in listeners:
             listener()

@@ -5,8 +5,9 @@ from __future__ import annotations
 import threading
 
 import pytest
-from PySide6.QtCore import QSettings
-from PySide6.QtWidgets import QMessageBox
+import shiboken6
+from PySide6.QtCore import QEvent, QSettings
+from PySide6.QtWidgets import QApplication, QMessageBox
 
 from hexmend import gallery, io
 from hexmend_app.program import application
@@ -39,4 +40,8 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     qtbot.wait(200)
     yield window
     window.close()
+    # PySide would take what is made later at the same place in memory for the window's QWindow.
+    shiboken6.invalidate(window.windowHandle())
+    window.deleteLater()  # or every theme and style would be put on all windows of the tests before
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []

@@ -18,7 +18,7 @@ grouped(np.zeros(3, np.int32), 1)
 def test_listeners_hear_of_the_first_kernel_alone(monkeypatch):
     heard = []
     monkeypatch.setattr(compiling, "listeners", [lambda: heard.append(1)])
-    monkeypatch.setattr(compiling, "_told", False)
+    monkeypatch.setattr(compiling, "begun", 0)
     compiling.tell()
     compiling.tell()
     assert heard == [1]

@@ -10,6 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 
 from hexmend_app.state.clip import BoxClip
+from hexmend_app.state.theme import PLANE_EDGE, PLANE_HELD
 
 
 class BoxWidget:
@@ -30,14 +31,11 @@ class BoxWidget:
         shape = vtkBoxRepresentation()
         shape.SetPlaceFactor(1.0)
         shape.GetFaceProperty().SetOpacity(0)
-        shape.GetSelectedFaceProperty().SetColor(0.0, 0.45, 0.70)
         shape.GetSelectedFaceProperty().SetOpacity(0.12)
-        shape.GetOutlineProperty().SetColor(0.30, 0.36, 0.45)
-        shape.GetSelectedOutlineProperty().SetColor(0.0, 0.45, 0.70)
-        shape.GetHandleProperty().SetColor(0.0, 0.45, 0.70)
         shape.GetSelectedHandleProperty().SetColor(0.84, 0.37, 0.0)
         shape.SetOutlineCursorWires(False)
         self._shape = shape
+        self.set_dark(False)
         self._widget = vtkBoxWidget2()
         self._widget.SetInteractor(plotter.iren.interactor)
         self._widget.SetCurrentRenderer(plotter.renderer)
@@ -47,6 +45,12 @@ class BoxWidget:
         self._widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
         self._widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
         self._widget.AddObserver("InteractionEvent", self._announce)
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw it for the dark ground, or for the light one."""
+        self._shape.GetOutlineProperty().SetColor(pv.Color(PLANE_EDGE.of(dark)).float_rgb)
+        for part in ("SelectedFace", "SelectedOutline", "Handle"):
+            getattr(self._shape, f"Get{part}Property")().SetColor(pv.Color(PLANE_HELD.of(dark)).float_rgb)
 
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
         """Take the size of the mesh; the box is not dragged out of it."""

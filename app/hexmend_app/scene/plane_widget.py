@@ -8,6 +8,7 @@ import pyvista as pv
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
 
 from hexmend_app.state.clip import ClipPlane
+from hexmend_app.state.theme import PLANE, PLANE_EDGE, PLANE_HELD
 
 
 class PlaneWidget:
@@ -32,15 +33,12 @@ class PlaneWidget:
         shape.ScaleEnabledOff()
         shape.SetDrawOutline(False)
         shape.SetTubing(False)
-        shape.GetPlaneProperty().SetColor(0.36, 0.45, 0.58)
         shape.GetPlaneProperty().SetOpacity(0.04)
-        shape.GetSelectedPlaneProperty().SetColor(0.0, 0.45, 0.70)
         shape.GetSelectedPlaneProperty().SetOpacity(0.12)
-        shape.GetNormalProperty().SetColor(0.0, 0.45, 0.70)
         shape.GetSelectedNormalProperty().SetColor(0.84, 0.37, 0.0)
-        shape.SetEdgeColor(0.30, 0.36, 0.45)
         shape.GetOutlineProperty().SetOpacity(0)
         self._shape = shape
+        self.set_dark(False)
         self._widget = vtkImplicitPlaneWidget2()
         self._widget.SetInteractor(plotter.iren.interactor)
         self._widget.SetCurrentRenderer(plotter.renderer)
@@ -48,6 +46,14 @@ class PlaneWidget:
         self._widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
         self._widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
         self._widget.AddObserver("InteractionEvent", self._announce)
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw it for the dark ground, or for the light one."""
+        edge, plane, held = (pv.Color(role.of(dark)).float_rgb for role in (PLANE_EDGE, PLANE, PLANE_HELD))
+        self._shape.SetEdgeColor(edge)
+        self._shape.GetPlaneProperty().SetColor(plane)
+        self._shape.GetSelectedPlaneProperty().SetColor(held)
+        self._shape.GetNormalProperty().SetColor(held)
 
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
         """Take the size of the mesh; the plane is drawn a little larger."""

@@ -8,9 +8,7 @@ import pyvista as pv
 from hexmend.mesh import Mesh
 from hexmend.structure import sharp_edges
 from hexmend_app.scene.surface import set_points
-
-_LINE = "#7d8797"
-_SHADE = "#d9dfe8"  # a little darker than the background
+from hexmend_app.state.theme import SHADE, SILHOUETTE
 
 #: Of the ends of sharp edges; where more belong to one sharp edge alone, a round body has facets that are sharp here
 #: and there, and what they give is a heap of splinters. Sharp edges of a body with corners go on at either end.
@@ -39,7 +37,7 @@ class Silhouette:
     def __init__(self, plotter: pv.BasePlotter, mesh: Mesh):
         faces = mesh.topology.boundary_faces
         edges = sharp_edges(mesh.points, faces)
-        lines = form_lines(edges)
+        self._lines = lines = form_lines(edges)
         cells = edges if lines else faces
         self._nodes, places = np.unique(cells, return_inverse=True)
         places = places.reshape(cells.shape)
@@ -51,7 +49,6 @@ class Silhouette:
         self._actor = plotter.add_mesh(
             self._poly if len(cells) else pv.PolyData(np.zeros((1, 3))),
             name="outline",
-            color=_LINE if lines else _SHADE,
             line_width=1,
             lighting=False,
             culling=None if lines else "back",
@@ -63,7 +60,12 @@ class Silhouette:
             mapper = self._actor.mapper
             mapper.SetResolveCoincidentTopologyToPolygonOffset()
             mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _BEHIND)
+        self.set_dark(False)
         self.show(False)
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw for the dark ground, or for the light one."""
+        self._actor.prop.color = (SILHOUETTE if self._lines else SHADE).of(dark)
 
     def show(self, on: bool) -> None:
         """Draw it or not."""

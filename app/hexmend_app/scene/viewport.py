@@ -22,8 +22,8 @@ from hexmend_app.scene.structure import StructureLayers
 from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
 from hexmend_app.state.look import Look
 from hexmend_app.state.measured import values
+from hexmend_app.state.theme import AXES, BACKGROUND
 
-_BACKGROUND = "#eef1f5"  # one colour: a gradient costs software rendering a fifth of the frame
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 
 #: Inverted elements that are outlined in every frame.
@@ -59,7 +59,7 @@ class Viewport:
         self._coarse: pv.PolyData | None = None  # of the skin, drawn while the camera moves
         self._steady = False  # nothing but the camera has moved since the last fine frame
         self._colouring: Colouring | None = None
-        plotter.set_background(_BACKGROUND)
+        self._dark = False
         plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
         plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=1.0))
         plotter.render_window.SetMultiSamples(0)
@@ -69,7 +69,7 @@ class Viewport:
             (surface, Halo(plotter, name))
             for surface, name in ((self._skin_surface, "halo of skin"), (self._section_surface, "halo of section"))
         ]
-        self._outline = None
+        self._outline: Silhouette | None = None
         self._structure = StructureLayers(plotter)
         self._highlight = Highlight(plotter)
         self._selected: int | None = None
@@ -77,7 +77,18 @@ class Viewport:
         self._picker.PickFromListOn()
         for surface in (self._skin_surface, self._section_surface):
             self._picker.AddPickList(surface.actor)
-        plotter.add_axes(line_width=2, labels_off=False, viewport=(0, 0, 0.13, 0.18), color="#39414d")
+        self._axes = plotter.add_axes(line_width=2, labels_off=False, viewport=(0, 0, 0.13, 0.18))
+        self.set_dark(False)
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw on the dark theme's ground, or on the light one's, as pictures for reports are."""
+        self._dark = dark
+        self._plotter.set_background(BACKGROUND.of(dark))
+        for letter in "XYZ":
+            label = getattr(self._axes, f"Get{letter}AxisCaptionActor2D")()
+            label.GetCaptionTextProperty().SetColor(*pv.Color(AXES.of(dark)).float_rgb)
+        if self._outline is not None:
+            self._outline.set_dark(dark)
 
     # What is drawn
 
@@ -87,6 +98,7 @@ class Viewport:
         self._skin = Skin(mesh)
         self._filters = Filters(mesh)
         self._outline = Silhouette(self._plotter, mesh)
+        self._outline.set_dark(self._dark)
         self._structure.set_mesh(mesh)
         self.select(None)
         self._cull()

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QThread, Signal
+from PySide6.QtCore import QObject, QThread, QTimer, Signal
 
+from hexmend import compiling
 from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend.mesh import Mesh
@@ -13,9 +14,20 @@ from hexmend.quality import element, node
 from hexmend_app.state.binning import bin_counts
 from hexmend_app.state.document import Document, State
 
+#: Milliseconds between two looks at whether kernels are being compiled.
+_PERIOD = 200
+
 
 class _Reading(QThread):
-    """Reads, measures and prepares one mesh."""
+    """Reads, measures and prepares one mesh.
+
+    Signals
+    -------
+    began(str)
+        The next part of the work has begun; says which.
+    """
+
+    began = Signal(str)
 
     def __init__(self, path: Path):
         super().__init__()
@@ -27,7 +39,11 @@ class _Reading(QThread):
     def run(self) -> None:
         """What the thread does."""
         try:
-            self.state = State.of(read(self.path))
+            self.began.emit(f"Reading {self.path.name}…")
+            mesh = read(self.path)
+            self.began.emit(f"Measuring {self.path.name}, {mesh.n_hexes:,} hexes…")
+            self.state = State.of(mesh)
+            self.began.emit(f"Preparing the view of {self.path.name}…")
             _ = self.state.mesh.topology.face_neighbours, self.state.mesh.topology.layers  # what the view draws from
             bin_counts(self.state.figures.q, self.state.figures.inverted, (0.0, 1.0), 1)  # compiled here the first time
         except HexmendError as error:
@@ -56,14 +72,20 @@ class Opener(QObject):
     Signals
     -------
     began(Path)
+    told(str)
+        What is being done now.
     ended(Path)
         The mesh is the document's.
+    cancelled(Path)
+        The document is as it was.
     failed(Path, Exception)
         The document is as it was.
     """
 
     began = Signal(object)
+    told = Signal(str)
     ended = Signal(object)
+    cancelled = Signal(object)
     failed = Signal(object, object)
 
     def __init__(self, document: Document, parent: QObject | None = None):
@@ -72,6 +94,11 @@ class Opener(QObject):
         self._reading: _Reading | None = None
         self._preparing: _Preparing | None = None
         self._next: Path | None = None
+        self._dropped: list[_Reading] = []
+        self._compiled = 0
+        self._look = QTimer(self)
+        self._look.setInterval(_PERIOD)
+        self._look.timeout.connect(self._look_for_kernels)
 
     @property
     def busy(self) -> bool:
@@ -85,23 +112,47 @@ class Opener(QObject):
             return
         self._reading = _Reading(Path(path))
         self._reading.finished.connect(self._finish)
+        self._reading.began.connect(self.told)
+        self._compiled = compiling.begun
+        self._look.start()
         self.began.emit(self._reading.path)
         self._reading.start()
 
+    def cancel(self) -> None:
+        """Stop waiting: a thread cannot be ended from outside, but what it reads is dropped, and others can be read."""
+        if self._reading is None:
+            return
+        reading, self._reading, self._next = self._reading, None, None
+        self._look.stop()
+        reading.began.disconnect(self.told)
+        self._dropped.append(reading)
+        self.cancelled.emit(reading.path)
+
+    def _look_for_kernels(self) -> None:
+        if compiling.begun > self._compiled:
+            self._look.stop()
+            self.told.emit("Compiling what meshes are measured with, which takes up to a minute, once…")
+
     def shut_down(self) -> None:
         """Wait until the thread is gone; nothing is opened any more."""
-        self._next = None
-        if self._reading is not None:
-            self._reading.finished.disconnect(self._finish)
-            self._reading.wait()
-            self._reading = None
+        self.cancel()
+        for reading in self._dropped:
+            reading.finished.disconnect(self._finish)
+            reading.wait()
+        self._dropped.clear()
         if self._preparing is not None:
             self._preparing.wait()
             self._preparing = None
 
     def _finish(self) -> None:
+        for dropped in [one for one in self._dropped if one.isFinished()]:
+            dropped.wait()
+            self._dropped.remove(dropped)
+        if self._reading is None or not self._reading.isFinished():
+            return  # what has finished was dropped
         reading, self._reading = self._reading, None
         reading.wait()
+        self._look.stop()
         if self._next is not None:
             path, self._next = self._next, None
             self.open(path)

@@ -8,6 +8,7 @@ from enum import Enum
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from hexmend import compiling
 from hexmend.optimise import Result
 from hexmend.run import Stop
 from hexmend.smoothers import Smoother
@@ -23,6 +24,7 @@ class Phase(Enum):
 
     IDLE = "idle"
     PREPARING = "preparing"
+    STOPPING = "stopping"
     RUNNING = "running"
     PAUSED = "paused"
     FINISHED = "finished"
@@ -56,6 +58,7 @@ class Smoothing(QObject):
         self.method = ""  # name of the method that ran last
         self._metrics: frozenset[str] = frozenset()
         self.phase = Phase.IDLE
+        self._compiled, self._said = 0, False
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
         self._timer.timeout.connect(self._look)
@@ -64,6 +67,11 @@ class Smoothing(QObject):
     def busy(self) -> bool:
         """Whether a run is under way, paused or not."""
         return self._worker is not None
+
+    @property
+    def compiling(self) -> bool:
+        """Whether kernels had to be compiled since the run was asked for."""
+        return compiling.begun > self._compiled
 
     def start(self, smoother: Smoother, stop: Stop, iterations: float = math.inf) -> None:
         """Begin a run on the document's mesh and make that many iterations of it."""
@@ -74,6 +82,7 @@ class Smoothing(QObject):
         self._worker = Worker(self._before.mesh, smoother, stop)
         self._worker.metrics = self._metrics
         self._worker.grant(iterations)
+        self._compiled, self._said = compiling.begun, False
         self._set_phase(Phase.PREPARING)
         self._worker.start()
         self._timer.start()
@@ -102,9 +111,11 @@ class Smoothing(QObject):
             self._look()
 
     def stop(self) -> None:
-        """End the run after the iteration at hand; what was reached stays."""
+        """End the run after the iteration at hand, or once it is prepared; what was reached stays."""
         if self._worker is not None:
             self._worker.end()
+            if self.phase is Phase.PREPARING:
+                self._set_phase(Phase.STOPPING)
 
     def end_now(self) -> None:
         """End the run and wait for the iteration at hand; what was reached is recorded as usual."""
@@ -132,7 +143,10 @@ class Smoothing(QObject):
             self._show(frame)
         if over:
             self._finish(worker)
-        elif worker.prepared.is_set():
+        elif self.phase is Phase.PREPARING and self.compiling and not self._said:
+            self._said = True
+            self.phase_changed.emit()
+        elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
             self._set_phase(Phase.PAUSED if worker.waiting else Phase.RUNNING)
 
     def _show(self, frame: Frame) -> None:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import QElapsedTimer, QEvent, QObject, QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtCore import QElapsedTimer, QEvent, QObject, QPoint, QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent, QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
@@ -21,13 +22,20 @@ from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import Look
+from hexmend_app.state.theme import BLUE, THEME
 from hexmend_app.widgets.colour_bar import ColourBar
+from hexmend_app.widgets.style import dress, explain
+from hexmend_app.widgets.view_keys import steer
 
 #: Milliseconds of rest after which the fine still frame is drawn.
 _REST = 300
 
 #: How far the mouse may stray in a click, in pixels; beyond it turns the mesh.
 _STRAY = 3
+
+#: Width in pixels of the ring that marks the focus, and how the focus comes by keys.
+_RING = 2
+_BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason, Qt.FocusReason.ShortcutFocusReason)
 
 #: Milliseconds that the camera flies, and between two of its frames.
 _FLIGHT, _FRAME = 350, 25
@@ -61,8 +69,8 @@ class Canvas(QWidget):
         self.box = BoxWidget(self.interactor, self.box_dragged.emit)
         self.colour_bar = ColourBar()
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
+        layout.setContentsMargins(_RING, _RING, _RING, 0)
+        layout.setSpacing(_RING)
         layout.addWidget(self.interactor, 1)
         layout.addWidget(self.colour_bar)
         self._frame = QTimer(self)  # several changes in one turn of the event loop are one frame
@@ -76,11 +84,26 @@ class Canvas(QWidget):
         self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
         self._pressed: QPointF | None = None
         self.interactor.installEventFilter(self)
+        explain(self.interactor, "3D view", "")
+        self.interactor.setAccessibleDescription(
+            "Arrow keys turn the mesh, Shift and arrow keys shift it, + and − zoom; F shows all of it."
+        )
+        self._ring = False
         self._flight: Flight | None = None
         self._flown = QElapsedTimer()
         self._fly = QTimer(self)
         self._fly.setInterval(_FRAME)
         self._fly.timeout.connect(self._fly_on)
+        self._closed = False
+        dress(self, self._wear_theme)
+
+    def _wear_theme(self) -> None:
+        if self._closed:
+            return
+        self.viewport.set_dark(THEME.dark)
+        self.plane.set_dark(THEME.dark)
+        self.box.set_dark(THEME.dark)
+        self._changed()
 
     def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
         """Draw another mesh."""
@@ -147,8 +170,18 @@ class Canvas(QWidget):
             self._fly.stop()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Tell a click from a drag, which turns the mesh."""
+        """Tell a click from a drag, which turns the mesh; turn it by keys too."""
         kind = event.type()
+        if kind == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
+            if steer(self.viewport.camera, event):
+                self._fly.stop()
+                self.viewport.reset_depth()
+                self._changed()
+            return True  # VTK has keys of its own, which would draw wires or end it
+        if kind in (QEvent.Type.FocusIn, QEvent.Type.FocusOut):
+            # Marked where keys brought it here: who clicks knows where.
+            self._ring = kind == QEvent.Type.FocusIn and event.reason() in _BY_KEYS
+            self.update()
         if kind == QEvent.Type.MouseButtonPress:
             self._fly.stop()
             self._pressed = event.position() if event.button() == Qt.MouseButton.LeftButton else None
@@ -158,6 +191,25 @@ class Canvas(QWidget):
             if max(abs(away.x()), abs(away.y())) <= _STRAY:
                 self._click(event.position(), bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier))
         return super().eventFilter(watched, event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Let the view begin and end at whole pixels of the screen: half of one, at a scale of 150 %, stays black."""
+        super().resizeEvent(event)
+        whole = Fraction(self.devicePixelRatioF()).limit_denominator(4).denominator
+        at = self.mapTo(self.window(), QPoint(0, 0))
+        right, bottom = at.x() + self.width() - _RING, at.y() + self.height() - self.colour_bar.height() - _RING
+        layout = self.layout()
+        layout.setContentsMargins(
+            _RING + -(at.x() + _RING) % whole, _RING + -(at.y() + _RING) % whole, _RING + right % whole, 0
+        )
+        layout.setSpacing(_RING + bottom % whole)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Mark the focus by a ring around the view."""
+        if self._ring:
+            painter = QPainter(self)
+            around = self.interactor.geometry().adjusted(-_RING, -_RING, _RING, _RING)
+            painter.fillRect(around, QColor(str(BLUE)))
 
     def _click(self, at: QPointF, dig: bool) -> None:
         ratio = self.devicePixelRatioF()
@@ -179,6 +231,7 @@ class Canvas(QWidget):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""
+        self._closed = True
         self._frame.stop()
         self._rest.stop()
         self._fly.stop()

@@ -143,7 +143,7 @@ class ColourBar(QWidget):
         width, height = (n, 1) if self._across else (1, n)
         image = QImage(table.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888)
         painter.drawImage(bar, image)
-        painter.setPen(QPen(QColor(LINE), 0))
+        painter.setPen(QPen(QColor(str(LINE)), 0))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRect(swatch)
         painter.drawRect(bar)
@@ -181,12 +181,12 @@ class ColourBar(QWidget):
 
     def _paint_labels(self, painter: QPainter, metrics: QFontMetricsF, swatch: QRectF, bar: QRectF) -> None:
         line, ascent = metrics.height(), metrics.ascent()
-        painter.setPen(QColor(TEXT))
+        painter.setPen(QColor(str(TEXT)))
         if self._across:
             painter.drawText(QPointF(bar.right() + 8, bar.center().y() + ascent / 2 - 1), self._label)
         else:
             painter.drawText(QPointF(bar.left(), bar.top() - 4 - metrics.descent()), self._label)
-        painter.setPen(QColor(TEXT if self._inverted else MUTED))
+        painter.setPen(QColor(str(TEXT if self._inverted else MUTED)))
         painter.drawText(QPointF(swatch.left(), swatch.bottom() + _TICK + 2 + ascent), self._swatch_text())
 
         length = bar.width() if self._across else bar.height()
@@ -195,16 +195,16 @@ class ColourBar(QWidget):
         for value in self._ticks(length, room):
             share = (value - self._low) / (self._high - self._low)
             text = self._text(value)
-            painter.setPen(QPen(QColor(MUTED), 1))
+            painter.setPen(QPen(QColor(str(MUTED)), 1))
             if self._across:
                 x = round(bar.left() + share * length) + 0.5 * (share < 0.5) - 0.5 * (share >= 0.5)
                 painter.drawLine(QPointF(x, bar.bottom() + 1), QPointF(x, bar.bottom() + _TICK))
                 wide = metrics.horizontalAdvance(text)
-                painter.setPen(QColor(TEXT))
+                painter.setPen(QColor(str(TEXT)))
                 # The label stands higher, so the last number may reach under it.
                 painter.drawText(QPointF(x - wide / 2, bar.bottom() + _TICK + 2 + ascent), text)
             else:
                 y = round(bar.bottom() - share * length)
                 painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + _TICK, y))
-                painter.setPen(QColor(TEXT))
+                painter.setPen(QColor(str(TEXT)))
                 painter.drawText(QPointF(bar.right() + _TICK + 3, y + ascent / 2 - 1), text)

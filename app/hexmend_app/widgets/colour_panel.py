@@ -18,7 +18,7 @@ from hexmend_app.state.look import ColourScale, RangeMode
 from hexmend_app.widgets.metrics import metrics_offered
 from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import LINE, WORSE, explain, note
+from hexmend_app.widgets.style import LINE, WORSE, dress, explain, note
 from hexmend_app.widgets.wording import short_number
 
 _SWATCH = QSize(48, 12)
@@ -63,8 +63,9 @@ class ColourPanel(QWidget):
         self._map = _combo()
         self._map.setIconSize(_SWATCH)
         for at, name in enumerate(MAPS):
-            self._map.addItem(_swatch(name), name, name)
+            self._map.addItem(name, name)
             self._map.setItemData(at, _MAPS.get(name, ""), Qt.ItemDataRole.ToolTipRole)
+        dress(self._map, self._paint_swatches)
         explain(
             self._map, "Colour map", "All maps are perceptually uniform and readable without telling red from green."
         )
@@ -88,6 +89,10 @@ class ColourPanel(QWidget):
         self._refresh()
         self._show_ends()
 
+    def _paint_swatches(self) -> None:
+        for at, name in enumerate(MAPS):
+            self._map.setItemIcon(at, _swatch(name))
+
     def _lay_out(self) -> None:
         grid = QGridLayout(self)
         grid.setHorizontalSpacing(8)
@@ -99,6 +104,7 @@ class ColourPanel(QWidget):
             grid.addWidget(label, row, 0)
             grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
         grid.addWidget(self._reverse, 1, 2)
+        self.setTabOrder(self._map, self._reverse)
         numbers = QHBoxLayout()
         numbers.setSpacing(8)
         for part in (self._low, QLabel("to"), self._high):
@@ -242,7 +248,7 @@ def _swatch(name: str) -> QIcon:
         4 * _SWATCH, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
     )
     painter = QPainter(pixmap)
-    painter.setPen(QColor(LINE))
+    painter.setPen(QColor(str(LINE)))
     painter.drawRect(pixmap.rect().adjusted(0, 0, -1, -1))
     painter.end()
     return QIcon(pixmap)

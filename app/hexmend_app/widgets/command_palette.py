@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QBrush, QColor, QKeyEvent
 from PySide6.QtWidgets import QDialog, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
-from hexmend_app.widgets.style import MUTED, explain, note
+from hexmend_app.widgets.style import MUTED, dress, explain, note
 
 #: Keys that move in the list while the cursor stands in the field.
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
@@ -55,6 +55,7 @@ class CommandPalette(QDialog):
         self._actions = [action for action in actions if action.isEnabled() and not action.isSeparator()]
         for action in self._actions:
             self._list.addTopLevelItem(_item(action))
+        dress(self, self._paint)
         self._list.resizeColumnToContents(1)
         self._list.header().setStretchLastSection(False)
         self._list.setColumnWidth(0, 400)
@@ -76,6 +77,10 @@ class CommandPalette(QDialog):
     def _items(self) -> list[QTreeWidgetItem]:
         return [self._list.topLevelItem(k) for k in range(self._list.topLevelItemCount())]
 
+    def _paint(self) -> None:
+        for item in self._items():
+            item.setForeground(1, QBrush(QColor(str(MUTED))))
+
     def _filter(self, text: str) -> None:
         words = text.lower().split()
         first = None
@@ -96,11 +101,12 @@ class CommandPalette(QDialog):
 
 
 def _item(action: QAction) -> QTreeWidgetItem:
-    item = QTreeWidgetItem([action.text().replace("&", ""), action.shortcut().toString()])
+    within = action.property("within")
+    name = action.text().replace("&", "")
+    item = QTreeWidgetItem([f"{within}: {name}" if within else name, action.shortcut().toString()])
     item.setIcon(0, action.icon())
     item.setToolTip(0, action.statusTip())
     item.setTextAlignment(1, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-    item.setForeground(1, QBrush(QColor(MUTED)))
     if action.isCheckable():
         item.setText(0, f"{item.text(0)}: {'on' if action.isChecked() else 'off'}")
     return item

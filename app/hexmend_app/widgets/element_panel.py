@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.quality import METRICS, Element, Node
 from hexmend_app.widgets.metrics import described, metrics_offered
-from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, TEXT, WORSE, explain, icon, note, tabular, tint
+from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, TEXT, WORSE, dress, explain, icon, note, tabular, tint
 from hexmend_app.widgets.wording import counted, figure
 
 _FACES = ("x−", "x+", "y−", "y+", "z−", "z+")
@@ -73,7 +73,11 @@ class ElementPanel(QWidget):
         explain(self._in_view, "Corner qualities in the view", "Write q(T) beside the element's corners in the view.")
         self._in_view.toggled.connect(self.corners_toggled)
         self._fly = QPushButton(icon("target"), "Fly to it")
-        explain(self._fly, "Fly to it", "Bring the element before the camera (Enter in the list does the same).")
+        explain(
+            self._fly,
+            "Fly to it",
+            "Bring the element before the camera; Enter or a double-click in the list of the worst does so too.",
+        )
         self._fly.clicked.connect(self.fly_requested)
         self._values = {name: self._number() for name in METRICS}
         self._corners = [tuple(self._number() for _ in range(3)) for _ in range(8)]
@@ -98,13 +102,21 @@ class ElementPanel(QWidget):
             self._pin, "Pinned", "Keep this node where it is, whatever smooths the mesh. Boundary nodes always are."
         )
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
-        for node, _, _ in self._corners:
+        for corner, (node, _, _) in enumerate(self._corners):
+            node.setAccessibleName(f"Node at corner {corner}")
             node.setTextFormat(Qt.TextFormat.RichText)
             node.setTextInteractionFlags(
                 Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
             )
             node.linkActivated.connect(lambda link: self.node_chosen.emit(int(link)))
         self._lay_out(page)
+        dress(self, self._paint_links)
+
+    def _paint_links(self) -> None:
+        for label in (self._neighbours, *(node for node, _, _ in self._corners)):
+            text = label.text()
+            label.clear()  # Qt colours links as the text is set, and not again for the same text
+            label.setText(text)
 
     def _number(self) -> QLabel:
         label = QLabel()
@@ -177,7 +189,8 @@ class ElementPanel(QWidget):
             tint(label, WORSE if bad else TEXT)
         worst = int(one.corners.argmin()) if np.ptp(one.corners) > 1e-9 else -1
         for k, (node, kind, quality) in enumerate(self._corners):
-            node.setText(f'<a href="{one.nodes[k]}">{one.nodes[k]:,}</a>')
+            # Nothing, and yet before the link: from one at the very beginning Shift+Tab does not get away.
+            node.setText(f'&#8203;<a href="{one.nodes[k]}">{one.nodes[k]:,}</a>')
             kind.setText("fixed" if one.fixed[k] else "free")
             tint(kind, MUTED)
             quality.setText(figure(float(one.corners[k]), 3))

@@ -33,7 +33,7 @@ def write_histogram(path: Path, histogram: QualityHistogram, title: str) -> None
         outlines.append(
             Outline(
                 f"{one.name} ({part.inverted:,} inverted)",
-                one.colour,
+                one.colour.of(dark=False),
                 [float(count * scale) for count in part.counts],
                 [(*place, count * scale) for place, count in bars if place is not None and count],
                 one.filled and not cumulative,

@@ -9,20 +9,31 @@ from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 from superqt import QFlowLayout
 
+from hexmend_app.state.theme import HOVER, Role
 from hexmend_app.widgets.legend import Swatch, legend_entry
-from hexmend_app.widgets.style import BLUE, GREY, LINE, MUTED, explain, icon, smaller
+from hexmend_app.widgets.style import BLUE, FIELD, GREY, LINE, MUTED, dress, explain, icon, smaller
 
 #: Colours of what is kept, by slot: Okabe and Ito's without the blue of what is now, and without their yellow, which is
 #: too pale for a line.
-KEPT_COLOURS = ("#d55e00", "#009e73", "#e69f00", "#56b4e9", "#000000", "#cc79a7")
+KEPT_COLOURS = (
+    Role("#d55e00", "#d55e00"),
+    Role("#009e73", "#009e73"),
+    Role("#e69f00", "#e69f00"),
+    Role("#56b4e9", "#56b4e9"),
+    Role("#000000", "#ffffff"),
+    Role("#cc79a7", "#cc79a7"),
+)
 
 _WIDEST, _HEIGHT = 150, 18
-_SHEET = f"""
+
+
+def _sheet() -> str:
+    return f"""
 QLineEdit {{ border: 1px solid transparent; border-radius: 3px; background: transparent; color: {MUTED}; padding: 0; }}
 QLineEdit:hover {{ border-color: {LINE}; }}
-QLineEdit:focus {{ border-color: {BLUE}; background: white; }}
+QLineEdit:focus {{ border-color: {BLUE}; background: {FIELD}; }}
 QToolButton {{ border: none; border-radius: 3px; padding: 0; }}
-QToolButton:hover {{ background: #dfe4ec; }}
+QToolButton:hover {{ background: {HOVER}; }}
 QToolButton:focus {{ border: 1px solid {BLUE}; }}
 """
 
@@ -45,7 +56,7 @@ class HistogramLegend(QWidget):
         self._flow.setContentsMargins(0, 0, 0, 0)
         self._flow.setHorizontalSpacing(6)
         self._flow.setVerticalSpacing(1)
-        self.setStyleSheet(_SHEET)
+        dress(self, lambda: self.setStyleSheet(_sheet()))
         self.entries: dict[int, KeptEntry] = {}
         for text, colour in (("at the start", GREY), ("now", BLUE)):
             entry = legend_entry(text, colour)

@@ -11,11 +11,12 @@ import pyqtgraph as pg
 from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from hexmend_app.state.theme import Role
 from hexmend_app.widgets.brush import BrushView
 from hexmend_app.widgets.histogram_axis import Axis
 from hexmend_app.widgets.histogram_bins import Distribution, decades, round_up
 from hexmend_app.widgets.plots import calm_plot
-from hexmend_app.widgets.style import BLUE, INVERTED, INVERTED_TEXT, smaller, tabular
+from hexmend_app.widgets.style import BLUE, INVERTED, INVERTED_TEXT, dress, smaller, tabular
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +25,7 @@ class Series:
 
     key: str
     name: str
-    colour: str
+    colour: Role
     part: Distribution
     filled: bool = False
     current: bool = False
@@ -49,22 +50,31 @@ class HistogramPlot(QWidget):
         self.log = self.cumulative = False
         self._scale: tuple | None = None
         self._outlines: dict[str, _Outline] = {}
-        self._region = pg.LinearRegionItem(
-            (0, 1), movable=False, brush=pg.mkBrush(BLUE + "20"), pen=pg.mkPen(BLUE, width=1.5)
-        )
+        self._shown: Sequence[Series] = ()
+        self._region = pg.LinearRegionItem((0, 1), movable=False)
         self._region.setZValue(-10)
         self._region.hide()
-        self._number = pg.TextItem(color=INVERTED_TEXT, anchor=(0.5, 1.0))
+        self._number = pg.TextItem(anchor=(0.5, 1.0))
         self._number.setFont(tabular(smaller(self.font())))
         for item in (self._region, self._number):
             self.plot.addItem(item, ignoreBounds=True)
         for name in ("bottom", "left"):
             self.plot.getAxis(name).label.setFont(smaller(self.font()))
-        self.plot.getAxis("bottom").colours["inverted"] = INVERTED_TEXT
         self.plot.getAxis("bottom").setHeight(2 * self.fontMetrics().height() + 6)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.plot)
+        dress(self, self._paint)
+
+    def _paint(self) -> None:
+        self._region.setBrush(f"{BLUE}20")
+        for line in self._region.lines:
+            line.setPen(str(BLUE), width=1.5)
+        self.plot.getAxis("bottom").colours["inverted"] = INVERTED_TEXT
+        self._number.setColor(str(INVERTED_TEXT))
+        for outline in self._outlines.values():
+            outline.forget()
+        self.draw(self._shown)
 
     def set_axis(self, axis: Axis) -> None:
         """Take the values that the bins span."""
@@ -76,6 +86,7 @@ class HistogramPlot(QWidget):
 
     def draw(self, drawn: Sequence[Series]) -> None:
         """Draw distributions, the first at the bottom."""
+        self._shown = drawn
         floor = self._fit_counts([one.part for one in drawn])
         gone = self._outlines.keys() - {one.key for one in drawn}
         for key in gone:
@@ -166,6 +177,10 @@ class _Outline:
         self.items = (self._curve, self._bar, self._ends)
         self._drawn: tuple | None = None
 
+    def forget(self) -> None:
+        """Draw anew next time, though nothing but the colours has changed."""
+        self._drawn = None
+
     def draw(self, at: int, series: Series, heights: Callable, scale: tuple) -> None:
         """Show a distribution as the `at`-th, its counts mapped by `heights` and standing on the first of `scale`."""
         # During a run only the distribution now changes.
@@ -173,11 +188,12 @@ class _Outline:
             return
         self._drawn = (series.part, at, scale)
         floor, cumulative = scale[:2]
+        colour = str(series.colour)
         part = series.part.cumulated() if cumulative else series.part
         filled = series.filled and not cumulative  # shares of all fill the whole plot and hide each other
         width = 1.0 if filled else 1.8
-        pen = pg.mkPen(series.colour, width=width)
-        brush = pg.mkBrush(series.colour + ("70" if series.current else "50")) if filled else None
+        pen = pg.mkPen(colour, width=width)
+        brush = pg.mkBrush(colour + ("70" if series.current else "50")) if filled else None
         curve = heights(part, part.counts)
         self._curve.setData(
             np.linspace(0, 1, len(curve) + 1),
@@ -187,7 +203,7 @@ class _Outline:
             fillLevel=floor if filled else None,
             brush=brush,
         )
-        own = INVERTED if series.current else series.colour
+        own = INVERTED if series.current else colour
         bars = [(part.axis.inverted, part.inverted)]
         _show_bars(self._bar, bars, part, heights, floor, pg.mkPen(own, width=width), filled and pg.mkBrush(own + "70"))
         ends = [(part.axis.below, part.below), (part.axis.above, part.above)]

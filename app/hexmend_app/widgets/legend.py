@@ -6,28 +6,29 @@ from PySide6.QtCore import QRectF, QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
+from hexmend_app.state.theme import Role
 from hexmend_app.widgets.style import note
 
 
 class Swatch(QWidget):
     """A small filled rectangle."""
 
-    def __init__(self, colour: str, parent: QWidget | None = None):
+    def __init__(self, colour: Role | str, parent: QWidget | None = None):
         super().__init__(parent)
-        self._colour = QColor(colour)
+        self._colour = colour
         self.setFixedSize(QSize(12, 10))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Fill as the plots do: pale inside, full at the border."""
         painter = QPainter(self)
-        painter.setPen(self._colour)
-        pale = QColor(self._colour)
+        painter.setPen(QColor(str(self._colour)))
+        pale = QColor(str(self._colour))
         pale.setAlpha(90)
         painter.setBrush(pale)
         painter.drawRect(QRectF(0.5, 0.5, self.width() - 1, self.height() - 1))
 
 
-def legend_entry(text: str, colour: str) -> QWidget:
+def legend_entry(text: str, colour: Role | str) -> QWidget:
     """A swatch with its text."""
     entry = QWidget()
     layout = QHBoxLayout(entry)

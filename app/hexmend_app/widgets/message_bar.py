@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
-from hexmend_app.widgets.style import AMBER, BLUE, WORSE, explain, icon
+from hexmend_app.state.theme import AMBER, BLUE, TOLD, WARNED, WORSE, WRONG
+from hexmend_app.widgets.style import dress, explain, icon
 
 _MAX_SHOWN = 700
 _MAX_KEPT = 100
@@ -27,9 +28,9 @@ class _Message:
 
 # Icon, colour of the icon and the left edge, background.
 _KINDS = {
-    "error": ("alert-circle", WORSE, "#fdeee5"),
-    "warning": ("alert", AMBER, "#fff6dc"),
-    "info": ("information", BLUE, "#e8f2f9"),
+    "error": ("alert-circle", WORSE, WRONG),
+    "warning": ("alert", AMBER, WARNED),
+    "info": ("information", BLUE, TOLD),
 }
 
 
@@ -103,6 +104,7 @@ class MessageBar(QFrame):
         layout.addLayout(buttons, 0, 2, Qt.AlignmentFlag.AlignTop)
         layout.addWidget(self._text, 1, 1, 1, 2)
         self.hide()
+        dress(self, self._paint)
 
     def show_error(self, title: str, text: str = "") -> None:
         """Show what went wrong; it stays until dismissed."""
@@ -155,6 +157,12 @@ class MessageBar(QFrame):
         message = self._messages[self._at]
         QGuiApplication.clipboard().setText("\n".join(part for part in (message.title, message.text) if part))
 
+    def _paint(self) -> None:
+        if self._messages:
+            icon_name, colour, background = _KINDS[self._messages[self._at].kind]
+            self.setStyleSheet(f"#message_bar {{ background: {background}; border-left: 4px solid {colour}; }}")
+            self._icon.setPixmap(icon(icon_name, colour).pixmap(QSize(20, 20), self.devicePixelRatioF()))
+
     def _refresh(self) -> None:
         self._timer.stop()
         self._escape.setEnabled(bool(self._messages))
@@ -166,9 +174,7 @@ class MessageBar(QFrame):
             return
         self._at %= len(self._messages)
         message = self._messages[self._at]
-        icon_name, colour, background = _KINDS[message.kind]
-        self.setStyleSheet(f"#message_bar {{ background: {background}; border-left: 4px solid {colour}; }}")
-        self._icon.setPixmap(icon(icon_name, colour).pixmap(20, 20))
+        self._paint()
         self._icon.setAccessibleName(message.kind)
         self._title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))
         long = len(message.text) > _MAX_SHOWN

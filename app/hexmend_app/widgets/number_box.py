@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.widgets.style import FIELD, MUTED, PANEL, TEXT, WORSE, smaller, tabular
+from hexmend_app.state.theme import FIELD, MUTED, PANEL, TEXT, WORSE, WRONG, Role
+from hexmend_app.widgets.style import dress, smaller, tabular
 from hexmend_app.widgets.wording import short_number
 
 
@@ -48,16 +49,14 @@ class NumberBox(QAbstractSpinBox):
         line.editingFinished.connect(self._settle)
         self._show_unit(declaration.unit)
         self.set_value(declaration.default)
+        dress(self, self._paint)
 
     def _show_unit(self, unit: str) -> None:
         line = self.lineEdit()
         suffix = QLabel(unit, line)
         suffix.setFont(smaller(suffix.font()))
         suffix.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        palette = suffix.palette()
-        for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):
-            palette.setColor(group, QPalette.ColorRole.WindowText, QColor(MUTED))
-        suffix.setPalette(palette)
+        dress(suffix, lambda: suffix.setPalette(_enabled(QPalette.ColorRole.WindowText, MUTED)))
         layout = QHBoxLayout(line)
         layout.setContentsMargins(0, 0, 4, 0)
         layout.addStretch()
@@ -99,13 +98,13 @@ class NumberBox(QAbstractSpinBox):
 
     def _mark(self, problem: str) -> None:
         self.problem = problem
-        palette = self.palette()
-        for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):  # disabled, it is to look so
-            palette.setColor(group, QPalette.ColorRole.Text, QColor(WORSE if problem else TEXT))
-            palette.setColor(group, QPalette.ColorRole.Base, QColor("#fdf0e6" if problem else FIELD))
-        palette.setColor(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Base, QColor(PANEL))
-        if palette != self.palette():
-            self.setPalette(palette)
+        self._paint()
+
+    def _paint(self) -> None:
+        text, ground = (WORSE, WRONG) if self.problem else (TEXT, FIELD)
+        palette = _enabled(QPalette.ColorRole.Text, text, _enabled(QPalette.ColorRole.Base, ground))
+        palette.setColor(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Base, QColor(str(PANEL)))
+        self.setPalette(palette)
 
     def stepBy(self, steps: int) -> None:
         """Step a whole number by one, any other by one in its leading digit; stop at the bounds."""
@@ -149,3 +148,11 @@ class NumberBox(QAbstractSpinBox):
         # An admitted value is written in its shortest form once the user is done with it.
         if not self.problem:
             self.set_value(self._value)
+
+
+def _enabled(role: QPalette.ColorRole, colour: Role, palette: QPalette | None = None) -> QPalette:
+    """A palette that colours a role of what is enabled: disabled, it is to look so."""
+    palette = palette or QPalette()
+    for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):
+        palette.setColor(group, role, QColor(str(colour)))
+    return palette

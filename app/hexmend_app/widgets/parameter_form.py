@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from html import escape
+from itertools import pairwise
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
@@ -98,7 +99,12 @@ class ParameterForm(QWidget):
         while (item := self._grid.takeAt(0)) is not None:
             item.widget().hide()
             item.widget().deleteLater()
+        before = self._explain.previousInFocusChain()
         self._rows = {d.name: self._make_row(3 * i, d) for i, d in enumerate(declarations)}
+        # Qt puts what is made later at the end of the whole window.
+        parts = [part for row in self._rows.values() for part in (row.editor, row.reset)]
+        for one, following in pairwise([before, *parts, self._explain, self._defaults]):
+            self.setTabOrder(one, following)
         self._none.setVisible(not self._rows)
         self._explain.setVisible(bool(self._rows))
         self._defaults.setVisible(bool(self._rows))

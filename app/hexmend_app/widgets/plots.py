@@ -7,24 +7,31 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QFrame
 
-from hexmend_app.widgets.style import LINE, MUTED, smaller, tabular
+from hexmend_app.state.theme import LINE, MUTED, Role
+from hexmend_app.widgets.style import dress, smaller, tabular
 
 
 class CalmAxis(pg.AxisItem):
     """An axis with thin lines and tabular figures; tick texts named in `colours` are drawn in that colour."""
 
     def __init__(self, orientation: str):
-        super().__init__(orientation, pen=pg.mkPen(LINE), textPen=pg.mkPen(MUTED), tickPen=pg.mkPen(LINE))
-        self.colours: dict[str, str] = {}
+        super().__init__(orientation)
+        self.colours: dict[str, Role] = {}
         self.enableAutoSIPrefix(False)
         self.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False)
+
+    def paint_lines(self) -> None:
+        """Take the colours of the theme that is worn."""
+        self.setPen(str(LINE))
+        self.setTickPen(str(LINE))
+        self.setTextPen(str(MUTED))
 
     def drawPicture(self, p: QPainter, axisSpec: tuple, tickSpecs: list, textSpecs: list) -> None:
         """Draw as usual, and what has a colour of its own after that."""
         own = [spec for spec in textSpecs if spec[2] in self.colours]
         super().drawPicture(p, axisSpec, tickSpecs, [spec for spec in textSpecs if spec[2] not in self.colours])
         for rect, flags, text in own:
-            p.setPen(pg.mkPen(self.colours[text]))
+            p.setPen(pg.mkPen(str(self.colours[text])))
             p.drawText(rect, int(flags), text)
 
 
@@ -36,10 +43,14 @@ def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
     )
     plot.setFrameShape(QFrame.Shape.NoFrame)
     plot.hideButtons()
+    plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # keys do nothing here
+    plot.viewport().setFocusPolicy(Qt.FocusPolicy.NoFocus)
     plot.setMenuEnabled(False)
     plot.getViewBox().setMouseEnabled(x=False, y=False)
     plot.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     font = tabular(smaller(plot.font()))
     for axis in axes.values():
         axis.setTickFont(font)
+        dress(plot, axis.paint_lines)
+    dress(plot, plot.resetCachedContent)  # Qt keeps the panel behind it as a picture
     return plot

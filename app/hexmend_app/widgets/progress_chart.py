@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 from hexmend_app.widgets.histogram_bins import round_up
 from hexmend_app.widgets.legend import legend_entry
 from hexmend_app.widgets.plots import calm_plot
-from hexmend_app.widgets.style import BLUE, INVERTED, WORSE, explain, smaller
+from hexmend_app.widgets.style import BLUE, INVERTED, WORSE, dress, explain, smaller
 
 _MIN, _MEAN = WORSE, BLUE
 _HELP = (
@@ -26,8 +26,8 @@ class ProgressChart(QWidget):
         self._rows: list[tuple[int, float, float, int]] = []
         self._quality, self._inverted = calm_plot(), calm_plot()
         self._lines = {
-            "min": self._quality.plot(pen=pg.mkPen(_MIN, width=1.5)),
-            "mean": self._quality.plot(pen=pg.mkPen(_MEAN, width=1.5)),
+            "min": self._quality.plot(),
+            "mean": self._quality.plot(),
             "inverted": self._inverted.plot(
                 pen=pg.mkPen(INVERTED), fillLevel=0, brush=pg.mkBrush(INVERTED + "50"), stepMode="right"
             ),
@@ -56,6 +56,11 @@ class ProgressChart(QWidget):
         layout.addWidget(self._quality)
         layout.addWidget(self._inverted)
         self._draw()
+        dress(self, self._paint)
+
+    def _paint(self) -> None:
+        for name, colour in (("min", _MIN), ("mean", _MEAN)):
+            self._lines[name].setPen(pg.mkPen(str(colour), width=1.5))
 
     def clear(self) -> None:
         """Begin a new run."""

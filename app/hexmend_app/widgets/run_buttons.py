@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QPushButton, QWidget
 
-from hexmend_app.widgets.style import BLUE, FAINT, FIELD, LINE, TEXT, explain, icon
+from hexmend_app.state.theme import ACCENT, ACCENT_HOVER, ACCENT_PRESSED, FAINT, LINE, OFF, ON_ACCENT, TEXT
+from hexmend_app.widgets.style import dress, explain, icon
 
 
 @dataclass(frozen=True)
@@ -31,20 +32,15 @@ STATES = {
     "preparing": RunState(
         "Preparing", "timer-sand", "The method gets ready.", run=False, step=False, stop=True, reset=False, edit=False
     ),
+    "stopping": RunState(
+        "Stopping", "timer-sand", "The run ends soon.", run=False, step=False, stop=False, reset=False, edit=False
+    ),
     "running": RunState(
         "Pause", "pause", "Hold after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
     ),
     "paused": RunState("Resume", "play", "Go on with the run.", run=True, step=True, stop=True, reset=True, edit=False),
     "finished": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=True, edit=True),
 }
-# The one button that this panel is for.
-_MAIN_BUTTON = f"""
-QPushButton {{ background: {BLUE}; color: {FIELD}; border: 1px solid {BLUE}; border-radius: 3px; padding: 4px 6px; }}
-QPushButton:hover {{ background: #0a84c9; }}
-QPushButton:pressed {{ background: #005a8e; }}
-QPushButton:focus {{ border: 2px solid {TEXT}; padding: 3px 5px; outline: none; }}
-QPushButton:disabled {{ background: #e6e9ee; color: {FAINT}; border-color: {LINE}; }}
-"""
 _HELP = {
     "step": "Make one iteration, and hold.",
     "stop": "End the run after this iteration and keep what has been reached.",
@@ -73,7 +69,7 @@ class RunButtons(QWidget):
             "stop": QPushButton(icon("stop"), "Stop"),
             "reset": QPushButton(icon("restore"), "Reset"),
         }
-        self._buttons["run"].setStyleSheet(_MAIN_BUTTON)
+        dress(self, lambda: self._buttons["run"].setStyleSheet(_main_button()))
         row = QGridLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(6)
@@ -90,7 +86,7 @@ class RunButtons(QWidget):
         self._state = state
         offer = STATES[state]
         self._buttons["run"].setText(offer.text)
-        self._buttons["run"].setIcon(icon(offer.icon, FIELD))
+        self._buttons["run"].setIcon(icon(offer.icon, ON_ACCENT))
         for name, button in self._buttons.items():
             button.setEnabled(available and getattr(offer, name))
         self._explain()
@@ -109,3 +105,15 @@ class RunButtons(QWidget):
             help = STATES[self._state].help if name == "run" else _HELP[name]
             keys = f" ({self._shortcuts[name]})" if name in self._shortcuts else ""
             explain(button, button.text(), f"{help}{keys}")
+
+
+def _main_button() -> str:
+    """The style sheet of the one button that this panel is for."""
+    return f"""
+QPushButton {{ background: {ACCENT}; color: {ON_ACCENT}; border: 1px solid {ACCENT}; border-radius: 3px;
+    padding: 4px 6px; }}
+QPushButton:hover {{ background: {ACCENT_HOVER}; }}
+QPushButton:pressed {{ background: {ACCENT_PRESSED}; }}
+QPushButton:focus {{ border: 2px solid {TEXT}; padding: 3px 5px; outline: none; }}
+QPushButton:disabled {{ background: {OFF}; color: {FAINT}; border-color: {LINE}; }}
+"""

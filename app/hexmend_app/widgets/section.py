@@ -5,7 +5,8 @@ from __future__ import annotations
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from superqt import QCollapsible
 
-from hexmend_app.widgets.style import BLUE, MUTED, explain, icon
+from hexmend_app.state.theme import BLUE, HOVER, MUTED
+from hexmend_app.widgets.style import dress, explain, icon
 
 # Qt's QWIDGETSIZE_MAX, which PySide6 does not hand on.
 _UNBOUNDED = (1 << 24) - 1
@@ -35,11 +36,7 @@ class Section(QCollapsible):
         inside.setMaximumHeight(0)
         self.setContent(inside)
         button = self.toggleButton()
-        button.setStyleSheet(
-            "QPushButton { text-align: left; border: 1px solid transparent; border-radius: 3px; padding: 3px 1px;"
-            f" font-weight: 600; }} QPushButton:hover {{ background: #e9ecf1; }}"
-            f" QPushButton:focus {{ border-color: {BLUE}; outline: none; }}"
-        )
+        dress(button, lambda: button.setStyleSheet(_sheet()))
         explain(button, title, help)
         self.toggled.connect(self._fit)
         self._fit(False)
@@ -48,3 +45,11 @@ class Section(QCollapsible):
         # Hidden, not only of no height, so that Tab does not walk through what cannot be seen.
         self.content().setVisible(open_)
         self.content().setMaximumHeight(_UNBOUNDED if open_ else 0)
+
+
+def _sheet() -> str:
+    return (
+        "QPushButton { text-align: left; border: 1px solid transparent; border-radius: 3px; padding: 3px 1px;"
+        f" font-weight: 600; }} QPushButton:hover {{ background: {HOVER}; }}"
+        f" QPushButton:focus {{ border-color: {BLUE}; outline: none; }}"
+    )

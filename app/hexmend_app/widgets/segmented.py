@@ -8,14 +8,17 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
-from hexmend_app.widgets.style import BLUE, FAINT, FIELD, LINE, TEXT, explain
+from hexmend_app.state.theme import BLUE, CHOSEN, FAINT, FIELD, HOVER, LINE, ON_CHOSEN, TEXT
+from hexmend_app.widgets.style import dress, explain
 
-_SHEET = f"""
+
+def _sheet() -> str:
+    return f"""
 QPushButton {{ border: 1px solid {LINE}; border-right-width: 0; background: {FIELD}; color: {TEXT}; padding: 3px 6px; }}
 QPushButton[place="first"] {{ border-top-left-radius: 4px; border-bottom-left-radius: 4px; }}
 QPushButton[place="last"] {{ border-right-width: 1px; border-top-right-radius: 4px; border-bottom-right-radius: 4px; }}
-QPushButton:hover {{ background: #eef1f5; }}
-QPushButton:checked {{ background: #d5e7f3; color: #003f66; font-weight: 600; }}
+QPushButton:hover {{ background: {HOVER}; }}
+QPushButton:checked {{ background: {CHOSEN}; color: {ON_CHOSEN}; font-weight: 600; }}
 QPushButton:disabled {{ color: {FAINT}; }}
 QPushButton:focus {{ border: 1px solid {BLUE}; outline: none; }}
 """
@@ -41,7 +44,7 @@ class Segmented(QWidget):
     def __init__(self, name: str, options: Iterable[tuple[str, str, str]], parent: QWidget | None = None):
         super().__init__(parent)
         self.setAccessibleName(name)
-        self.setStyleSheet(_SHEET)
+        dress(self, lambda: self.setStyleSheet(_sheet()))
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self._group = QButtonGroup(self)
         self._buttons: dict[str, QPushButton] = {}

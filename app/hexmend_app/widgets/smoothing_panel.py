@@ -129,7 +129,7 @@ class SmoothingPanel(QWidget):
         return self._name
 
     def set_state(self, state: str) -> None:
-        """Enable what makes sense in a state: "idle", "preparing", "running", "paused" or "finished"."""
+        """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
         self._state = state
         some = bool(self._methods)
         self.buttons.set_state(state, some)
@@ -156,7 +156,7 @@ class SmoothingPanel(QWidget):
             self.pause_requested.emit()
         elif self._state == "paused":
             self.resume_requested.emit()
-        elif self._state != "preparing":
+        elif STATES[self._state].run:
             self._request(self.run_requested)
 
     def step(self) -> None:

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, icon, tabular
+from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, tabular
 from hexmend_app.widgets.wording import figure
 
 
@@ -119,9 +119,6 @@ class StatisticsTable(QWidget):
         table.setFont(tabular(table.font()))
         table.setShowGrid(False)
         table.setFrameShape(QTableWidget.Shape.NoFrame)
-        palette = table.palette()
-        palette.setColor(QPalette.ColorRole.Base, palette.color(QPalette.ColorRole.Window))
-        table.setPalette(palette)
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         table.setTabKeyNavigation(False)  # Tab leaves the table; arrow keys walk in it
@@ -132,6 +129,7 @@ class StatisticsTable(QWidget):
         table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
         self._fill()
         self._shape_columns()
+        dress(self, self._paint)
         self._copy = QAction(icon("content-copy"), "Copy table", self)
         self._copy.setShortcut(QKeySequence.StandardKey.Copy)
         self._copy.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
@@ -143,6 +141,18 @@ class StatisticsTable(QWidget):
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
         table.setMinimumWidth(self._title_width() + self._figures_width())
+
+    def _paint(self) -> None:
+        palette = QPalette()
+        palette.setColor(QPalette.ColorRole.Base, QColor(str(PANEL)))
+        self._table.setPalette(palette)
+        self._table.horizontalHeader().setStyleSheet(
+            f"QHeaderView::section {{ background: {PANEL}; padding: 2px 4px;"
+            f" border: none; border-bottom: 1px solid {LINE}; }}"
+        )
+        for column in range(len(_COLUMNS)):
+            self._table.horizontalHeaderItem(column).setForeground(QBrush(QColor(str(MUTED))))
+        self.set_summaries(*self._summaries)
 
     def _fill(self) -> None:
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
@@ -156,7 +166,6 @@ class StatisticsTable(QWidget):
         for column in range(len(_COLUMNS)):
             head = self._table.horizontalHeaderItem(column)
             head.setTextAlignment(right if column else Qt.AlignmentFlag.AlignLeft)
-            head.setForeground(QBrush(QColor(MUTED)))
 
     def _shape_columns(self) -> None:
         header = self._table.horizontalHeader()
@@ -164,10 +173,6 @@ class StatisticsTable(QWidget):
         header.setSectionsClickable(False)
         header.setMinimumSectionSize(20)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        header.setStyleSheet(
-            f"QHeaderView::section {{ background: {PANEL}; padding: 2px 4px;"
-            f" border: none; border-bottom: 1px solid {LINE}; }}"
-        )
         # Widths that hold still while figures change.
         for column in (_START, _NOW, _CHANGE):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
@@ -185,7 +190,7 @@ class StatisticsTable(QWidget):
             self._table.item(at, _NOW).setText(figure(is_) if now is not None else "")
             item = self._table.item(at, _CHANGE)
             item.setText(text)
-            item.setForeground(QBrush(QColor({1: BETTER, -1: WORSE, 0: MUTED}[sense])))
+            item.setForeground(QBrush(QColor(str({1: BETTER, -1: WORSE, 0: MUTED}[sense]))))
             word = {1: "better", -1: "worse", 0: ""}[sense]
             item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{text} {word}".strip())
         self._mark_inverted(now)
@@ -195,7 +200,7 @@ class StatisticsTable(QWidget):
         font = item.font()
         font.setBold(now is not None and now.inverted > 0)
         item.setFont(font)
-        item.setForeground(QBrush(QColor(WORSE if now is not None and now.inverted > 0 else TEXT)))
+        item.setForeground(QBrush(QColor(str(WORSE if now is not None and now.inverted > 0 else TEXT))))
 
     def text(self) -> str:
         """The table as tab-separated text with full precision and a line of titles; an infinite figure is empty."""

@@ -1,57 +1,106 @@
-"""The viewer's colours, fonts and icons: one place, so that all widgets look like one program."""
+"""The viewer's dress: palette, fonts and icons in one place, so that all widgets look like one program."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import qtawesome
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QFont, QIcon, QPalette
-from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QWidget
+from PySide6.QtCore import QObject, QPoint, QRect, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QIcon, QIconEngine, QPainter, QPalette, QPixmap
+from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QToolTip, QWidget
 
 from hexmend_app.scene.colours import INVERTED as SCENE_INVERTED
+from hexmend_app.state.theme import (
+    ACCENT,
+    AMBER,
+    BETTER,
+    BLUE,
+    BUTTON,
+    FAINT,
+    FIELD,
+    FRAME,
+    GLEAM,
+    GREY,
+    INVERTED_TEXT,
+    LINE,
+    MUTED,
+    ON_ACCENT,
+    PANEL,
+    SHADOW,
+    SHEEN,
+    STRIPE,
+    TEXT,
+    THEME,
+    WORSE,
+    Role,
+)
 
-TEXT = "#1f2630"
-MUTED = "#56606d"
-FAINT = "#a3abb6"
-LINE = "#c3c9d2"
-PANEL = "#f7f8fa"
-FIELD = "#ffffff"
-
-# Okabe and Ito's colours, which all kinds of colour vision tell apart; BETTER and WORSE are their bluish green and
-# vermilion, darkened until text in them has a contrast of 5:1 on the panel.
-BLUE = "#0072b2"
-GREY = "#8f98a3"
-BETTER = "#00745a"
-WORSE = "#b34400"
-AMBER = "#8a5a00"
-# The colour that inverted elements have in the view, and a darker one for texts about them.
+#: The colour that inverted elements have in the view, whatever the theme.
 INVERTED = QColor(*SCENE_INVERTED).name()
-INVERTED_TEXT = "#b80f6c"
+
+_ROLES = QPalette.ColorRole
+_PALETTE = (
+    (_ROLES.Window, PANEL),
+    (_ROLES.WindowText, TEXT),
+    (_ROLES.Base, FIELD),
+    (_ROLES.AlternateBase, STRIPE),
+    (_ROLES.Text, TEXT),
+    (_ROLES.Button, BUTTON),
+    (_ROLES.ButtonText, TEXT),
+    (_ROLES.BrightText, ON_ACCENT),
+    (_ROLES.Light, GLEAM),
+    (_ROLES.Midlight, SHEEN),
+    (_ROLES.Dark, SHADOW),
+    (_ROLES.ToolTipBase, FIELD),
+    (_ROLES.ToolTipText, TEXT),
+    (_ROLES.PlaceholderText, MUTED),
+    (_ROLES.Highlight, ACCENT),
+    (_ROLES.HighlightedText, ON_ACCENT),
+    (_ROLES.Accent, BLUE),
+    (_ROLES.Link, BLUE),
+    (_ROLES.LinkVisited, BLUE),
+)
+
+#: Controls in whose palette the window's colour is nothing but that of their frames.
+_FRAMED = ("QCheckBox", "QPushButton", "QComboBox", "QAbstractSpinBox", "QLineEdit", "QSlider", "QMenu")
 
 
-def apply_light_style(app: QApplication) -> None:
-    """Give the program the light Fusion look, whatever the desktop's theme."""
+def apply_style(app: QApplication, dark: bool) -> None:
+    """Give the program the Fusion look in the light theme or the dark one, and have all widgets change with it."""
+    if app.property("dark") is dark:
+        return
+    app.setProperty("dark", dark)
     app.setStyle("Fusion")
-    palette = QPalette()
-    for role, colour in (
-        (QPalette.ColorRole.Window, PANEL),
-        (QPalette.ColorRole.WindowText, TEXT),
-        (QPalette.ColorRole.Base, FIELD),
-        (QPalette.ColorRole.AlternateBase, "#f1f3f6"),
-        (QPalette.ColorRole.Text, TEXT),
-        (QPalette.ColorRole.Button, "#f1f3f6"),
-        (QPalette.ColorRole.ButtonText, TEXT),
-        (QPalette.ColorRole.ToolTipBase, FIELD),
-        (QPalette.ColorRole.ToolTipText, TEXT),
-        (QPalette.ColorRole.PlaceholderText, MUTED),
-        (QPalette.ColorRole.Highlight, BLUE),
-        (QPalette.ColorRole.HighlightedText, FIELD),
-        (QPalette.ColorRole.Accent, BLUE),
-        (QPalette.ColorRole.Link, BLUE),
-    ):
-        palette.setColor(role, QColor(colour))
-    for role in (QPalette.ColorRole.WindowText, QPalette.ColorRole.Text, QPalette.ColorRole.ButtonText):
-        palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(FAINT))
+    palette = QPalette(QColor(BUTTON.of(dark)), QColor(PANEL.of(dark)))
+    for role, colour in _PALETTE:
+        palette.setColor(role, QColor(colour.of(dark)))
+    for role in (_ROLES.WindowText, _ROLES.Text, _ROLES.ButtonText):
+        palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(FAINT.of(dark)))
     app.setPalette(palette)
+    QToolTip.setPalette(palette)
+    palette.setColor(_ROLES.Window, QColor(FRAME.of(dark)))
+    for control in _FRAMED:
+        app.setPalette(palette, control)
+    THEME.set_dark(dark)
+
+
+class _Dress(QObject):
+    """Part of a widget: what puts it into the theme's colours."""
+
+    def __init__(self, widget: QWidget, put_on: Callable[[], object]):
+        super().__init__(widget)
+        self._put_on = put_on
+        THEME.changed.connect(self.put_on)
+        self.put_on()
+
+    def put_on(self) -> None:
+        """Take the colours of the theme that is worn."""
+        self._put_on()
+
+
+def dress(widget: QWidget, put_on: Callable[[], object]) -> None:
+    """Call what gives `widget` its colours, now and whenever the theme changes, as long as the widget lives."""
+    _Dress(widget, put_on)
 
 
 def tabular(font: QFont) -> QFont:
@@ -68,9 +117,35 @@ def smaller(font: QFont) -> QFont:
     return font
 
 
-def icon(name: str, colour: str = TEXT) -> QIcon:
-    """A Material Design icon by name, sharp at every scale."""
-    return qtawesome.icon(f"mdi6.{name}", color=colour, color_disabled=FAINT)
+class _IconEngine(QIconEngine):
+    """Paints a glyph in the colour that its role has at that moment."""
+
+    def __init__(self, name: str, role: Role):
+        super().__init__()
+        self._name, self._role = name, role
+
+    def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
+        """Paint the glyph, as large as the rectangle."""
+        glyph = qtawesome.icon(self._name, color=str(self._role), color_disabled=str(FAINT))
+        glyph.paint(painter, rect, Qt.AlignmentFlag.AlignCenter, mode, state)
+
+    def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
+        """The glyph on nothing; `size` is in pixels of the screen."""
+        drawn = QPixmap(size)
+        drawn.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(drawn)
+        self.paint(painter, QRect(QPoint(0, 0), size), mode, state)
+        painter.end()
+        return drawn
+
+    def clone(self) -> QIconEngine:
+        """Another of the same."""
+        return _IconEngine(self._name, self._role)
+
+
+def icon(name: str, role: Role = TEXT) -> QIcon:
+    """A Material Design icon by name, sharp at every scale and right in either theme."""
+    return QIcon(_IconEngine(f"mdi6.{name}", role))
 
 
 def explain(widget: QWidget, name: str, help: str) -> None:
@@ -83,7 +158,7 @@ def explain(widget: QWidget, name: str, help: str) -> None:
     widget.setWhatsThis(tip)
 
 
-def note(text: str = "", colour: str = MUTED, parent: QWidget | None = None) -> QLabel:
+def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) -> QLabel:
     """A small wrapped label that can be selected with the mouse."""
     label = QLabel(text, parent)
     label.setFont(smaller(label.font()))
@@ -97,8 +172,42 @@ def note(text: str = "", colour: str = MUTED, parent: QWidget | None = None) -> 
     return label
 
 
-def tint(widget: QWidget, colour: str) -> None:
-    """Colour the text of `widget`."""
-    palette = widget.palette()
-    palette.setColor(QPalette.ColorRole.WindowText, QColor(colour))
+def tint(widget: QWidget, colour: Role) -> None:
+    """Colour the text of `widget`, until it is tinted again."""
+    dressed = widget.property("tint") is not None
+    widget.setProperty("tint", colour)
+    if dressed:
+        _tint(widget)
+    else:
+        dress(widget, lambda: _tint(widget))
+
+
+def _tint(widget: QWidget) -> None:
+    palette = QPalette()
+    palette.setColor(_ROLES.WindowText, QColor(str(widget.property("tint"))))
     widget.setPalette(palette)
+
+
+__all__ = [
+    "AMBER",
+    "BETTER",
+    "BLUE",
+    "FAINT",
+    "FIELD",
+    "GREY",
+    "INVERTED",
+    "INVERTED_TEXT",
+    "LINE",
+    "MUTED",
+    "PANEL",
+    "TEXT",
+    "WORSE",
+    "apply_style",
+    "dress",
+    "explain",
+    "icon",
+    "note",
+    "smaller",
+    "tabular",
+    "tint",
+]

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.widgets.style import PANEL, explain, note, tabular
+from hexmend_app.widgets.style import PANEL, dress, explain, note, tabular
 from hexmend_app.widgets.wording import figure
 
 _TITLES = ("Tag", "Elements", "Inverted", "q min")
@@ -105,7 +105,8 @@ class TagPanel(QWidget):
         table.horizontalHeaderItem(0).setTextAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        header.setStyleSheet(f"QHeaderView::section {{ background: {PANEL}; padding: 2px 6px; border: none; }}")
+        sheet = "QHeaderView::section {{ background: {0}; padding: 2px 6px; border: none; }}"
+        dress(header, lambda: header.setStyleSheet(sheet.format(PANEL)))
         return table
 
     def _lay_out(self) -> None:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from html import escape
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from hexmend_app.widgets.style import MUTED, icon, tint
+from hexmend_app.state.recent import Recent
+from hexmend_app.widgets.style import BLUE, MUTED, dress, explain, icon, tint
+from hexmend_app.widgets.wording import short_folder
 
 
 class Welcome(QWidget):
@@ -14,13 +18,20 @@ class Welcome(QWidget):
     Signals
     -------
     open_requested, demo_requested
+    recent_requested(Path)
+
+    Parameters
+    ----------
+    recent : Recent
     """
 
     open_requested = Signal()
     demo_requested = Signal()
+    recent_requested = Signal(object)
 
-    def __init__(self, parent: QWidget | None = None):
+    def __init__(self, recent: Recent, parent: QWidget | None = None):
         super().__init__(parent)
+        self._recent = recent
         self._title = QLabel("Open a hexahedral mesh")
         font = self._title.font()
         font.setPointSizeF(font.pointSizeF() * 1.8)
@@ -43,4 +54,30 @@ class Welcome(QWidget):
             label.setAlignment(Qt.AlignmentFlag.AlignCenter)
             layout.addWidget(label)
         layout.addLayout(buttons)
+        self._links = QVBoxLayout()
+        self._links.setSpacing(2)
+        layout.addLayout(self._links)
         layout.addStretch()
+        recent.changed.connect(self._show_recent)
+        self._show_recent()
+
+    def _show_recent(self) -> None:
+        while (item := self._links.takeAt(0)) is not None:
+            item.widget().hide()
+            item.widget().deleteLater()
+        for path in self._recent.files():
+            if path.exists():
+                link = QPushButton(f"{path.name}  ({short_folder(path)})".replace("&", "&&"))
+                link.setFlat(True)
+                link.setCursor(Qt.CursorShape.PointingHandCursor)
+                explain(link, f"Open {path.name}", escape(str(path)))
+                dress(link, lambda link=link: link.setStyleSheet(_link()))
+                link.clicked.connect(lambda _=False, path=path: self.recent_requested.emit(path))
+                self._links.addWidget(link, 0, Qt.AlignmentFlag.AlignHCenter)
+
+
+def _link() -> str:
+    return (
+        f"QPushButton {{ color: {BLUE}; border: 1px solid transparent; padding: 2px 6px; }}"
+        f" QPushButton:hover {{ text-decoration: underline; }} QPushButton:focus {{ border-color: {BLUE}; }}"
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from pathlib import Path
 
 _GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
 _SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -54,6 +55,20 @@ def figure(value: float | None, decimals: int = 4) -> str:
     else:
         text = f"{value:.{decimals}f}"
     return text.replace("-", "−")
+
+
+def short_folder(path: Path, most: int = 40) -> str:
+    """The folder of a file, with ~ for the home folder, and of a long one its end.
+
+    >>> short_folder(Path("/data/meshes/bunny.vtu")), short_folder(Path("/data/meshes/bunny.vtu"), 8)
+    ('/data/meshes', '…/meshes')
+    """
+    folder = path.parent
+    text = f"~/{folder.relative_to(Path.home())}" if folder.is_relative_to(Path.home()) else str(folder)
+    text = text.removesuffix("/.")
+    while len(text) > most and "/" in text.removeprefix("…/"):
+        text = "…/" + text.removeprefix("…/").split("/", 1)[1]
+    return text
 
 
 def counted(number: int, noun: str, plural: str = "") -> str:

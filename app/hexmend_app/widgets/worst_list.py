@@ -7,7 +7,7 @@ import io
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QAbstractTableModel, QItemSelectionModel, QModelIndex, QObject, Qt, Signal
+from PySide6.QtCore import QAbstractTableModel, QItemSelection, QItemSelectionModel, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked, worst
 from hexmend_app.widgets.metrics import described, metrics_offered
-from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, PANEL, explain, icon, note, tabular
+from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, PANEL, dress, explain, icon, note, tabular
 from hexmend_app.widgets.wording import counted, figure
 
 #: Elements in the list at most: nobody reads more, and they are found anew at every iteration.
@@ -75,7 +75,7 @@ class _Model(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _LEFT if column == _STATE else _RIGHT
         if role == Qt.ItemDataRole.ForegroundRole and column == _STATE:
-            return QBrush(QColor(INVERTED_TEXT))
+            return QBrush(QColor(str(INVERTED_TEXT)))
         return None
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
@@ -86,7 +86,7 @@ class _Model(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _LEFT if section == _STATE else _RIGHT
         if role == Qt.ItemDataRole.ForegroundRole:
-            return QBrush(QColor(MUTED))
+            return QBrush(QColor(str(MUTED)))
         return None
 
 
@@ -158,10 +158,13 @@ class WorstList(QWidget):
         header.setHighlightSections(False)
         header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         header.setSectionResizeMode(_STATE, QHeaderView.ResizeMode.Stretch)
-        header.setStyleSheet(f"QHeaderView::section {{ background: {PANEL}; padding: 2px 4px; border: none; }}")
+        sheet = "QHeaderView::section {{ background: {0}; padding: 2px 4px; border: none; }}"
+        dress(header, lambda: header.setStyleSheet(sheet.format(PANEL)))
         for column, widest in ((_ELEMENT, "000,000,000"), (_VALUE, "Scaled Jacobian"), (_JACOBIAN, "Scaled Jacobian")):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
-        table.selectionModel().currentRowChanged.connect(self._on_row)
+        # Not when a row becomes the current one: the first does so as the list gets the focus.
+        table.selectionModel().selectionChanged.connect(self._on_selected)
+        table.activated.connect(self._on_row)  # Enter, or a double-click
         return table
 
     def _lay_out(self) -> None:
@@ -276,6 +279,9 @@ class WorstList(QWidget):
         choice.blockSignals(False)
         self._table.viewport().update()
 
+    def _on_selected(self, selected: QItemSelection) -> None:
+        if selected.indexes():
+            self._on_row(selected.indexes()[0])
+
     def _on_row(self, index: QModelIndex) -> None:
-        if index.isValid():
-            self.chosen.emit(int(self._model.elements[index.row()]))
+        self.chosen.emit(int(self._model.elements[index.row()]))

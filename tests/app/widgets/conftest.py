@@ -2,13 +2,13 @@
 
 import pytest
 
-from hexmend_app.widgets.style import apply_light_style
+from hexmend_app.widgets.style import apply_style
 
 
 @pytest.fixture(scope="session")
 def qapp(qapp):
     """The application in the program's own look."""
-    apply_light_style(qapp)
+    apply_style(qapp, dark=False)
     return qapp
 
 

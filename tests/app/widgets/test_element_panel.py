@@ -1,7 +1,9 @@
 """What is shown of one element."""
 
+import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 
@@ -42,17 +44,35 @@ def test_an_element_is_shown_with_figures_nodes_and_neighbours(panel):
     assert shown.count("free") + shown.count("fixed") == 8
 
 
-def test_neighbours_are_links(panel, qtbot):
+def neighbours(panel):
+    return next(label for label in panel.findChildren(QLabel) if label.accessibleName() == "Neighbours")
+
+
+def test_neighbours_are_links_for_keys(panel, qtbot):
     one = element(MESH, WORST)
     panel.show_element(one)
-    links = next(label for label in panel.findChildren(QLabel) if label.accessibleName() == "Neighbours")
-    with qtbot.waitSignal(panel.chosen) as chosen:
-        links.setFocus()
-        QTest.keyClick(links, Qt.Key.Key_Tab)
+    with qtbot.waitActive(panel):
+        panel.activateWindow()
+    links = neighbours(panel)
+    links.setFocus()
+    QTest.keyClick(links, Qt.Key.Key_Tab)  # to the first link
+    with qtbot.waitSignal(panel.chosen, timeout=1000) as chosen:
         QTest.keyClick(links, Qt.Key.Key_Return)
-        if not chosen.args:
-            links.linkActivated.emit(str(one.neighbours.max()))
-    assert chosen.args[0] in one.neighbours
+    assert chosen.args[0] == next(h for h in one.neighbours if h >= 0)
+
+
+def test_neighbours_are_links_for_the_mouse(panel, qtbot):
+    one = element(MESH, WORST)
+    panel.show_element(one)
+    links = neighbours(panel)
+    last = int(max(np.flatnonzero(one.neighbours >= 0)))
+    text = QTextDocumentFragment.fromHtml(links.text()).toPlainText()
+    number = f"{one.neighbours[last]:,}"
+    before = text[: text.rindex(number)]
+    x = links.fontMetrics().horizontalAdvance(before) + links.fontMetrics().horizontalAdvance(number) // 2
+    with qtbot.waitSignal(panel.chosen, timeout=1000) as chosen:
+        QTest.mouseClick(links, Qt.MouseButton.LeftButton, pos=QPoint(x, links.height() // 2))
+    assert chosen.args[0] == one.neighbours[last]
 
 
 def test_its_buttons_tell_what_the_user_wants(panel, qtbot):

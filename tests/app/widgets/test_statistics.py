@@ -68,7 +68,7 @@ def test_figures_are_right_aligned_with_what_they_were_and_are(table):
     + [("objective", BETTER), ("scaled_jacobian_min", BETTER)],
 )
 def test_changes_have_the_colour_of_their_sense(table, key, colour):
-    assert cell(table, key, 3).foreground().color() == QColor(colour)
+    assert cell(table, key, 3).foreground().color() == QColor(str(colour))
 
 
 @pytest.mark.parametrize("row", [row for row in ROWS if row.better])

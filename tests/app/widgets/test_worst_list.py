@@ -96,3 +96,24 @@ def test_without_a_mesh_nothing_can_be_pressed(qtbot):
     assert not any(b.isEnabled() for b in widget.findChildren(QPushButton))
     widget.next()  # harmless
     assert widget.text() == "element,q,scaled-jacobian,state\n"
+
+
+def test_enter_and_a_double_click_choose_the_row_again(worst_list):
+    viewport, place = row_at(worst_list, 1)
+    QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
+    heard = []
+    worst_list.chosen.connect(heard.append)
+    element = worst_list.elements[1]
+    QTest.keyClick(worst_list.findChild(QTableView), Qt.Key.Key_Return)
+    assert heard == [element]
+    QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, pos=place)
+    assert heard == [element, element]
+
+
+def test_the_focus_alone_chooses_nothing(worst_list, qtbot):
+    with qtbot.waitActive(worst_list):
+        worst_list.activateWindow()
+    heard = []
+    worst_list.chosen.connect(heard.append)
+    worst_list.findChild(QTableView).setFocus(Qt.FocusReason.TabFocusReason)
+    assert heard == []

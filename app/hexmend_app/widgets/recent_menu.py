@@ -1,0 +1,51 @@
+"""The menu of the files that were opened last."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QMenu, QWidget
+
+from hexmend_app.state.recent import Recent
+from hexmend_app.widgets.wording import short_folder
+
+
+class RecentMenu(QMenu):
+    """Offers the files that are remembered; those that are gone are there to be seen, not to be chosen.
+
+    Parameters
+    ----------
+    recent : Recent
+
+    Signals
+    -------
+    chosen(Path)
+    """
+
+    chosen = Signal(object)
+
+    def __init__(self, recent: Recent, parent: QWidget | None = None):
+        super().__init__("Open &recent", parent)
+        self._recent = recent
+        self.setToolTipsVisible(True)
+        self.aboutToShow.connect(self._fill)
+        recent.changed.connect(self._offer)  # filled when it is shown: the action that brought the change lives in it
+        self._offer()
+
+    def _offer(self) -> None:
+        self.menuAction().setEnabled(bool(self._recent.files()))
+
+    def _fill(self) -> None:
+        self.clear()
+        files = self._recent.files()
+        for number, path in enumerate(files, start=1):
+            there = path.exists()
+            name = f"{path.name}  ({short_folder(path)})".replace("&", "&&")
+            action = self.addAction(f"&{number % 10}  {name}" + ("" if there else ": no longer there"))
+            action.setEnabled(there)
+            action.setToolTip(str(path) if there else f"{path} was moved, renamed or deleted.")
+            action.setStatusTip(f"Open {path}.")
+            action.triggered.connect(lambda _=False, path=path: self.chosen.emit(path))
+        self.addSeparator()
+        clear = self.addAction("&Clear list")
+        clear.setStatusTip("Forget which files were opened.")
+        clear.triggered.connect(self._recent.clear)
