@@ -71,6 +71,8 @@ def count(image, colour):
 
 
 def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
+    assert texts(panel, "irregular") == []
+    panel.set_found(None)
     panel.set_nodes(8, 1, 3, 2)
     assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked"]
     assert texts(panel, "irregular") == ["counting…"]

@@ -104,9 +104,9 @@ class ClipPanel(QWidget):
             hide.addWidget(part)
         grid.addWidget(self._hide_label, 4, 0)
         grid.addLayout(hide, 4, 1)
-        label = QLabel("Cut")
-        label.setBuddy(self._cut)
-        grid.addWidget(label, 5, 0)
+        self._cut_label = QLabel("Cut")
+        self._cut_label.setBuddy(self._cut)
+        grid.addWidget(self._cut_label, 5, 0)
         grid.addWidget(self._cut, 5, 1)
 
     def _connect(self) -> None:
@@ -223,16 +223,21 @@ class ClipPanel(QWidget):
         on, box = self._bounds is not None and self._on.isChecked(), self._kind.value() == "box"
         planes, clip = self._planes.planes, self.proposal()
         self._on.setEnabled(self._bounds is not None)
-        pages = (self._row, self._plane_page, self._box_page)
-        for part in (self._kind, self._handles, *pages, self._beyond, self._side, self._cut):
-            part.setEnabled(on)
-        for part in (self._row, self._plane_page):
-            part.setVisible(not box)
-        self._box_page.setVisible(box)
         several = len(planes) > 1
-        self._hide_label.setVisible(box or several)
-        self._side.setVisible(box)
-        self._beyond.setVisible(several and not box)
+        shown = {  # nothing while nothing is cut: the column has much to hold
+            self._kind: on,
+            self._handles: on,
+            self._row: on and not box,
+            self._plane_page: on and not box,
+            self._box_page: on and box,
+            self._hide_label: on and (box or several),
+            self._side: on and box,
+            self._beyond: on and several and not box,
+            self._cut_label: on,
+            self._cut: on,
+        }
+        for part, seen in shown.items():
+            part.setVisible(seen)
         self._row.set_planes(len(planes), self._at)
         self._plane_page.set_plane(planes[self._at])
         self._box_page.set_corners(self._box.low, self._box.high)

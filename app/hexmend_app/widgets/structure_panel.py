@@ -87,8 +87,7 @@ class StructurePanel(QWidget):
             grid.addWidget(layer.box, row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(layer.entries, row, 1)
             layer.box.clicked.connect(lambda on, name=name: self._choose(name, on))
-        self.set_found(None)
-        self.set_nodes(0, 0, 0, 0)
+        self.set_structure(self._structure)  # of no mesh there is nothing to count
 
     def offered(self) -> dict[str, bool]:
         """Which layers can be switched, by the names of `Structure`'s fields."""
