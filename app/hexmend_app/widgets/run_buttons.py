@@ -76,10 +76,23 @@ class RunButtons(QWidget):
         for column, (name, button) in enumerate(self._buttons.items()):
             # Equal widths, so that nothing moves under the pointer as Run becomes Pause.
             row.setColumnStretch(column, 1)
-            button.setMinimumWidth(0)
             button.clicked.connect(lambda _=False, name=name: self.pressed.emit(name))
             row.addWidget(button, 0, column)
+        self._make_room()
         self.set_state("idle", True)
+
+    def _make_room(self) -> None:
+        """As much as the longest word needs, or the panel would outgrow its place as a run is paused."""
+        widest = 0
+        for state in STATES:
+            self.set_state(state, True)
+            self._buttons["run"].ensurePolished()
+            widest = max(widest, self._buttons["run"].minimumSizeHint().width())
+        self._buttons["run"].setMinimumWidth(widest)
+        for name in ("step", "stop", "reset"):  # less than the style's 80 pixels, which four have no room for
+            button = self._buttons[name]
+            text = button.fontMetrics().horizontalAdvance(button.text())
+            button.setMinimumWidth(text + button.iconSize().width() + 20)
 
     def set_state(self, state: str, available: bool) -> None:
         """Enable what a state of `STATES` offers, or nothing where there is nothing to run."""
