@@ -43,19 +43,31 @@ def shoot(window: Window, path: Path) -> None:
     print(f"{path}: {path.stat().st_size / 1000:.0f} kB")
 
 
-def main(mesh: str, folder: Path) -> None:
-    """Go through the scenes."""
-    settings = tempfile.mkdtemp()
-    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, settings)
-    app = application()
+def opened(mesh: str | Path, size: tuple[int, int] = (1320, 830)) -> Window:
+    """A window with a mesh open in it, without the first hint, that knows nothing of the user's settings."""
+    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, tempfile.mkdtemp())
+    application()
     window = Window()
-    window.setGeometry(0, 0, 1320, 830)
+    window.setGeometry(0, 0, *size)
     window.hint.dismiss()
     window.show()
     turn(0.5)
     window.build_canvas()
     window.open(mesh)
     until(lambda: window.document.is_open)
+    return window
+
+
+def shut(window: Window) -> None:
+    """Close the window, whatever is unsaved."""
+    window.document.saved(window.document.path)
+    window.close()
+    turn(0.1)
+
+
+def main(mesh: str, folder: Path) -> None:
+    """Go through the scenes."""
+    window = opened(mesh)
     shoot(window, folder / "window-open.png")
     middle = tuple(window.document.now.mesh.points.mean(axis=0))
     window.view.set_clip(PlaneClip.at((1, 0, 0), middle, crinkle=True))
@@ -75,9 +87,7 @@ def main(mesh: str, folder: Path) -> None:
         window.smoothing.stop()
     until(lambda: window.smoothing.phase is Phase.FINISHED)
     shoot(window, folder / "window-stopped.png")
-    window.document.saved(window.document.path)
-    window.close()
-    app.processEvents()
+    shut(window)
 
 
 if __name__ == "__main__":

@@ -5,14 +5,21 @@ from __future__ import annotations
 import threading
 
 import pytest
-import shiboken6
-from PySide6.QtCore import QEvent, QSettings
-from PySide6.QtWidgets import QApplication, QMessageBox
+from PySide6.QtCore import QSettings
+from PySide6.QtWidgets import QMessageBox
 
 from hexmend import gallery, io
 from hexmend_app.program import application
 from hexmend_app.window import Window
 from tests.app.driving import open_and_wait
+
+
+def pytest_collection_modifyitems(items):
+    """Themes first: another theme is put on all windows that there have been, and those are never deleted.
+
+    Deleted, they would take what VTK draws with along at whatever moment Python collects its garbage, and crash there.
+    """
+    items.sort(key=lambda item: item.path.name != "test_theme.py")
 
 
 @pytest.fixture
@@ -40,8 +47,4 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     qtbot.wait(200)
     yield window
     window.close()
-    # PySide would take what is made later at the same place in memory for the window's QWindow.
-    shiboken6.invalidate(window.windowHandle())
-    window.deleteLater()  # or every theme and style would be put on all windows of the tests before
-    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []

@@ -11,6 +11,7 @@ import numpy as np
 SNAP = 8.0
 
 _AXES = np.eye(3)
+_HAIR = 1e-9  # of a box's diagonal
 
 
 @dataclass(frozen=True)
@@ -119,12 +120,17 @@ class BoxClip:
 
     @property
     def planes(self) -> tuple[ClipPlane, ...]:
-        """Its sides, x low, x high, y low ...; what is to be hidden lies beyond one of them, or with `notch` all."""
+        """Its sides, x low, x high, y low ...; what is to be hidden lies beyond one of them, or with `notch` all.
+
+        They stand a hair farther out than the box, so that a face of the mesh in which one of them lies is inside.
+        """
         sense = -1.0 if self.notch else 1.0
+        low, high = np.array(self.low), np.array(self.high)
+        hair = _HAIR * float(np.linalg.norm(high - low))
         return tuple(
-            ClipPlane(tuple(sign * sense * _AXES[axis]), corner)
+            ClipPlane(tuple(sign * sense * _AXES[axis]), tuple(corner))
             for axis in range(3)
-            for sign, corner in ((-1.0, self.low), (1.0, self.high))
+            for sign, corner in ((-1.0, low - hair), (1.0, high + hair))
         )
 
 

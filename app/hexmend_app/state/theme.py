@@ -106,6 +106,7 @@ SHEEN = Role("#f4f5f7", "#2e343d")
 SHADOW = Role("#9a9da3", "#14171c")
 LINE = Role("#c3c9d2", "#434b57")
 GREY = Role("#8f98a3", "#8f98a3")
+RIM = Role("#11151c", "#8b95a3")  # of what shows a colour of the view
 
 # The 3D view
 BACKGROUND = Role("#eef1f5", "#323943")  # one colour: a gradient costs software rendering a fifth of the frame

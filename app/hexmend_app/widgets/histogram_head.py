@@ -7,10 +7,11 @@ from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QMenu, QSizePolicy, QSpinBox, QToolButton, QWidget
 
 from hexmend.quality import METRICS
+from hexmend_app.state.theme import BUTTON, HOVER
 from hexmend_app.widgets.histogram_bins import BINS, FEWEST, MOST
 from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import explain, icon, smaller, tabular
+from hexmend_app.widgets.style import BLUE, LINE, dress, explain, icon, smaller, tabular
 
 _CUMULATIVE = "Heights are the share of elements with a value up to x, inverted ones first."
 _KEEP = "Keep the distribution of this moment beside those that follow, to compare methods."
@@ -106,7 +107,7 @@ class HistogramHead(QWidget):
         self.more.setIcon(icon("dots-vertical"))
         self.more.setMenu(menu)
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.more.setStyleSheet("QToolButton::menu-indicator { image: none; }")
+        dress(self.more, lambda: self.more.setStyleSheet(_sheet()))
         explain(self.more, "More", "Cumulative shares, the number of bins, keeping and saving.")
         buttons = {action: QToolButton() for action in (self.keep, self.cumulative)}
         for action, button in buttons.items():
@@ -168,3 +169,13 @@ class HistogramHead(QWidget):
             for action in self._numbers.actions():
                 action.setChecked(action.text() == str(self.bins.value()))
         self.bins_changed.emit()
+
+
+def _sheet() -> str:
+    """A button like the others beside it, without the arrow that a menu gives it."""
+    return f"""
+QToolButton {{ background: {BUTTON}; border: 1px solid {LINE}; border-radius: 3px; padding: 3px; }}
+QToolButton:hover {{ background: {HOVER}; }}
+QToolButton:focus {{ border-color: {BLUE}; }}
+QToolButton::menu-indicator {{ image: none; }}
+"""

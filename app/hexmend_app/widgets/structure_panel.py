@@ -13,6 +13,7 @@ from hexmend.structure import SHARP as DEGREES
 from hexmend.structure import Structure as Found
 from hexmend_app.scene.structure import BOUNDARY, FREE, IRREGULAR_NODE, LOCKED, OTHER, PINNED, SHARP, VALENCES
 from hexmend_app.state.look import Structure
+from hexmend_app.state.theme import RIM
 from hexmend_app.widgets.style import explain, note, tabular
 from hexmend_app.widgets.wording import counted
 
@@ -172,7 +173,7 @@ class _Layer:
 
 
 class _Mark(QWidget):
-    """A line or a point as the view draws it: a colour with a dark rim."""
+    """A line or a point as the view draws it: a colour with a rim."""
 
     def __init__(self, colour: str, line: bool, parent: QWidget | None = None):
         super().__init__(parent)
@@ -182,7 +183,7 @@ class _Mark(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         """Fill the rim."""
         painter = QPainter(self)
-        painter.setPen(QColor(SHARP))
+        painter.setPen(QColor(str(RIM)))
         painter.setBrush(self._colour)
         painter.drawRect(QRectF(0.5, 0.5, self.width() - 1, self.height() - 1))
 

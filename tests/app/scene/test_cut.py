@@ -84,6 +84,8 @@ BOX = ((0.5, 0.5, 0.5), (2.5, 1.5, 1.25))
         (PlaneClip(CORNER, False, notch=True), 52 - 2.5 * 2 - 1.75 * 2 - 2 * 2.5 * 1.75, (2.5 + 1.75) * 2),
         (BoxClip(*BOX, False), 0, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
         (BoxClip(*BOX, False, notch=True), 52, 2 * (2 * 1 + 2 * 0.75 + 1 * 0.75)),
+        (BoxClip((2, 0, 0), (4, 3, 2), False), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
+        (BoxClip((2, 0, 0), (4, 3, 2), False, notch=True), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
     ],
 )
 def test_several_planes_leave_what_geometry_says(clip, skin_area, section_area):

@@ -1,0 +1,103 @@
+"""Takes the pictures of docs/inspect.md, of meshes that the gallery makes.
+
+Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/take_inspection_pictures.py FOLDER
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from take_screenshots import opened, shoot, shut, turn, until
+
+from hexmend.gallery import make
+from hexmend.io import write
+from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.state.look import ColourScale, RangeMode, Structure, ValueRange
+from hexmend_app.state.run import Phase
+from hexmend_app.state.theme import Choice
+from hexmend_app.widgets.theming import choose
+from hexmend_app.window import Window
+
+
+def worst(window: Window) -> None:
+    """The worst element, isolated, with the quality at its corners; the list beside the histogram."""
+    window.element_panel._in_view.click()
+    window.worst_list.next()
+    window.docks["worst"].raise_()
+    turn(1)
+
+
+def box(window: Window) -> None:
+    """A box cut out, smoothly, in the colours of another metric."""
+    low, high = window.document.now.mesh.points.min(axis=0), window.document.now.mesh.points.max(axis=0)
+    window.view.change(
+        clip=BoxClip(tuple((low + high) / 2 * (1, 0, 1)), tuple(high), crinkle=False, notch=True),
+        scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED),
+    )
+
+
+def structure(window: Window) -> None:
+    """Irregular edges seen through the mesh, fixed nodes on what a cut has left."""
+    middle = tuple(window.document.now.mesh.points.mean(axis=0))
+    window.view.set_handles(False)
+    window.view.change(
+        clip=PlaneClip.at((1, -1, 0), middle), structure=Structure(irregular=True, sharp=True, fixed=True, free=True)
+    )
+
+
+def inside(window: Window) -> None:
+    """Two layers peeled, elements shrunk, only those of middling quality."""
+    window.view.change(peel=2, shrink=0.35, quality_range=ValueRange("q", 0.2, 0.8))
+
+
+def compared(window: Window) -> None:
+    """Three methods in one histogram, as the thesis's Figure 4.9 compares them; as shares up to each quality."""
+    window.histogram.head.cumulative.trigger()
+    for method in ("laplacian", "getme", "mend"):
+        window.smoothing_panel.set_method(method)
+        window.smoothing_panel.run_or_pause()
+        until(lambda: window.smoothing.phase is Phase.FINISHED)
+        window.histogram.keep_requested.emit()
+        window.commands.reset()
+    window.smoothing_panel.run_or_pause()
+    until(lambda: window.smoothing.phase is Phase.FINISHED)
+
+
+def dark(window: Window) -> None:
+    """Tags in the dark theme."""
+    choose(Choice.DARK)
+    figures = window.document.now.figures
+    window.commands.tag("inverted", np.flatnonzero(figures.inverted))
+    window.commands.tag("flat", np.flatnonzero(~figures.inverted & (figures.q < 0.3)))
+    window.docks["tags"].raise_()
+    window.view.change(clip=PlaneClip.at((1, 0, 0), tuple(window.document.now.mesh.points.mean(axis=0))))
+
+
+SCENES = (
+    (worst, "bridge-sharp", {"scramble": 0.25}),
+    (box, "bridge-sharp", {"size": 12000, "scramble": 0.3}),
+    (structure, "five-side", {"size": 2400}),
+    (inside, "bridge-sharp", {"size": 4000, "scramble": 0.4}),
+    (compared, "bridge-sharp", {"size": 12000, "scramble": 0.3}),
+    (dark, "bridge-sharp", {"size": 12000, "scramble": 0.4}),
+)
+
+
+def main(folder: Path) -> None:
+    """Take them all."""
+    with tempfile.TemporaryDirectory() as place:
+        for scene, name, how in SCENES:
+            path = Path(place) / f"{name}.vtu"
+            write(path, make(name, **how))
+            window = opened(path, (1240, 780))
+            scene(window)
+            shoot(window, folder / f"inspect-{scene.__name__}.png")
+            shut(window)
+    choose(Choice.LIGHT)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
