@@ -22,9 +22,10 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: item.path.name != "test_theme.py")
 
 
-@pytest.fixture
-def mesh_file(tmp_path):
-    path = tmp_path / "bridge.vtu"
+@pytest.fixture(scope="session")
+def mesh_file(tmp_path_factory):
+    """A tangled mesh, in a file that no test changes."""
+    path = tmp_path_factory.mktemp("mesh") / "bridge.vtu"
     io.write(path, gallery.make("bridge-sharp", size=4000, scramble=0.4, seed=1))
     return path
 
@@ -44,7 +45,7 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     open_and_wait(qtbot, window, mesh_file)
     window.windowHandle().requestActivate()
     qtbot.waitUntil(window.isActiveWindow, timeout=5000)  # or shortcuts go nowhere
-    qtbot.wait(200)
+    qtbot.wait(30)
     yield window
     window.close()
     assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []
