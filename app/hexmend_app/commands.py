@@ -12,10 +12,8 @@ from hexmend.parameters import declared
 from hexmend.quality import summarise
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
-from hexmend_app.state.document import Document, State
-from hexmend_app.state.opener import Opener
-from hexmend_app.state.run import Smoothing
-from hexmend_app.state.view import View
+from hexmend_app.state.document import State
+from hexmend_app.state.session import Session
 
 
 class Commands:
@@ -23,15 +21,12 @@ class Commands:
 
     Parameters
     ----------
-    document, view, smoothing, opener
+    session : Session
         The window's state.
     """
 
-    def __init__(self, document: Document, view: View, smoothing: Smoothing, opener: Opener):
-        self.document = document
-        self.view = view
-        self.smoothing = smoothing
-        self.opener = opener
+    def __init__(self, session: Session):
+        self.document, self.smoothing, self.opener = session.document, session.smoothing, session.opener
 
     def open(self, path: str | Path) -> None:
         """Open a mesh; a run under way ends first. What is open stays where the file cannot be read."""

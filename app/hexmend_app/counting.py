@@ -7,11 +7,11 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from hexmend.quality import measure
-from hexmend_app.state.document import Document, State
+from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept, KeptMoments
 from hexmend_app.state.measured import values
-from hexmend_app.state.run import Frame, Smoothing
-from hexmend_app.state.view import View
+from hexmend_app.state.run import Frame
+from hexmend_app.state.session import Session
 from hexmend_app.widgets.histogram import QualityHistogram
 
 
@@ -23,15 +23,14 @@ class Counting:
 
     Parameters
     ----------
-    document, view, smoothing
+    session : Session
         The window's state.
     histogram : QualityHistogram
     """
 
-    def __init__(self, document: Document, view: View, smoothing: Smoothing, histogram: QualityHistogram):
-        self._document = document
-        self._view = view
-        self._smoothing = smoothing
+    def __init__(self, session: Session, histogram: QualityHistogram):
+        view = self._view = session.view
+        self._document, self._smoothing = session.document, session.smoothing
         self._histogram = histogram
         self._own: str | None = None  # chosen here, not by the colours
         self._counted: tuple[str, State] | None = None  # what the axis was made for
@@ -39,7 +38,7 @@ class Counting:
         self._kept_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
         self._names: WeakKeyDictionary[State, str] = WeakKeyDictionary()
         view.look_changed.connect(self._on_look_changed)
-        smoothing.iterated.connect(self._on_iterated)
+        session.smoothing.iterated.connect(self._on_iterated)
         self.kept.changed.connect(self._show_kept)
         histogram.metric_chosen.connect(self._on_metric)
         histogram.range_changed.connect(lambda chosen: view.change(quality_range=chosen))

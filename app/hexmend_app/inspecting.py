@@ -9,10 +9,7 @@ from PySide6.QtWidgets import QDockWidget
 
 from hexmend.quality import element, node
 from hexmend_app.commands import Commands
-from hexmend_app.state.document import Document
-from hexmend_app.state.run import Smoothing
-from hexmend_app.state.selection import Selection
-from hexmend_app.state.view import View
+from hexmend_app.state.session import Session
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.worst_list import WorstList
 
@@ -25,8 +22,9 @@ class Inspecting:
 
     Parameters
     ----------
-    document, view, selection, smoothing, commands
+    session : Session
         The window's state.
+    commands : Commands
     worst_list, element_panel
         Its widgets.
     element_dock : QDockWidget
@@ -35,19 +33,14 @@ class Inspecting:
 
     def __init__(
         self,
-        document: Document,
-        view: View,
-        selection: Selection,
-        smoothing: Smoothing,
+        session: Session,
         commands: Commands,
         worst_list: WorstList,
         element_panel: ElementPanel,
         element_dock: QDockWidget,
     ):
-        self._document = document
-        self._view = view
-        self._selection = selection
-        self._smoothing = smoothing
+        selection = self._selection = session.selection
+        self._document, self._view, self._smoothing = session.document, session.view, session.smoothing
         self._worst_list = worst_list
         self._element_panel = element_panel
         self._element_dock = element_dock

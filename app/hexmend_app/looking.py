@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend_app.state.document import Document
-from hexmend_app.state.finder import Finder
 from hexmend_app.state.look import Look
-from hexmend_app.state.view import View
+from hexmend_app.state.session import Session
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.inside_panel import InsidePanel
@@ -26,7 +24,7 @@ class Looking:
 
     Parameters
     ----------
-    document, view, finder
+    session : Session
         The window's state.
     colour_panel, clip_panel, inside_panel, structure_panel
         The widgets that change the look.
@@ -34,17 +32,14 @@ class Looking:
 
     def __init__(
         self,
-        document: Document,
-        view: View,
-        finder: Finder,
+        session: Session,
         colour_panel: ColourPanel,
         clip_panel: ClipPanel,
         inside_panel: InsidePanel,
         structure_panel: StructurePanel,
     ):
-        self._document = document
-        self._view = view
-        self._finder = finder
+        view = self._view = session.view
+        self._document, self._finder = session.document, session.finder
         self._colours = colour_panel
         self._clip = clip_panel
         self._inside = inside_panel
@@ -64,7 +59,7 @@ class Looking:
         inside_panel.undo_requested.connect(view.undig_last)
         inside_panel.put_back_requested.connect(view.undig_all)
         structure_panel.structure_changed.connect(lambda structure: view.change(structure=structure))
-        finder.found.connect(self._on_found)
+        session.finder.found.connect(self._on_found)
 
     def set_canvas(self, canvas: Canvas) -> None:
         """Take the 3D view, which comes later than the rest."""

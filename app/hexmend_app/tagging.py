@@ -7,10 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from hexmend_app.commands import Commands
-from hexmend_app.state.document import Document
-from hexmend_app.state.run import Smoothing
-from hexmend_app.state.selection import Selection
-from hexmend_app.state.view import View
+from hexmend_app.state.session import Session
 from hexmend_app.widgets.tag_panel import TagPanel, TagRow
 from hexmend_app.widgets.worst_list import WorstList
 
@@ -20,8 +17,9 @@ class Tagging:
 
     Parameters
     ----------
-    document, view, selection, smoothing, commands
+    session : Session
         The window's state.
+    commands : Commands
     panel : TagPanel
     worst_list : WorstList
     shown : callable
@@ -30,29 +28,25 @@ class Tagging:
 
     def __init__(
         self,
-        document: Document,
-        view: View,
-        selection: Selection,
-        smoothing: Smoothing,
+        session: Session,
         commands: Commands,
         panel: TagPanel,
         worst_list: WorstList,
         shown: Callable[[], np.ndarray | None],
     ):
-        self._document = document
-        self._selection = selection
-        self._smoothing = smoothing
+        document = self._document = session.document
+        self._selection, self._smoothing = session.selection, session.smoothing
         self._commands = commands
         self._panel = panel
         self._shown = shown
         panel.toggle_requested.connect(self._toggle)
         panel.shown_requested.connect(lambda name: commands.tag(name, self._all_shown()))
         panel.listed_requested.connect(lambda name: commands.tag(name, worst_list.elements))
-        panel.isolate_requested.connect(lambda name: view.isolate(document.now.mesh.hex_sets[name]))
+        panel.isolate_requested.connect(lambda name: session.view.isolate(document.now.mesh.hex_sets[name]))
         panel.remove_requested.connect(commands.remove_tag)
         panel.renamed.connect(commands.rename_tag)
-        selection.changed.connect(self._enable)
-        smoothing.phase_changed.connect(self._enable)
+        session.selection.changed.connect(self._enable)
+        session.smoothing.phase_changed.connect(self._enable)
 
     def handlers(self) -> dict[str, Callable]:
         """What its actions do, by id."""

@@ -24,14 +24,10 @@ from hexmend_app.menus import build_menus
 from hexmend_app.opening import Opening
 from hexmend_app.resources import demo_mesh
 from hexmend_app.saving import Saving
-from hexmend_app.state.document import Document
-from hexmend_app.state.finder import Finder
-from hexmend_app.state.opener import Opener
 from hexmend_app.state.recent import Recent
-from hexmend_app.state.run import Frame, Phase, Smoothing
-from hexmend_app.state.selection import Selection
+from hexmend_app.state.run import Frame, Phase
+from hexmend_app.state.session import Session
 from hexmend_app.state.theme import Choice
-from hexmend_app.state.view import View
 from hexmend_app.tagging import Tagging
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.busy import Busy
@@ -67,13 +63,10 @@ class Window(QMainWindow):
         super().__init__()
         self.setWindowTitle("Hexmend")
         self.setAcceptDrops(True)
-        self.document = Document(self)
-        self.view = View(self)
-        self.selection = Selection(self)
-        self.smoothing = Smoothing(self.document, self)
-        self.opener = Opener(self.document, self)
-        self.finder = Finder(self.document, self)
-        self.commands = Commands(self.document, self.view, self.smoothing, self.opener)
+        session = self.session = Session(self)
+        self.document, self.view, self.selection = session.document, session.view, session.selection
+        self.smoothing, self.opener, self.finder = session.smoothing, session.opener, session.finder
+        self.commands = Commands(session)
         self.canvas: Canvas | None = None
 
         self.messages = MessageBar()
@@ -97,36 +90,12 @@ class Window(QMainWindow):
         self.counts = QLabel()
 
         self._lay_out()
-        self.looking = Looking(
-            self.document,
-            self.view,
-            self.finder,
-            self.colour_panel,
-            self.clip_panel,
-            self.inside_panel,
-            self.structure_panel,
-        )
-        self.counting = Counting(self.document, self.view, self.smoothing, self.histogram)
-        self.inspecting = Inspecting(
-            self.document,
-            self.view,
-            self.selection,
-            self.smoothing,
-            self.commands,
-            self.worst_list,
-            self.element_panel,
-            self.docks["element"],
-        )
+        self.looking = Looking(session, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel)
+        self.counting = Counting(session, self.histogram)
+        self.inspecting = Inspecting(session, self.commands, self.worst_list, self.element_panel, self.docks["element"])
         self.opening = Opening(self.document, self.opener, self.recent, self.busy, self.messages)
         self.tagging = Tagging(
-            self.document,
-            self.view,
-            self.selection,
-            self.smoothing,
-            self.commands,
-            self.tag_panel,
-            self.worst_list,
-            lambda: self.canvas.viewport.kept(),
+            session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.kept()
         )
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
@@ -376,9 +345,7 @@ class Window(QMainWindow):
         settings.setValue("geometry", self.saveGeometry())
         settings.setValue("layout", self.saveState(LAYOUT))
         self.hide()  # threads may take a while to end
-        self.smoothing.shut_down()
-        self.opener.shut_down()
-        self.finder.shut_down()
+        self.session.shut_down()
         if self.canvas is not None:
             self.canvas.close()
         event.accept()

@@ -1,0 +1,41 @@
+"""The state of one window, put together."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject
+
+from hexmend_app.state.document import Document
+from hexmend_app.state.finder import Finder
+from hexmend_app.state.opener import Opener
+from hexmend_app.state.run import Smoothing
+from hexmend_app.state.selection import Selection
+from hexmend_app.state.view import View
+
+
+class Session(QObject):
+    """The open mesh, how it is looked at, what is chosen in it, and what works on it beside the window.
+
+    Attributes
+    ----------
+    document : Document
+    view : View
+    selection : Selection
+    smoothing : Smoothing
+    opener : Opener
+    finder : Finder
+    """
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.document = Document(self)
+        self.view = View(self)
+        self.selection = Selection(self)
+        self.smoothing = Smoothing(self.document, self)
+        self.opener = Opener(self.document, self)
+        self.finder = Finder(self.document, self)
+
+    def shut_down(self) -> None:
+        """End the threads, and wait for them."""
+        self.smoothing.shut_down()
+        self.opener.shut_down()
+        self.finder.shut_down()
