@@ -6,10 +6,8 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QComboBox,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QPushButton,
     QTableWidget,
@@ -18,7 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.widgets.style import PANEL, dress, explain, note, tabular
+from hexmend_app.widgets.element_table import shape_table
+from hexmend_app.widgets.style import explain, note
 from hexmend_app.widgets.wording import figure
 
 _TITLES = ("Tag", "Elements", "Inverted", "q min")
@@ -92,21 +91,10 @@ class TagPanel(QWidget):
     def _make_table(self) -> QTableWidget:
         table = QTableWidget(0, len(_TITLES))
         table.setHorizontalHeaderLabels(_TITLES)
-        table.setFont(tabular(table.font()))
-        table.setAccessibleName("Tags")
-        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        table.setShowGrid(False)
-        table.setTabKeyNavigation(False)
-        table.verticalHeader().hide()
-        table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
-        header = table.horizontalHeader()
-        header.setHighlightSections(False)
+        shape_table(table, "Tags", 0)
         table.horizontalHeaderItem(0).setTextAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        sheet = "QHeaderView::section {{ background: {0}; padding: 2px 6px; border: none; }}"
-        dress(header, lambda: header.setStyleSheet(sheet.format(PANEL)))
+        for column in range(1, len(_TITLES)):
+            table.setColumnWidth(column, table.fontMetrics().horizontalAdvance("0,000,000") + 14)
         return table
 
     def _lay_out(self) -> None:

@@ -10,11 +10,9 @@ import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QItemSelection, QItemSelectionModel, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QShowEvent
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QCheckBox,
     QComboBox,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QPushButton,
     QTableView,
@@ -24,8 +22,9 @@ from PySide6.QtWidgets import (
 
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked, worst
+from hexmend_app.widgets.element_table import shape_table
 from hexmend_app.widgets.metrics import described, metrics_offered
-from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, PANEL, dress, explain, icon, note, tabular
+from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, explain, icon, note
 from hexmend_app.widgets.wording import counted, figure
 
 #: Elements in the list at most: nobody reads more, and they are found anew at every iteration.
@@ -144,22 +143,7 @@ class WorstList(QWidget):
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self._model)
-        table.setFont(tabular(table.font()))
-        table.setAccessibleName("Worst elements")
-        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        table.setShowGrid(False)
-        table.setAlternatingRowColors(True)
-        table.setTabKeyNavigation(False)
-        table.setWordWrap(False)
-        table.verticalHeader().hide()
-        table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
-        header = table.horizontalHeader()
-        header.setHighlightSections(False)
-        header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
-        header.setSectionResizeMode(_STATE, QHeaderView.ResizeMode.Stretch)
-        sheet = "QHeaderView::section {{ background: {0}; padding: 2px 4px; border: none; }}"
-        dress(header, lambda: header.setStyleSheet(sheet.format(PANEL)))
+        shape_table(table, "Worst elements", _STATE)
         for column, widest in ((_ELEMENT, "000,000,000"), (_VALUE, "Scaled Jacobian"), (_JACOBIAN, "Scaled Jacobian")):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
         # Not when a row becomes the current one: the first does so as the list gets the focus.
