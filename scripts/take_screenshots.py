@@ -1,4 +1,4 @@
-"""Takes the README's pictures: opens a mesh in the window, cuts it, runs local-sd, pauses, steps, stops.
+"""Takes the README's pictures: opens a mesh in the window, cuts it, runs the default method, pauses, steps, stops.
 
 Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/take_screenshots.py MESH FOLDER
 """

@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked, worst
+from hexmend_app.state.measured import values
 from hexmend_app.widgets.element_table import shape_table
 from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, explain, icon, note
@@ -236,17 +237,17 @@ class WorstList(QWidget):
             self._text.setText("No mesh is open.")
             return
         metric = METRICS[self._metric.currentData()]
-        values = metric.of(mesh.points, mesh.hexes, figures)
-        chosen = worst(values, figures, min(MOST, values.size), metric.better or 1)
+        known = values(metric.name, mesh.points, mesh.hexes, figures)
+        chosen = worst(known, figures, min(MOST, known.size), metric.better or 1)
         inverted = figures.inverted[chosen]
         held = locked(mesh.points, mesh.hexes[chosen], mesh.fixed, inverted)
         states = ["locked" if h else "inverted" if i else "" for i, h in zip(inverted, held, strict=True)]
         self._model.title = metric.title
         self._table.setColumnHidden(_JACOBIAN, metric.name == "scaled-jacobian")
-        self._model.fill(chosen, values[chosen], figures.scaled_jacobian[chosen], states)
-        all_of_them = chosen.size == values.size
+        self._model.fill(chosen, known[chosen], figures.scaled_jacobian[chosen], states)
+        all_of_them = chosen.size == known.size
         shown = "" if all_of_them else f"The {chosen.size:,} worst of "
-        self._text.setText(f"{shown}{counted(values.size, 'element')}, {figures.n_inverted:,} inverted")
+        self._text.setText(f"{shown}{counted(known.size, 'element')}, {figures.n_inverted:,} inverted")
         self._mark()
 
     def _mark(self) -> None:
