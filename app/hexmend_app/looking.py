@@ -96,7 +96,8 @@ class Looking:
         self._view.show_another()
         self._structure.set_found(self._finder.structure)
         self._inside.set_layers(int(now.mesh.topology.layers.max()))
-        low, high = now.mesh.points.min(axis=0), now.mesh.points.max(axis=0)
+        points = now.mesh.points[now.mesh.topology.used]
+        low, high = points.min(axis=0), points.max(axis=0)
         self._clip.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
         if self._canvas is not None:
             self._canvas.show()

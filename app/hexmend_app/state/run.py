@@ -62,6 +62,7 @@ class Smoothing(QObject):
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
         self._timer.timeout.connect(self._look)
+        document.mesh_replaced.connect(self.shut_down)  # what was begun while the other mesh was read
 
     @property
     def busy(self) -> bool:

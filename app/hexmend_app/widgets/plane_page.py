@@ -118,5 +118,7 @@ class PlanePage(QWidget):
         low, high = self._span()
         place = float(self._direction() @ self._plane.origin)
         with QSignalBlocker(self._slider):
-            self._slider.setValue(round(_TICKS * (place - low) / (high - low)) if high > low else 0)
+            # A plane of the mesh before may lie farther away than Qt can count.
+            share = min(max((place - low) / (high - low), 0.0), 1.0) if high > low else 0.0
+            self._slider.setValue(round(_TICKS * share))
         self._value.setText(self._written(place))
