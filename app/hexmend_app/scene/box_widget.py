@@ -61,6 +61,8 @@ class BoxWidget:
         on = clip is not None and shown and self._bounds is not None
         if on and not self._dragging:
             self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])
+        if not on:
+            self._dragging = False  # VTK does not say that a drag ends which is cut short
         if bool(self._widget.GetEnabled()) != on:
             self._widget.SetEnabled(on)
 

@@ -71,6 +71,8 @@ class PlaneWidget:
         if on and not self._dragging:
             self._shape.SetNormal(plane.normal)
             self._shape.SetOrigin(plane.origin)
+        if not on:
+            self._dragging = False  # VTK does not say that a drag ends which is cut short
         if bool(self._widget.GetEnabled()) != on:
             self._widget.SetEnabled(on)
 

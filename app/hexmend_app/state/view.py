@@ -45,7 +45,7 @@ class View(QObject):
 
     def set_clip(self, clip: Clip | None) -> None:
         """Cut, move the cut, or cut no more."""
-        if not isinstance(clip, PlaneClip) or self.plane_at >= len(clip.planes):
+        if isinstance(clip, PlaneClip) and self.plane_at >= len(clip.planes):
             self.plane_at = 0
         self.change(clip=clip)
 
