@@ -95,7 +95,7 @@ class Window(QMainWindow):
         self.inspecting = Inspecting(session, self.commands, self.worst_list, self.element_panel, self.docks["element"])
         self.opening = Opening(self.document, self.opener, self.recent, self.busy, self.messages)
         self.tagging = Tagging(
-            session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.kept()
+            session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
         )
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})

@@ -14,6 +14,9 @@ from hexmend_app.scene.polygons import Polygons, together
 from hexmend_app.scene.surface import coloured, colours_of, hexes_of
 from hexmend_app.state.clip import Clip, ClipPlane
 
+#: Distance from a plane, relative to the mesh, up to which a node is on it; more than a box stands out of itself.
+_NEARLY = 1e-8
+
 
 def sections(
     points: np.ndarray, hexes: np.ndarray, keep: np.ndarray | None, clip: Clip, colours: np.ndarray
@@ -49,6 +52,16 @@ def sections(
         return pv.PolyData()
     shown = np.concatenate(owners)
     return coloured(together(seen).data(), colours[shown], shown)
+
+
+def left(points: np.ndarray, hexes: np.ndarray, clip: Clip) -> np.ndarray:
+    """False for hexes that a cut takes away whole, or but for nodes on it, (m,) bool.
+
+    Parameters are those of `sections`.
+    """
+    nearly = _NEARLY * float(np.ptp(points, axis=0).max())
+    beyond = [(plane.signed_distance(points) > -nearly)[hexes].all(axis=1) for plane in clip.planes]
+    return ~(np.all(beyond, axis=0) if clip.notch else np.any(beyond, axis=0))
 
 
 def _section(

@@ -11,6 +11,7 @@ from PIL import Image, ImageDraw, ImageFont
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.colours import INVERTED, Colouring
+from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
 
@@ -26,6 +27,7 @@ def picture(
     look: Look,
     size: tuple[int, int],
     *,
+    filters: Filters | None = None,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
     transparent: bool = False,
@@ -41,6 +43,9 @@ def picture(
     look : Look
     size : (width, height)
         In pixels, the colour bar included.
+    filters : Filters, optional
+        Those of a view of the mesh, whose elements are drawn: a cut by whole elements is made where the nodes are as a
+        plane comes, not where they are now.
     view : str or vector
         The direction to look from, where no camera is given.
     camera : pyvista.Camera, optional
@@ -57,7 +62,7 @@ def picture(
     try:
         viewport = Viewport(plotter)
         viewport.set_look(look)
-        viewport.set_mesh(mesh, figures)
+        viewport.set_mesh(mesh, figures, filters)
         viewport.view(view)
         if camera is not None:
             plotter.camera.DeepCopy(camera)

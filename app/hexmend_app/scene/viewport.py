@@ -92,11 +92,11 @@ class Viewport:
 
     # What is drawn
 
-    def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
-        """Draw another mesh, seen whole from a corner."""
+    def set_mesh(self, mesh: Mesh, figures: ElementQuality, filters: Filters | None = None) -> None:
+        """Draw another mesh, seen whole from a corner; with the `filters` of another view of it, the elements there."""
         self._mesh, self._figures, self._points = mesh, figures, mesh.points
         self._skin = Skin(mesh)
-        self._filters = Filters(mesh)
+        self._filters = filters or Filters(mesh)
         self._outline = Silhouette(self._plotter, mesh)
         self._outline.set_dark(self._dark)
         self._structure.set_mesh(mesh)
@@ -153,6 +153,8 @@ class Viewport:
         """
         if self._mesh is None:
             return None
+        self._set_fast(False)  # what is drawn coarsely, or without its sides, is not what is pointed at
+        self._skin_surface.stand_in(None)
         for surface in (self._skin_surface, self._section_surface):
             surface.actor.SetPickable(True)
         self._picker.Pick(x, y, 0, self._plotter.renderer)
@@ -224,6 +226,14 @@ class Viewport:
     def kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
         return self._filters.kept(self._look, self._points, self._figures)
+
+    def left(self) -> np.ndarray | None:
+        """The hexes of which something is shown after a smooth cut too, (m,) bool; None for all."""
+        keep, clip = self.kept(), self._look.clip
+        if clip is None or clip.crinkle:
+            return keep
+        left = cut.left(self._points, self._mesh.hexes, clip)
+        return left if keep is None else left & keep
 
     def _rebuild(self, keep: np.ndarray | None) -> None:
         """Find the visible faces anew."""
@@ -344,6 +354,11 @@ class Viewport:
     def look(self) -> Look:
         """How the mesh is drawn."""
         return self._look
+
+    @property
+    def filters(self) -> Filters:
+        """What decides which elements are shown."""
+        return self._filters
 
     @property
     def colouring(self) -> Colouring | None:

@@ -224,8 +224,8 @@ class Canvas(QWidget):
         """Write what is seen, without the plane, as PNG of any size."""
         seen = self.viewport
         image = picture(
-            seen.mesh, seen.figures, seen.look, size, camera=seen.camera, transparent=transparent
-        )  # fmt: skip
+            seen.mesh, seen.figures, seen.look, size, filters=seen.filters, camera=seen.camera, transparent=transparent
+        )
         with replacing(path) as temporary:
             image.save(temporary, format="PNG")
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
+    QAbstractItemView,
     QComboBox,
     QHBoxLayout,
     QLabel,
@@ -25,6 +26,8 @@ _HINT = (
     "No element is tagged. Choose one and press T, or tag all that are shown or listed as worst. "
     "Tags are saved with the mesh in VTK and VTU files; groups of elements that a file holds appear here."
 )
+_Trigger = QAbstractItemView.EditTrigger
+_RENAMING = _Trigger.DoubleClicked | _Trigger.EditKeyPressed | _Trigger.AnyKeyPressed
 
 
 @dataclass(frozen=True)
@@ -166,7 +169,7 @@ class TagPanel(QWidget):
     def _on_edited(self, item: QTableWidgetItem) -> None:
         old, new = self._rows[item.row()].name, item.text().strip()
         taken = any(row.name == new for row in self._rows)
-        if new and not taken:
+        if new and not taken and not self._busy:
             self.renamed.emit(old, new)
         else:
             with QSignalBlocker(self._table):
@@ -179,4 +182,5 @@ class TagPanel(QWidget):
         self._listed.setEnabled(possible)
         self._isolate.setEnabled(bool(self._selected()))
         self._remove.setEnabled(bool(self._selected()) and not self._busy)
+        self._table.setEditTriggers(_Trigger.NoEditTriggers if self._busy else _RENAMING)
         self._hint.setVisible(not self._rows)
