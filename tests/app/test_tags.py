@@ -82,6 +82,16 @@ def test_what_is_shown_or_listed_is_tagged_under_a_name_and_isolated(window, pan
     assert list(tags(window)) == ["bad ones"]
 
 
+def test_a_name_that_is_typed_stays_as_it_is_and_is_no_tag_yet(window, panel):
+    window.commands.tag("Tagged", [1])
+    name = panel.findChild(QComboBox)
+    name.lineEdit().selectAll()
+    QTest.keyClicks(name.lineEdit(), "tagged")
+    QTest.keyClick(name.lineEdit(), Qt.Key.Key_Return)
+    assert panel.name == "tagged"
+    assert [name.itemText(at) for at in range(name.count())] == ["Tagged"]
+
+
 def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, panel, qtbot):
     window.commands.tag("one", [1, 2])
     window.commands.tag("two", [3])

@@ -66,6 +66,8 @@ class TagPanel(QWidget):
         self._busy = self._chosen = False
         self._name = QComboBox()
         self._name.setEditable(True)
+        self._name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)  # the list is of tags that there are
+        self._name.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseSensitive)
         self._name.setCurrentText("tagged")
         explain(self._name, "Tag as", "The name of the tag that elements are given.")
         self._element = self._button("Element", "Tag the chosen element, or take the tag from it (T).")
