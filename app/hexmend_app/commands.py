@@ -26,6 +26,7 @@ class Commands:
     """
 
     def __init__(self, session: Session):
+        self._session = session
         self.document, self.smoothing, self.opener = session.document, session.smoothing, session.opener
 
     def open(self, path: str | Path) -> None:
@@ -45,14 +46,15 @@ class Commands:
         return left_out(path, self.document.now.mesh)
 
     def run(self, method: str, values: dict, stop: dict) -> None:
-        """Run a method on the mesh as it is now."""
-        self.smoothing.start(METHODS[method](**values), Stop(**stop))
+        """Run a method on the mesh as it is now, unless another is being read."""
+        if not self.opener.busy:
+            self.smoothing.start(METHODS[method](**values), Stop(**stop))
 
     def step(self, method: str, values: dict, stop: dict) -> None:
         """Make one iteration: the next of a paused run, or the first of a new one."""
         if self.smoothing.busy:
             self.smoothing.step()
-        else:
+        elif not self.opener.busy:
             self.smoothing.start(METHODS[method](**values), Stop(**stop), iterations=1)
 
     def reset(self) -> None:
@@ -61,14 +63,14 @@ class Commands:
         self.document.reset()
 
     def pin(self, node: int, on: bool) -> None:
-        """Keep a node where it is whatever smooths the mesh, or let it go; not while a run is under way."""
+        """Keep a node where it is whatever smooths the mesh, or let it go, while the mesh may be changed."""
         mesh = self.document.now.mesh
         pinned = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()
         pinned[node] = on
         self._amend("pin" if on else "unpin", pinned=pinned)
 
     def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
-        """Add elements to a named group of the mesh, or take them out; not while a run is under way.
+        """Add elements to a named group of the mesh, or take them out, while the mesh may be changed.
 
         A group of which nothing is left is no more.
         """
@@ -81,30 +83,30 @@ class Commands:
             self._amend("tag" if on else "untag", hex_sets=sets)
 
     def remove_tag(self, name: str) -> None:
-        """Let a named group of elements be no more; not while a run is under way."""
+        """Let a named group of elements be no more, while the mesh may be changed."""
         self._amend("untag", hex_sets={k: v for k, v in self.document.now.mesh.hex_sets.items() if k != name})
 
     def rename_tag(self, name: str, other: str) -> None:
-        """Call a group of elements otherwise; not while a run is under way."""
+        """Call a group of elements otherwise, while the mesh may be changed."""
         sets = self.document.now.mesh.hex_sets
         self._amend("rename the tag", hex_sets={other if k == name else k: v for k, v in sets.items()})
 
     def _amend(self, title: str, **changes: object) -> None:
         """Change what the mesh carries beside its nodes' places."""
-        if not self.smoothing.busy:
+        if self._session.editable:
             now = self.document.now
             mesh = now.mesh.replace(**changes)
             summary = summarise(mesh, now.figures) if "pinned" in changes else now.summary
             self.document.commit(title, State(mesh, now.figures, summary))
 
     def undo(self) -> None:
-        """Take back the last change, unless a run is under way."""
-        if not self.smoothing.busy:
+        """Take back the last change, unless the mesh may not be changed."""
+        if self._session.editable:
             self.document.undo()
 
     def redo(self) -> None:
-        """Do again what was taken back, unless a run is under way."""
-        if not self.smoothing.busy:
+        """Do again what was taken back, unless the mesh may not be changed."""
+        if self._session.editable:
             self.document.redo()
 
 

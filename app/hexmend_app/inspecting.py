@@ -40,7 +40,7 @@ class Inspecting:
         element_dock: QDockWidget,
     ):
         selection = self._selection = session.selection
-        self._document, self._view, self._smoothing = session.document, session.view, session.smoothing
+        self._session, self._document, self._view = session, session.document, session.view
         self._worst_list = worst_list
         self._element_panel = element_panel
         self._element_dock = element_dock
@@ -51,7 +51,7 @@ class Inspecting:
         element_panel.fly_requested.connect(lambda: self._go_to(selection.hex))
         element_panel.corners_toggled.connect(self._show_selected)
         element_panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
-        element_panel.pin_toggled.connect(commands.pin)
+        element_panel.pin_toggled.connect(lambda node, on: (commands.pin(node, on), self._show_element()))
 
     def set_canvas(self, canvas: Canvas) -> None:
         """Take the 3D view, which comes later than the rest."""
@@ -98,7 +98,7 @@ class Inspecting:
             tags = [name for name, members in mesh.hex_sets.items() if (members == chosen.hex).any()]
             self._element_panel.show_element(element(mesh, chosen.hex), tags)
         at = None if chosen.node is None else node(mesh, chosen.node)
-        self._element_panel.show_node(at, self._smoothing.busy)
+        self._element_panel.show_node(at, not self._session.editable)
         if self._canvas is not None:
             self._canvas.select(chosen.hex, self._element_panel.corners_in_view, at)
 

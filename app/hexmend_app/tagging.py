@@ -35,7 +35,7 @@ class Tagging:
         shown: Callable[[], np.ndarray | None],
     ):
         document = self._document = session.document
-        self._selection, self._smoothing = session.selection, session.smoothing
+        self._session, self._selection = session, session.selection
         self._commands = commands
         self._panel = panel
         self._shown = shown
@@ -47,6 +47,8 @@ class Tagging:
         panel.renamed.connect(commands.rename_tag)
         session.selection.changed.connect(self._enable)
         session.smoothing.phase_changed.connect(self._enable)
+        for told in (session.opener.began, session.opener.cancelled, session.opener.failed):
+            told.connect(self._enable)
 
     def handlers(self) -> dict[str, Callable]:
         """What its actions do, by id."""
@@ -54,7 +56,7 @@ class Tagging:
 
     def offered(self) -> dict[str, bool]:
         """Which of its actions can be done now."""
-        return {"tag": self._selection.hex is not None and not self._smoothing.busy}
+        return {"tag": self._panel.can_toggle}
 
     def refresh(self) -> None:
         """Show the tags as they are now."""
@@ -71,7 +73,7 @@ class Tagging:
         self._enable()
 
     def _enable(self) -> None:
-        self._panel.set_state(self._selection.hex is not None, self._smoothing.busy)
+        self._panel.set_state(self._selection.hex is not None, not self._session.editable)
 
     def _toggle(self, name: str) -> None:
         chosen = self._selection.hex

@@ -151,7 +151,9 @@ class Window(QMainWindow):
         self.document.changes_changed.connect(self._enable)
         self.view.look_changed.connect(self._enable)
         self.finder.found.connect(self._enable)
-        self.opener.began.connect(self._enable)
+        for told in (self.opener.began, self.opener.ended, self.opener.cancelled, self.opener.failed):
+            told.connect(self._enable)
+        self.tag_panel.offer_changed.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
         self.smoothing.ended.connect(self._on_ended)
@@ -252,14 +254,16 @@ class Window(QMainWindow):
         self.messages.show_error("The method failed", f"{error}. The mesh is as it was before the run.")
 
     def _enable(self) -> None:
-        busy, phase = self.smoothing.busy, self.smoothing.phase
+        busy, editable, phase = self.smoothing.busy, self.session.editable, self.smoothing.phase
         for spec in ACTIONS:
             self.actions_by_id[spec.id].setEnabled(self.document.is_open or not spec.needs_mesh)
         undo, redo = (self.document.undo_title, self.document.redo_title) if self.document.is_open else (None, None)
         for id, title, word in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
-            self.actions_by_id[id].setEnabled(title is not None and not busy)
+            self.actions_by_id[id].setEnabled(title is not None and editable)
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
             self.actions_by_id[id].setIconText(word.replace("&", ""))
+        for id in ("run", "step", "reset"):
+            self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
         for id, on in (self.inspecting.offered() | self.tagging.offered() | self.looking.offered()).items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
@@ -270,7 +274,7 @@ class Window(QMainWindow):
         for id, on in (self.looking.checked() | {f"theme_{theming.chosen().value}": True}).items():
             self.actions_by_id[id].setChecked(on)
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
-        self.smoothing_panel.setEnabled(self.document.is_open)
+        self.smoothing_panel.setEnabled(self.document.is_open and not self.opener.busy)
         self.looking.set_enabled(self.document.is_open)
         self.tag_panel.setEnabled(self.document.is_open)
         self.histogram.setEnabled(self.document.is_open)

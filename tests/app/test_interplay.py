@@ -27,16 +27,35 @@ def middle(window):
     return tuple(window.document.now.mesh.points.mean(axis=0))
 
 
-def test_a_run_that_is_begun_while_another_mesh_is_read_does_not_reach_into_it(window, qtbot, tmp_path):
+def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path):
     io.write(tmp_path / "small.vtu", scrambled(grid(3), 0.3))
+    window.selection.choose(7)
+    window.commands.tag("before", [7])
     with qtbot.waitSignal(window.opener.ended, timeout=FIRST_RUN):
         window.open(tmp_path / "small.vtu")
-        click(window, "Run")
-    qtbot.wait(200)
-    assert window.smoothing.phase is Phase.IDLE
+        before = window.document.now
+        assert not any(window.actions_by_id[id].isEnabled() for id in ("run", "step", "reset", "undo", "tag"))
+        assert not window.smoothing_panel.isEnabled()
+        window.smoothing_panel.run_requested.emit("laplacian", {}, {})
+        window.commands.tag("late", [8])
+        window.commands.undo()
+        assert window.document.now is before
+        assert not window.smoothing.busy
     assert window.document.now is window.document.start
     assert window.document.now.mesh.n_hexes == 27
-    assert window.document.undo_title is None
+    assert window.actions_by_id["run"].isEnabled()
+    assert window.smoothing_panel.isEnabled()
+
+
+def test_an_element_can_be_tagged_only_under_a_name(window):
+    window.selection.choose(7)
+    assert window.actions_by_id["tag"].isEnabled()
+    window.tag_panel._name.setCurrentText("")
+    assert not window.actions_by_id["tag"].isEnabled()
+    window.tag_panel._name.setCurrentText("bad")
+    assert window.actions_by_id["tag"].isEnabled()
+    window.selection.choose(None)
+    assert not window.actions_by_id["tag"].isEnabled()
 
 
 def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):

@@ -34,6 +34,11 @@ class Session(QObject):
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
 
+    @property
+    def editable(self) -> bool:
+        """Whether the mesh may be changed: not by hand while a method runs on it, nor while another is being read."""
+        return self.document.is_open and not self.smoothing.busy and not self.opener.busy
+
     def shut_down(self) -> None:
         """End the threads, and wait for them."""
         self.smoothing.shut_down()

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 from superqt import QRangeSlider
 
 from hexmend_app.widgets.style import explain, tabular
+from hexmend_app.widgets.wording import position
 
 _TICKS = 1000
 
@@ -85,5 +86,6 @@ class BoxPage(QWidget):
         self._write()
 
     def _write(self) -> None:
+        extent = float(np.ptp(self._bounds, axis=0).max())
         for axis, text in enumerate(self._texts):
-            text.setText(" – ".join(f"{end:.3g}".replace("-", "−") for end in self._corners[:, axis]))
+            text.setText(" – ".join(position(end, extent, 3) for end in self._corners[:, axis]))

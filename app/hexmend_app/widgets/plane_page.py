@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QSlider, QWidget
 from hexmend_app.state.clip import ClipPlane
 from hexmend_app.widgets.segmented import Segmented
 from hexmend_app.widgets.style import explain, icon, tabular
+from hexmend_app.widgets.wording import position
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 _TICKS = 1000
@@ -90,11 +91,6 @@ class PlanePage(QWidget):
         ends = self._bounds * direction
         return float(ends.min(axis=0).sum()), float(ends.max(axis=0).sum())
 
-    def _written(self, place: float) -> str:
-        """A position; what is less than a tenth of the slider's step from 0 is 0, such as the middle of most meshes."""
-        extent = float(np.ptp(self._bounds, axis=0).max())
-        return f"{0.0 if abs(place) < 0.1 * extent / _TICKS else place:.4g}"
-
     def _on_axis(self, key: str) -> None:
         if key != "free":  # which says how the plane stands; there is nothing to set
             self._change(ClipPlane(_AXES[key], tuple(self._bounds.mean(axis=0))))
@@ -121,4 +117,4 @@ class PlanePage(QWidget):
             # A plane of the mesh before may lie farther away than Qt can count.
             share = min(max((place - low) / (high - low), 0.0), 1.0) if high > low else 0.0
             self._slider.setValue(round(_TICKS * share))
-        self._value.setText(self._written(place))
+        self._value.setText(position(place, float(np.ptp(self._bounds, axis=0).max())))

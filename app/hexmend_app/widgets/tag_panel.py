@@ -51,6 +51,8 @@ class TagPanel(QWidget):
         The user wants all elements tagged that are shown in the view, or listed as the worst.
     isolate_requested(name), remove_requested(name)
     renamed(name, other)
+    offer_changed
+        Whether the chosen element can be tagged has changed.
     """
 
     toggle_requested = Signal(str)
@@ -59,6 +61,7 @@ class TagPanel(QWidget):
     isolate_requested = Signal(str)
     remove_requested = Signal(str)
     renamed = Signal(str, str)
+    offer_changed = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -126,9 +129,14 @@ class TagPanel(QWidget):
         """The name of the tag that elements are given; "" while there is none."""
         return self._name.currentText().strip()
 
+    @property
+    def can_toggle(self) -> bool:
+        """Whether there is an element to tag, and a name for it."""
+        return bool(self.name) and self._chosen and not self._busy
+
     def toggle(self) -> None:
         """Ask for the chosen element's tag, or to take it away."""
-        if self._element.isEnabled():
+        if self.can_toggle:
             self.toggle_requested.emit(self.name)
 
     def set_tags(self, rows: list[TagRow]) -> None:
@@ -178,11 +186,13 @@ class TagPanel(QWidget):
                 item.setText(old)
 
     def _enable(self) -> None:
-        possible = bool(self.name) and not self._busy
-        self._element.setEnabled(possible and self._chosen)
+        possible, could = bool(self.name) and not self._busy, self._element.isEnabled()
+        self._element.setEnabled(self.can_toggle)
         self._shown.setEnabled(possible)
         self._listed.setEnabled(possible)
         self._isolate.setEnabled(bool(self._selected()))
         self._remove.setEnabled(bool(self._selected()) and not self._busy)
         self._table.setEditTriggers(_Trigger.NoEditTriggers if self._busy else _RENAMING)
         self._hint.setVisible(not self._rows)
+        if could != self.can_toggle:
+            self.offer_changed.emit()

@@ -71,6 +71,15 @@ def short_folder(path: Path, most: int = 40) -> str:
     return text
 
 
+def position(place: float, extent: float, digits: int = 4) -> str:
+    """A position in a body of some extent, 0 where it is less than a ten-thousandth of that from it.
+
+    >>> position(-1.25, 4.0), position(1e-5, 4.0)
+    ('−1.25', '0')
+    """
+    return f"{0.0 if abs(place) < 1e-4 * extent else place:.{digits}g}".replace("-", "−")
+
+
 def counted(number: int, noun: str, plural: str = "") -> str:
     """A number with its noun.
 

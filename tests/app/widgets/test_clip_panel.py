@@ -89,7 +89,7 @@ def test_keys_move_the_plane_by_a_thousandth_and_to_the_ends(panel, heard):
     assert heard[-1].planes[0].origin[0] == pytest.approx(-1)
 
 
-@pytest.mark.parametrize(("place", "text"), [(-1.356e-5, "0"), (1e-6, "0"), (-0.02, "-0.02"), (1.356, "1.356")])
+@pytest.mark.parametrize(("place", "text"), [(-1.356e-5, "0"), (1e-6, "0"), (-0.02, "−0.02"), (1.356, "1.356")])
 def test_a_position_next_to_zero_reads_zero(panel, place, text):
     panel.set_clip(PlaneClip.at((1, 0, 0), (place, 0, 0)))
     assert panel._plane_page._value.text() == text
