@@ -5,8 +5,9 @@ from __future__ import annotations
 import threading
 
 import pytest
-from PySide6.QtCore import QSettings
-from PySide6.QtWidgets import QMessageBox
+import shiboken6
+from PySide6.QtCore import QEvent, QSettings
+from PySide6.QtWidgets import QApplication, QMessageBox
 
 from hexmend import gallery, io
 from hexmend_app.program import application
@@ -15,11 +16,13 @@ from tests.app.driving import open_and_wait
 
 
 def pytest_collection_modifyitems(items):
-    """Themes first: another theme is put on all windows that there have been, and those are never deleted.
-
-    Deleted, they would take what VTK draws with along at whatever moment Python collects its garbage, and crash there.
-    """
+    """Themes first: another theme is put on all windows that there have been."""
     items.sort(key=lambda item: item.path.name != "test_theme.py")
+
+
+#: Windows of tests that are over. Garbage, they would take along what VTK draws with at whatever moment Python collects
+#: it, and crash there.
+CLOSED: list[Window] = []
 
 
 @pytest.fixture(scope="session")
@@ -48,4 +51,9 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     qtbot.wait(30)
     yield window
     window.close()
+    CLOSED.append(window)
+    # PySide would take what is made later at the same place in memory for the window's QWindow.
+    shiboken6.invalidate(window.windowHandle())
+    window.deleteLater()  # with 50 MB that Qt and Mesa have kept for it
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []
