@@ -81,7 +81,7 @@ SCENES = (
     (box, "bridge-sharp", {"size": 12000, "scramble": 0.3}),
     (structure, "five-side", {"size": 2400}),
     (inside, "bridge-sharp", {"size": 4000, "scramble": 0.4}),
-    (compared, "bridge-sharp", {"size": 12000, "scramble": 0.3}),
+    (compared, "bridge-sharp", {"size": 9000, "scramble": 0.3}),
     (dark, "bridge-sharp", {"size": 12000, "scramble": 0.4}),
 )
 
