@@ -9,11 +9,12 @@ import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 
+from hexmend_app.scene.handles import Handles
 from hexmend_app.state.clip import BoxClip
 from hexmend_app.state.theme import PLANE_EDGE, PLANE_HELD
 
 
-class BoxWidget:
+class BoxWidget(Handles):
     """VTK's box widget, which stays along the axes.
 
     Parameters
@@ -27,7 +28,6 @@ class BoxWidget:
     def __init__(self, plotter: pv.BasePlotter, moved: Callable[[tuple, tuple], None]):
         self._moved = moved
         self._bounds: np.ndarray | None = None
-        self._dragging = False
         shape = vtkBoxRepresentation()
         shape.SetPlaceFactor(1.0)
         shape.GetFaceProperty().SetOpacity(0)
@@ -36,15 +36,11 @@ class BoxWidget:
         shape.SetOutlineCursorWires(False)
         self._shape = shape
         self.set_dark(False)
-        self._widget = vtkBoxWidget2()
-        self._widget.SetInteractor(plotter.iren.interactor)
-        self._widget.SetCurrentRenderer(plotter.renderer)
-        self._widget.SetRepresentation(shape)
-        self._widget.RotationEnabledOff()
-        self._widget.ScalingEnabledOff()
-        self._widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
-        self._widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
-        self._widget.AddObserver("InteractionEvent", self._announce)
+        widget = vtkBoxWidget2()
+        widget.SetRepresentation(shape)
+        widget.RotationEnabledOff()
+        widget.ScalingEnabledOff()
+        super().__init__(plotter, widget)
 
     def set_dark(self, dark: bool) -> None:
         """Draw it for the dark ground, or for the light one."""
@@ -61,18 +57,7 @@ class BoxWidget:
         on = clip is not None and shown and self._bounds is not None
         if on and not self._dragging:
             self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])
-        if not on:
-            self._dragging = False  # VTK does not say that a drag ends which is cut short
-        if bool(self._widget.GetEnabled()) != on:
-            self._widget.SetEnabled(on)
-
-    def close(self) -> None:
-        """Let go of the interactor."""
-        self._widget.Off()
-        self._widget.SetInteractor(None)
-
-    def _drag(self, on: bool) -> None:
-        self._dragging = on
+        self._switch(on)
 
     def _announce(self, *_: object) -> None:
         data = vtkPolyData()

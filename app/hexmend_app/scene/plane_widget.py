@@ -7,11 +7,12 @@ from collections.abc import Callable
 import pyvista as pv
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
 
+from hexmend_app.scene.handles import Handles
 from hexmend_app.state.clip import ClipPlane
 from hexmend_app.state.theme import PLANE, PLANE_EDGE, PLANE_HELD
 
 
-class PlaneWidget:
+class PlaneWidget(Handles):
     """VTK's implicit plane widget without its box.
 
     Parameters
@@ -25,7 +26,6 @@ class PlaneWidget:
     def __init__(self, plotter: pv.BasePlotter, moved: Callable[[ClipPlane], None]):
         self._moved = moved
         self._placed = False
-        self._dragging = False
         self._plane: ClipPlane | None = None
         shape = vtkImplicitPlaneRepresentation()
         shape.SetPlaceFactor(1.08)
@@ -39,13 +39,9 @@ class PlaneWidget:
         shape.GetOutlineProperty().SetOpacity(0)
         self._shape = shape
         self.set_dark(False)
-        self._widget = vtkImplicitPlaneWidget2()
-        self._widget.SetInteractor(plotter.iren.interactor)
-        self._widget.SetCurrentRenderer(plotter.renderer)
-        self._widget.SetRepresentation(shape)
-        self._widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
-        self._widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
-        self._widget.AddObserver("InteractionEvent", self._announce)
+        widget = vtkImplicitPlaneWidget2()
+        widget.SetRepresentation(shape)
+        super().__init__(plotter, widget)
 
     def set_dark(self, dark: bool) -> None:
         """Draw it for the dark ground, or for the light one."""
@@ -71,18 +67,10 @@ class PlaneWidget:
         if on and not self._dragging:
             self._shape.SetNormal(plane.normal)
             self._shape.SetOrigin(plane.origin)
-        if not on:
-            self._dragging = False  # VTK does not say that a drag ends which is cut short
-        if bool(self._widget.GetEnabled()) != on:
-            self._widget.SetEnabled(on)
-
-    def close(self) -> None:
-        """Let go of the interactor."""
-        self._widget.Off()
-        self._widget.SetInteractor(None)
+        self._switch(on)
 
     def _drag(self, on: bool) -> None:
-        self._dragging = on
+        super()._drag(on)
         if not on:
             self.set(self._plane)
 

@@ -1,0 +1,45 @@
+"""What VTK's widgets that are dragged in the view have in common."""
+
+from __future__ import annotations
+
+import pyvista as pv
+from vtkmodules.vtkInteractionWidgets import vtkAbstractWidget
+
+
+class Handles:
+    """Switches a widget on and off, and knows while it is dragged.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter
+        One with an interactor.
+    widget : vtkAbstractWidget
+        With its representation.
+    """
+
+    def __init__(self, plotter: pv.BasePlotter, widget: vtkAbstractWidget):
+        self._widget = widget
+        self._dragging = False
+        widget.SetInteractor(plotter.iren.interactor)
+        widget.SetCurrentRenderer(plotter.renderer)
+        widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
+        widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
+        widget.AddObserver("InteractionEvent", self._announce)
+
+    def close(self) -> None:
+        """Let go of the interactor."""
+        self._widget.Off()
+        self._widget.SetInteractor(None)
+
+    def _switch(self, on: bool) -> None:
+        if not on:
+            self._dragging = False  # VTK does not say that a drag ends which is cut short
+        if bool(self._widget.GetEnabled()) != on:
+            self._widget.SetEnabled(on)
+
+    def _drag(self, on: bool) -> None:
+        self._dragging = on
+
+    def _announce(self, *_: object) -> None:
+        """Tell where the hand has it."""
+        raise NotImplementedError
