@@ -16,11 +16,13 @@ from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.commands import Commands, methods_offered
+from hexmend_app.converging import Converging
 from hexmend_app.counting import Counting
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
 from hexmend_app.menus import build_menus
+from hexmend_app.moving import Moving
 from hexmend_app.opening import Opening
 from hexmend_app.resources import demo_mesh
 from hexmend_app.saving import Saving
@@ -34,11 +36,13 @@ from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
+from hexmend_app.widgets.convergence_panel import ConvergencePanel
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.movement_panel import MovementPanel
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
 from hexmend_app.widgets.recent_menu import RecentMenu
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
@@ -85,12 +89,15 @@ class Window(QMainWindow):
         self.inside_panel = InsidePanel()
         self.structure_panel = StructurePanel()
         self.colour_panel = ColourPanel()
+        self.convergence_panel = ConvergencePanel()
+        self.movement_panel = MovementPanel()
         self.busy = Busy()
         self.hint = Hint()
         self.counts = QLabel()
 
         self._lay_out()
         self.looking = Looking(session, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel)
+        self.moving = Moving(session, self.movement_panel, self.colour_panel)
         self.counting = Counting(session, self.histogram)
         self.inspecting = Inspecting(session, self.commands, self.worst_list, self.element_panel, self.docks["element"])
         self.opening = Opening(self.document, self.opener, self.recent, self.busy, self.messages)
@@ -98,6 +105,7 @@ class Window(QMainWindow):
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
         )
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
+        self.converging = Converging(session, self.convergence_panel, self.saving)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
             {id: self.actions_by_id[id].shortcut().toString() for id in ("run", "step", "stop", "reset")}
@@ -125,7 +133,11 @@ class Window(QMainWindow):
             ("element", "Element", self.element_panel),
             ("tags", "Tags", self.tag_panel),
         ]
-        self.docks = add_docks(self, tools, self.histogram, tabs)
+        behind = [
+            ("convergence", "Convergence", self.convergence_panel),
+            ("movement", "Movement", self.movement_panel),
+        ]
+        self.docks = add_docks(self, tools, self.histogram, tabs, behind)
         self.statusBar().addWidget(self.counts, 1)
         self.statusBar().addPermanentWidget(self.busy)
         self.busy.done()
@@ -140,7 +152,7 @@ class Window(QMainWindow):
         self.setTabOrder(self.hint.close_button, self.canvas.interactor)
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
-        self.saving.canvas = self.canvas
+        self.saving.canvas = self.moving.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
         if self.document.is_open:
             self._on_mesh_replaced()
@@ -217,6 +229,7 @@ class Window(QMainWindow):
         self.inspecting.refresh()
         self.tagging.refresh()
         self.looking.refresh()
+        self.moving.refresh()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
 
@@ -278,6 +291,7 @@ class Window(QMainWindow):
         self.looking.set_enabled(self.document.is_open)
         self.tag_panel.setEnabled(self.document.is_open)
         self.histogram.setEnabled(self.document.is_open)
+        self.movement_panel.setEnabled(self.document.is_open)
         self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
         self.setWindowModified(self.document.modified)
 

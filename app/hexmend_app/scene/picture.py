@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +11,11 @@ from PIL import Image, ImageDraw, ImageFont
 
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
-from hexmend_app.scene.colours import INVERTED, Colouring
+from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
+from hexmend_app.state.movement import Movement
 
 _INK = (31, 38, 48)
 
@@ -28,6 +30,7 @@ def picture(
     size: tuple[int, int],
     *,
     filters: Filters | None = None,
+    movement: Movement | None = None,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
     transparent: bool = False,
@@ -46,6 +49,8 @@ def picture(
     filters : Filters, optional
         Those of a view of the mesh, whose elements are drawn: a cut by whole elements is made where the nodes are as a
         plane comes, not where they are now.
+    movement : Movement, optional
+        What colours and arrows of a movement show.
     view : str or vector
         The direction to look from, where no camera is given.
     camera : pyvista.Camera, optional
@@ -61,6 +66,7 @@ def picture(
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
     try:
         viewport = Viewport(plotter)
+        viewport.set_movement(movement)
         viewport.set_look(look)
         viewport.set_mesh(mesh, figures, filters)
         viewport.view(view)
@@ -79,12 +85,20 @@ def picture(
         return image
     whole = Image.new(image.mode, size, (255, 255, 255, 0) if transparent else (255, 255, 255))
     whole.paste(image, (0, 0))
-    whole.paste(colour_bar(viewport.colouring, figures.n_inverted, (width, strip), image.mode), (0, height - strip))
+    whole.paste(colour_bar(viewport.colouring, viewport.apart, (width, strip), image.mode), (0, height - strip))
     return whole
 
 
-def colour_bar(colouring: Colouring, inverted: int, size: tuple[int, int], mode: str = "RGB") -> Image.Image:
-    """The colours from the lowest value to the highest, ticks, the swatch of inverted elements; `size` in pixels."""
+def colour_bar(
+    colouring: Colouring, apart: Sequence[tuple[str, int, tuple]], size: tuple[int, int], mode: str = "RGB"
+) -> Image.Image:
+    """The colours from the lowest value to the highest, ticks, and what is set apart; `size` in pixels.
+
+    Parameters
+    ----------
+    colouring : Colouring
+    apart : sequence of (name, number of elements, colour)
+    """
     width, height = size
     image = Image.new(mode, size, (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
     draw = ImageDraw.Draw(image)
@@ -100,10 +114,12 @@ def colour_bar(colouring: Colouring, inverted: int, size: tuple[int, int], mode:
         x, value = left + (right - left) * k / 5, low + (high - low) * k / 5
         draw.line((x, bottom, x, bottom + 2 * unit), _INK, max(1, round(unit)))
         draw.text((x, bottom + 3 * unit), colouring.label(value), _INK, font, anchor="mt")
-    swatch = right + round(24 * unit)
-    draw.rectangle((swatch, top, swatch + round(11 * unit), bottom), INVERTED)
-    count = f"inverted ({inverted:,})"
-    draw.text((swatch + round(17 * unit), (top + bottom) / 2), count, _INK, font, anchor="lm")
+    swatch, side = right + round(24 * unit), (11 if len(apart) == 1 else 7) * unit
+    small = font if len(apart) == 1 else ImageFont.truetype(_font(), max(7, round(8 * unit)))
+    for row, (name, count, colour) in enumerate(apart):
+        above = top + round(9 * unit) * row
+        draw.rectangle((swatch, above, swatch + round(side), above + round(side)), colour)
+        draw.text((swatch + round(17 * unit), above + side / 2), f"{name} ({count:,})", _INK, small, anchor="lm")
     return image
 
 

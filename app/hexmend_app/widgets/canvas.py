@@ -15,13 +15,14 @@ from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.box_widget import BoxWidget
-from hexmend_app.scene.colours import INVERTED, Colouring
+from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.flight import Flight
 from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import Look
+from hexmend_app.state.movement import Movement
 from hexmend_app.state.theme import BLUE, THEME
 from hexmend_app.widgets.colour_bar import ColourBar
 from hexmend_app.widgets.style import dress, explain
@@ -125,6 +126,10 @@ class Canvas(QWidget):
         """Take which nodes are pinned, (n,) bool; drawn with the next points."""
         self.viewport.set_pinned(pinned)
 
+    def set_movement(self, movement: Movement | None) -> None:
+        """Take what colours and arrows of a movement show; drawn with the next mesh, points or look."""
+        self.viewport.set_movement(movement)
+
     def set_look(self, look: Look, handles: bool, at: int = 0) -> None:
         """Draw it differently, with handles at the box, or at one of the planes, or without."""
         self.viewport.set_look(look)
@@ -224,7 +229,14 @@ class Canvas(QWidget):
         """Write what is seen, without the plane, as PNG of any size."""
         seen = self.viewport
         image = picture(
-            seen.mesh, seen.figures, seen.look, size, filters=seen.filters, camera=seen.camera, transparent=transparent
+            seen.mesh,
+            seen.figures,
+            seen.look,
+            size,
+            filters=seen.filters,
+            movement=seen.movement,
+            camera=seen.camera,
+            transparent=transparent,
         )
         with replacing(path) as temporary:
             image.save(temporary, format="PNG")
@@ -251,7 +263,7 @@ class Canvas(QWidget):
             self.colour_bar.set_label(colouring.title)
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)
-            self.colour_bar.set_inverted(self.viewport.figures.n_inverted, INVERTED)
+            self.colour_bar.set_apart(self.viewport.apart)
 
     def _changed(self) -> None:
         self.viewport.moving()

@@ -12,9 +12,10 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QL
 
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
-from hexmend_app.scene.colours import MAPS, range_label, table
+from hexmend_app.scene.colours import DIVERGING, MAPS, range_label, table
 from hexmend_app.scene.values import better, declared_range
 from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.state.movement import MOVEMENTS, named
 from hexmend_app.widgets.metrics import metrics_offered
 from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.segmented import Segmented
@@ -37,6 +38,8 @@ _MAPS = {
     "plasma": "From blue over red to yellow.",
     "inferno": "From black over red to pale yellow.",
 }
+_OF_VALUES = "All maps are perceptually uniform and readable without telling red from green."
+_OF_CHANGES = "Changes have a map of their own, in whose middle there is none: brown for worse, teal for better."
 _BOXES = (("low", 0.0), ("high", 1.0))
 
 
@@ -57,18 +60,16 @@ class ColourPanel(QWidget):
         self._ends = (0.0, 1.0)  # of the range in use, wherever it comes from
         self._set: dict[str, tuple[float, float]] = {}  # ends that were typed for each metric, to find them on return
         self._metric = _combo()
-        for at, metric in enumerate(metrics_offered()):
+        for metric in (*metrics_offered(), *MOVEMENTS.values()):
             self._metric.addItem(metric.title, metric.name)
-            self._metric.setItemData(at, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
+            self._metric.setItemData(self._metric.count() - 1, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
+        self._metric.insertSeparator(len(METRICS))
         self._map = _combo()
         self._map.setIconSize(_SWATCH)
         for at, name in enumerate(MAPS):
             self._map.addItem(name, name)
             self._map.setItemData(at, _MAPS.get(name, ""), Qt.ItemDataRole.ToolTipRole)
         dress(self._map, self._paint_swatches)
-        explain(
-            self._map, "Colour map", "All maps are perceptually uniform and readable without telling red from green."
-        )
         self._reverse = QCheckBox("Reverse")
         explain(self._reverse, "Reverse", "Swap the ends of the map. Without it, the dark end stands for the worst.")
         self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
@@ -79,7 +80,7 @@ class ColourPanel(QWidget):
         self._problem.hide()
         self._lay_out()
 
-        self._metric.activated.connect(self._on_metric)
+        self._metric.activated.connect(lambda: self.choose_metric(self._metric.currentData()))
         self._map.activated.connect(lambda: self._change(map=self._map.currentData()))
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
         self._mode.chosen.connect(lambda key: self._on_mode(RangeMode(key)))
@@ -90,8 +91,8 @@ class ColourPanel(QWidget):
         self._show_ends()
 
     def _paint_swatches(self) -> None:
-        for at, name in enumerate(MAPS):
-            self._map.setItemIcon(at, _swatch(name))
+        for at in range(self._map.count()):
+            self._map.setItemIcon(at, _swatch(self._map.itemData(at)))
 
     def _lay_out(self) -> None:
         grid = QGridLayout(self)
@@ -127,11 +128,13 @@ class ColourPanel(QWidget):
         if self._scale.mode is not RangeMode.PINNED:
             self._show_ends()
 
-    def _on_metric(self) -> None:
-        metric = self._metric.currentData()
+    def choose_metric(self, metric: str) -> None:
+        """Do as if the user chose what the colours show."""
         if metric == self._scale.metric:
             return
         pinned, mode = self._set.get(metric, self._scale.pinned), self._scale.mode
+        if (metric in MOVEMENTS) != (self._scale.metric in MOVEMENTS):
+            mode = RangeMode.FITTED if metric in MOVEMENTS else RangeMode.FULL
         if mode is RangeMode.PINNED and metric not in self._set:
             mode = RangeMode.FULL  # the values of one metric mean nothing for another
         if mode in (RangeMode.FULL, RangeMode.ACCEPTABLE) and declared_range(metric, mode) is None:
@@ -188,11 +191,23 @@ class ColourPanel(QWidget):
                 box.set_value(end)
         self._show_problem()
 
+    def _show_map(self, change: bool) -> None:
+        """Offer the maps, or, for changes, say that they have their own."""
+        own = self._map.findData(DIVERGING)
+        if change and own < 0:
+            self._map.addItem("brown – teal", DIVERGING)
+            self._paint_swatches()
+        elif not change and own >= 0:
+            self._map.removeItem(own)
+        self._map.setCurrentIndex(self._map.findData(DIVERGING if change else self._scale.map))
+        self._map.setEnabled(not change)
+        explain(self._map, "Colour map", _OF_CHANGES if change else _OF_VALUES)
+
     def _refresh(self) -> None:
         scale = self._scale
         self._metric.setCurrentIndex(self._metric.findData(scale.metric))
         explain(self._metric, "Metric", _about(scale.metric))
-        self._map.setCurrentIndex(self._map.findData(scale.map))
+        self._show_map(scale.metric == "q-change")
         self._reverse.setChecked(scale.reverse)
         self._mode.set_value(scale.mode.value)
         for mode in (RangeMode.FULL, RangeMode.ACCEPTABLE):
@@ -216,7 +231,7 @@ def _combo() -> QComboBox:
 
 def _about(name: str) -> str:
     """What a metric declares of itself, as rich text."""
-    metric = METRICS[name]
+    metric = named(name)
     which = {1: "More is better.", -1: "Less is better.", 0: ""}[better(name)]
     full, acceptable = _range(metric.full_range), _range(metric.acceptable)
     lines = (
