@@ -68,9 +68,7 @@ def add_docks(
     window.setDockNestingEnabled(True)
     window.setCorner(Qt.Corner.BottomRightCorner, areas.RightDockWidgetArea)
     docks = {"tools": _dock(window, "tools", "Smooth, cut and colour", tools, areas.RightDockWidgetArea)}
-    below = docks["histogram"] = _dock(
-        window, "histogram", "Distribution of quality", histogram, areas.BottomDockWidgetArea
-    )
+    below = docks["histogram"] = _dock(window, "histogram", "Distribution", histogram, areas.BottomDockWidgetArea)
     for name, title, widget in tabs:
         docks[name] = _dock(window, name, title, widget, areas.BottomDockWidgetArea)
     first, *others = (docks[name] for name, _, _ in tabs)

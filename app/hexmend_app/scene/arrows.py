@@ -9,8 +9,11 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 from hexmend_app.scene.surface import set_points
 from hexmend_app.state.movement import NOTHING, Movement
 
-#: Arrows that are drawn at most, the longest first: so many take 10 ms a frame without a graphics card.
+#: Arrows that are drawn at most, the longest first: so many cost 20 ms of a moving frame without a graphics card.
 MOST = 5_000
+
+#: Arrows up to which they have a rim: of more, that would be all that is seen.
+_MANY = 1_000
 
 _INK, _RIM = "#11151c", "#ffffff"
 
@@ -48,10 +51,11 @@ class ArrowLayer:
         window = plotter.render_window
         window.SetNumberOfLayers(max(2, window.GetNumberOfLayers()))
         window.AddRenderer(self._inside)
-        self._poly = pv.PolyData()
+        self._points = pv.PolyData()
         self._front_actors = _actors(plotter.renderer)
         self._inside_actors = _actors(self._inside)
         self.drawn = self.moved = 0
+        self._through = self._fast = False
         self.hide()
 
     def hide(self) -> None:
@@ -85,18 +89,37 @@ class ArrowLayer:
         start = movement.before.points[chosen]
         places = arrows(start, factor * (movement.points[chosen] - start), _LONGEST * movement.unit)
         if chosen.size == self.drawn:
-            set_points(self._poly, places)
+            set_points(self._points, places)
         else:
-            self._poly = _poly(places)
-            for actor in (*self._front_actors, *self._inside_actors):
-                actor.GetMapper().SetInputData(self._poly)
+            self._points, heads = _polys(places)
+            for rim, shaft, head in (self._front_actors, self._inside_actors):
+                rim.GetMapper().SetInputData(self._points)
+                shaft.GetMapper().SetInputData(self._points)
+                head.GetMapper().SetInputData(heads)
         self.drawn, self.moved = chosen.size, moved
-        self._inside.DrawOn()
+        self._through = through
+        self._fit()
+
+    def set_fast(self, fast: bool) -> None:
+        """Leave out rims, and what is pale, which cost twice the rest, or draw all again."""
+        self._fast = fast
+        if self.drawn:
+            self._fit()
+
+    def _fit(self) -> None:
+        through, fine = self._through, not self._fast
+        rimmed = fine and self.drawn <= _MANY
+        rim, shaft, head = self._front_actors
+        for actor in (shaft, head):
+            actor.SetVisibility(not through)
+        rim.SetVisibility(not through and rimmed)
+        self._inside.SetDraw(through or fine)
         for actor in self._inside_actors:
             actor.GetProperty().SetOpacity(1.0 if through else _HIDDEN)
-        self._inside_actors[0].SetVisibility(through)  # a rim around what is pale would hide it
-        for actor in self._front_actors:
-            actor.SetVisibility(not through)
+        self._inside_actors[0].SetVisibility(through and rimmed)  # around what is pale it would be all that is seen
+        for _, shaft, head in (self._front_actors, self._inside_actors):
+            shaft.GetProperty().SetLineWidth(1.75 if fine else 1.0)
+            head.GetProperty().SetEdgeVisibility(rimmed)
 
 
 def arrows(start: np.ndarray, way: np.ndarray, longest: float) -> np.ndarray:
@@ -122,31 +145,35 @@ def arrows(start: np.ndarray, way: np.ndarray, longest: float) -> np.ndarray:
     return np.stack([start, neck, *corners, tip], axis=1).reshape(-1, 3)
 
 
-def _poly(places: np.ndarray) -> pv.PolyData:
+def _polys(places: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
+    """Shafts and heads, which share their points."""
     first = np.arange(0, len(places), _POINTS)[:, None, None]
     lines, faces = ((part[None] + first * (np.arange(part.shape[1]) > 0)).ravel() for part in (_SHAFT, _FACES))
-    return pv.PolyData(places, lines=lines, faces=faces)
+    shafts, heads = pv.PolyData(places, lines=lines), pv.PolyData(places, faces=faces)
+    heads.SetPoints(shafts.GetPoints())
+    return shafts, heads
 
 
-def _actors(renderer: vtkRenderer) -> list[vtkActor]:
-    """The rim and what it is around."""
-    made = []
-    for colour, width, before in ((_RIM, 4.0, -40.0), (_INK, 2.0, -80.0)):
-        mapper = vtkPolyDataMapper()
-        mapper.SetScalarVisibility(False)
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, before)
-        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, before)
-        actor = vtkActor()
-        actor.SetMapper(mapper)
-        actor.PickableOff()
-        how = actor.GetProperty()
-        how.SetColor(*pv.Color(colour).float_rgb)
-        how.SetLineWidth(width)
-        how.LightingOff()
-        if colour == _RIM:
-            how.EdgeVisibilityOn()
-            how.SetEdgeColor(*pv.Color(_RIM).float_rgb)
-        renderer.AddActor(actor)
-        made.append(actor)
-    return made
+def _actors(renderer: vtkRenderer) -> tuple[vtkActor, vtkActor, vtkActor]:
+    """The rim of shafts, shafts, and heads."""
+    rim, shaft, head = (_actor(renderer, *how) for how in ((_RIM, 3.5, -40.0), (_INK, 1.75, -80.0), (_INK, 1.0, -80.0)))
+    head.GetProperty().SetEdgeColor(*pv.Color(_RIM).float_rgb)
+    head.GetProperty().SetEdgeOpacity(0.6)
+    return rim, shaft, head
+
+
+def _actor(renderer: vtkRenderer, colour: str, width: float, before: float) -> vtkActor:
+    mapper = vtkPolyDataMapper()
+    mapper.SetScalarVisibility(False)
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, before)
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, before)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.PickableOff()
+    how = actor.GetProperty()
+    how.SetColor(*pv.Color(colour).float_rgb)
+    how.SetLineWidth(width)
+    how.LightingOff()
+    renderer.AddActor(actor)
+    return actor

@@ -395,6 +395,7 @@ class Viewport:
         if fast != self._fast:
             self._fast = fast
             self._structure.set_fast(fast)
+            self._arrows.set_fast(fast)
             if self._mesh is not None and self._faces.many:
                 self._rebuild(self.kept())
             elif self._mesh is not None:

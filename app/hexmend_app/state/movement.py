@@ -41,7 +41,11 @@ MOVEMENTS: dict[str, Metric] = {
     )
 }  # fmt: skip
 
-_SHORT = {"moved-most": "displacement", "moved-mean": "mean displacement", "q-change": "change of q(H)"}
+_SHORT = {
+    "moved-most": "mean edge lengths moved",
+    "moved-mean": "mean edge lengths moved on average",
+    "q-change": "change of q(H)",
+}
 
 #: What the colours of `q-change` set apart, in this order: numbers of `Movement.kinds`.
 NEWLY_INVERTED, STILL_INVERTED, MENDED = 1, 2, 3

@@ -41,12 +41,11 @@ class References:
         if since is Since.ITERATION and shown.number:
             kept = self._history.kept(record)
             before = history.Moment(record, int(kept[kept < shown.number].max()))
-            return self._state(before), before.name
+            if before.number:
+                return self._state(before), before.name
         return record.start, f"{record.name} began"
 
     def _state(self, moment: history.Moment) -> State:
-        if moment.number == 0:
-            return moment.record.start
         if self._measured is None or self._measured[0] != moment:
             self._measured = moment, self._history.state(moment, self._document.now.mesh)
         return self._measured[1]

@@ -160,6 +160,8 @@ class ColourBar(QWidget):
             for room in self._rooms(metrics):
                 swatches.append(QRectF(left, inside.top(), _SWATCH, _THICKNESS))
                 left += room + (_GAP if len(self._apart) == 1 else 0.6 * _GAP)
+            if len(self._apart) > 1:  # a single one has room to spare
+                left += metrics.horizontalAdvance(self._text(self._low)) / 2
             right = inside.right() - metrics.horizontalAdvance(self._label) - 8
             return swatches, QRectF(left, inside.top(), max(right - left, 1), _THICKNESS)
         top = inside.top() + metrics.height() + 4

@@ -37,9 +37,9 @@ _MAPS = {
     "cividis": "From blue to yellow; looks nearly the same to all kinds of colour vision.",
     "plasma": "From blue over red to yellow.",
     "inferno": "From black over red to pale yellow.",
+    DIVERGING: "For changes: from brown for worse over white for none to teal for better.",
 }
 _OF_VALUES = "All maps are perceptually uniform and readable without telling red from green."
-_OF_CHANGES = "Changes have a map of their own, in whose middle there is none: brown for worse, teal for better."
 _BOXES = (("low", 0.0), ("high", 1.0))
 
 
@@ -66,9 +66,7 @@ class ColourPanel(QWidget):
         self._metric.insertSeparator(len(METRICS))
         self._map = _combo()
         self._map.setIconSize(_SWATCH)
-        for at, name in enumerate(MAPS):
-            self._map.addItem(name, name)
-            self._map.setItemData(at, _MAPS.get(name, ""), Qt.ItemDataRole.ToolTipRole)
+        self._offer_maps(False)
         dress(self._map, self._paint_swatches)
         self._reverse = QCheckBox("Reverse")
         explain(self._reverse, "Reverse", "Swap the ends of the map. Without it, the dark end stands for the worst.")
@@ -81,7 +79,7 @@ class ColourPanel(QWidget):
         self._lay_out()
 
         self._metric.activated.connect(lambda: self.choose_metric(self._metric.currentData()))
-        self._map.activated.connect(lambda: self._change(map=self._map.currentData()))
+        self._map.activated.connect(self._on_map)
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
         self._mode.chosen.connect(lambda key: self._on_mode(RangeMode(key)))
         for box in (self._low, self._high):
@@ -141,6 +139,10 @@ class ColourPanel(QWidget):
             mode = RangeMode.FITTED
         self._change(metric=metric, mode=mode, pinned=pinned)
 
+    def _on_map(self) -> None:
+        if self._map.currentData() in MAPS:
+            self._change(map=self._map.currentData())
+
     def _on_mode(self, mode: RangeMode) -> None:
         pinned = self._scale.pinned
         if mode is RangeMode.PINNED and self._scale.mode is not mode:
@@ -191,23 +193,23 @@ class ColourPanel(QWidget):
                 box.set_value(end)
         self._show_problem()
 
-    def _show_map(self, change: bool) -> None:
-        """Offer the maps, or, for changes, say that they have their own."""
-        own = self._map.findData(DIVERGING)
-        if change and own < 0:
-            self._map.addItem("brown – teal", DIVERGING)
+    def _offer_maps(self, change: bool) -> None:
+        """Offer the maps, or, for changes, the one in whose middle there is none."""
+        offered = {DIVERGING: "brown – teal"} if change else {name: name for name in MAPS}
+        if self._map.findData(next(iter(offered))) < 0:
+            self._map.clear()
+            for at, (name, text) in enumerate(offered.items()):
+                self._map.addItem(text, name)
+                self._map.setItemData(at, _MAPS[name], Qt.ItemDataRole.ToolTipRole)
             self._paint_swatches()
-        elif not change and own >= 0:
-            self._map.removeItem(own)
-        self._map.setCurrentIndex(self._map.findData(DIVERGING if change else self._scale.map))
-        self._map.setEnabled(not change)
-        explain(self._map, "Colour map", _OF_CHANGES if change else _OF_VALUES)
+        self._map.setCurrentIndex(max(self._map.findData(self._scale.map), 0))
+        explain(self._map, "Colour map", _MAPS[DIVERGING] if change else _OF_VALUES)
 
     def _refresh(self) -> None:
         scale = self._scale
         self._metric.setCurrentIndex(self._metric.findData(scale.metric))
         explain(self._metric, "Metric", _about(scale.metric))
-        self._show_map(scale.metric == "q-change")
+        self._offer_maps(scale.metric == "q-change")
         self._reverse.setChecked(scale.reverse)
         self._mode.set_value(scale.mode.value)
         for mode in (RangeMode.FULL, RangeMode.ACCEPTABLE):

@@ -20,7 +20,7 @@ _SINCE = [
     (Since.RUN.value, "Run", "Compare with the mesh as the run began of which an iteration is shown."),
     (
         Since.ITERATION.value,
-        "Iteration before",
+        "Iteration",
         "Compare each iteration with the one before it, or with the nearest before it that is kept.",
     ),
 ]
@@ -29,7 +29,7 @@ _COLOURS = [
     ("moved-most", "Displacement", "Colour each element by the longest way that one of its nodes has gone."),
     (
         "q-change",
-        "Change of q",
+        "Δq",
         "Colour each element by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
         "elements have colours of their own.",
     ),
@@ -82,7 +82,7 @@ class MovementPanel(QWidget):
         explain(self.factor, "Length of arrows", _FACTOR)
         self.show_newly = QPushButton("Show newly inverted")
         self._named, self._drawn = note(), note()
-        self._figures = {name: _figure() for name in ("Nodes moved", "Way", "Elements", "Inverted")}
+        self._figures = {name: _figure() for name in ("Nodes", "Distance", "Elements", "Inverted")}
         self._lay_out()
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
         self.arrows.chosen.connect(lambda key: self._change(arrows=Arrows(key)))
@@ -99,23 +99,26 @@ class MovementPanel(QWidget):
         grid.setHorizontalSpacing(10)
         grid.setVerticalSpacing(6)
         grid.setColumnStretch(1, 1)
-        arrows = QHBoxLayout()
-        arrows.addWidget(self.arrows, 1)
-        arrows.addWidget(self.factor)
-        rows = (("Compare with", self.since), ("Colours", self.colours), ("Arrows", arrows))
+        lengths = QHBoxLayout()
+        lengths.addWidget(self.factor)
+        lengths.addWidget(self._drawn, 1)
+        rows = (("Since", self.since), ("Colours", self.colours), ("Arrows", self.arrows))
         for row, (text, part) in enumerate(rows):
             label = QLabel(text)
             grid.addWidget(label, row, 0)
-            grid.addWidget(part, row, 1) if isinstance(part, QWidget) else grid.addLayout(part, row, 1)
-        grid.addWidget(self._drawn, 3, 1)
+            label.setBuddy(part)
+            grid.addWidget(part, row, 1)
+        grid.addLayout(lengths, 3, 1)
         grid.addWidget(self._named, 4, 0, 1, 2)
-        for row, (text, label) in enumerate(self._figures.items(), start=5):
-            grid.addWidget(QLabel(text), row, 0)
-            grid.addWidget(label, row, 1)
         last = QHBoxLayout()
         last.addWidget(self._figures["Inverted"], 1)
         last.addWidget(self.show_newly)
-        grid.addLayout(last, 8, 1)
+        for row, (text, label) in enumerate(self._figures.items(), start=5):
+            grid.addWidget(QLabel(text), row, 0)
+            if text == "Inverted":
+                grid.addLayout(last, row, 1)
+            else:
+                grid.addWidget(label, row, 1)
         grid.setRowStretch(9, 1)
 
     # What is shown
@@ -164,9 +167,9 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
     """What arrows there are and how long they are.
 
     >>> arrows_in_words(Traces(arrows=Arrows.ALL, factor=10), 5000, 28899)
-    'The 5,000 longest of 28,899 arrows, 10 times as long as the ways of their nodes.'
+    'The 5,000 longest of 28,899 arrows, 10 times true length.'
     >>> arrows_in_words(Traces(arrows=Arrows.ALL), 1, 1)
-    '1 arrow, as long as the ways of their nodes.'
+    '1 arrow, of true length.'
     """
     if traces.arrows is Arrows.NONE:
         return f"At most the {MOST:,} longest are drawn."
@@ -174,15 +177,15 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
         where = "Of the nodes in sight none" if traces.arrows is Arrows.SIGHT else "No node of what is shown"
         return f"{where} has moved."
     these = f"The {drawn:,} longest of {moved:,} arrows" if drawn < moved else counted(drawn, "arrow")
-    times = "" if traces.factor == 1 else f"{short_number(traces.factor)} times "
-    return f"{these}, {times}as long as the ways of their nodes."
+    times = "of" if traces.factor == 1 else f"{short_number(traces.factor)} times"
+    return f"{these}, {times} true length."
 
 
 def _texts(counts: Counts, free: int) -> tuple[str, str, str, str]:
     unit = "mean edge lengths"
     way = f"{figure(counts.mean)} {unit} on average, {figure(counts.largest)} at most" if counts.moved else "–"
     return (
-        f"{counts.moved:,} of {free:,} free",
+        f"{counts.moved:,} moved, of {free:,} free",
         way,
         f"{counts.better:,} better, {counts.worse:,} worse",
         f"{counts.newly_inverted:,} newly, {counts.mended:,} mended",
