@@ -49,6 +49,8 @@ class Smoothing(QObject):
     phase_changed
     iterated(Frame)
         The newest iteration; those between two looks are not shown, but in the history.
+    hit(Frame)
+        The run has reached a break-point and pauses.
     ended(Result)
         The run is over, and the document holds its last iteration as one change.
     failed(Exception)
@@ -57,6 +59,7 @@ class Smoothing(QObject):
 
     phase_changed = Signal()
     iterated = Signal(object)
+    hit = Signal(object)
     ended = Signal(object)
     failed = Signal(object)
 
@@ -169,7 +172,7 @@ class Smoothing(QObject):
         worker = self._worker
         if worker is None:
             return
-        over = worker.isFinished()
+        over, waits = worker.isFinished(), worker.waiting  # before the mailbox is emptied
         frame = worker.mailbox.take()
         if frame is not None and not over:
             self._show(frame)
@@ -179,12 +182,17 @@ class Smoothing(QObject):
             self._said = True
             self.phase_changed.emit()
         elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
-            self._set_phase(Phase.PAUSED if worker.waiting else Phase.RUNNING)
+            self._set_phase(Phase.PAUSED if waits else Phase.RUNNING)
 
     def _show(self, frame: Frame) -> None:
+        if frame.hit is not None:
+            self.record.pauses[frame.iteration.number] = frame.hit.sentence
+            self.following = True
         if self.following:
             self._preview(frame)
         self.iterated.emit(frame)
+        if frame.hit is not None:
+            self.hit.emit(frame)
 
     def _preview(self, frame: Frame) -> None:
         self._history.note(frame.state, Moment(self.record, frame.iteration.number))

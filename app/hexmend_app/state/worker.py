@@ -77,6 +77,7 @@ class Worker(QThread):
         self._gate = threading.Condition()
         self._granted: float = 0  # iterations that may still be made; infinite while running
         self._ended = False
+        self._waits = False  # at the gate
 
     def grant(self, iterations: float) -> None:
         """Let that many further iterations pass; infinity runs on, 0 pauses after the one at hand."""
@@ -98,8 +99,8 @@ class Worker(QThread):
 
     @property
     def waiting(self) -> bool:
-        """Whether the worker has used up its grant."""
-        return self._granted <= 0
+        """Whether the worker has used up its grant, and made its last iteration."""
+        return self._waits and self._granted <= 0
 
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
@@ -142,7 +143,9 @@ class Worker(QThread):
 
     def _may_go_on(self, run: Run) -> bool:
         with self._gate:
+            self._waits = True
             while run.outcome is None and not self._ended and self._granted <= 0:
                 self._gate.wait()
+            self._waits = False
             self._granted -= 1
             return run.outcome is None and not self._ended
