@@ -38,6 +38,8 @@ class Record:
         The result, as it was.
     message : str
         What came out, in sentences; "" until it has ended.
+    pauses : dict
+        The break-points that it paused at, in words, by the number of the iteration.
     """
 
     def __init__(self, name: str, title: str, start: State, parent: Moment | None):
@@ -46,6 +48,7 @@ class Record:
         self.result: int | None = None
         self.end: State | None = None
         self.message = ""
+        self.pauses: dict[int, str] = {}
         self._free = np.flatnonzero(start.mesh.free).astype(np.int32)
         self._offsets: dict[int, np.ndarray] = {}  # of free nodes from the start, float32, by number
 
@@ -56,7 +59,8 @@ class Record:
 
     def numbers(self) -> np.ndarray:
         """Numbers of the iterations whose positions are there, ascending, (k,) int."""
-        return np.array(sorted({0, *self._offsets} | ({self.result} if self.end is not None else set())))
+        numbers = np.array([0, *self._offsets])  # a dict keeps the order of adding
+        return numbers if self.end is None or self.result in self._offsets else np.union1d(numbers, self.result)
 
     def compact(self, points: np.ndarray) -> np.ndarray:
         """How far the free nodes are from where they started, (free nodes, 3) float32."""

@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend import compiling
 from hexmend.optimise import Result
+from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
 from hexmend.smoothers import Smoother
 from hexmend_app.state.breakpoints import Breakpoints
@@ -49,6 +50,8 @@ class Smoothing(QObject):
     phase_changed
     iterated(Frame)
         The newest iteration; those between two looks are not shown, but in the history.
+    hit(Frame)
+        The run has reached a break-point and pauses.
     ended(Result)
         The run is over, and the document holds its last iteration as one change.
     failed(Exception)
@@ -57,6 +60,7 @@ class Smoothing(QObject):
 
     phase_changed = Signal()
     iterated = Signal(object)
+    hit = Signal(object)
     ended = Signal(object)
     failed = Signal(object)
 
@@ -88,8 +92,8 @@ class Smoothing(QObject):
         """Whether kernels had to be compiled since the run was asked for."""
         return compiling.begun > self._compiled
 
-    def start(self, smoother: Smoother, stop: Stop, iterations: float = math.inf) -> None:
-        """Begin a run on the document's mesh and make that many iterations of it."""
+    def start(self, smoother: Smoother | Recipe, stop: Stop | None, iterations: float = math.inf) -> None:
+        """Begin a run on the document's mesh and make that many iterations of it; a recipe has limits of its own."""
         if self.busy or not self._document.is_open:
             return
         self._before = self._document.now
@@ -141,6 +145,11 @@ class Smoothing(QObject):
             self._worker.grant_more(iterations)
             self._look()
 
+    def change(self, stage: Stage) -> None:
+        """Do the rest of the stage at hand by another method, with other values or other limits."""
+        if self._worker is not None:
+            self._worker.change(stage)
+
     def stop(self) -> None:
         """End the run after the iteration at hand, or once it is prepared; what was reached stays."""
         if self._worker is not None:
@@ -169,7 +178,7 @@ class Smoothing(QObject):
         worker = self._worker
         if worker is None:
             return
-        over = worker.isFinished()
+        over, waits = worker.isFinished(), worker.waiting  # before the mailbox is emptied
         frame = worker.mailbox.take()
         if frame is not None and not over:
             self._show(frame)
@@ -179,12 +188,17 @@ class Smoothing(QObject):
             self._said = True
             self.phase_changed.emit()
         elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
-            self._set_phase(Phase.PAUSED if worker.waiting else Phase.RUNNING)
+            self._set_phase(Phase.PAUSED if waits else Phase.RUNNING)
 
     def _show(self, frame: Frame) -> None:
+        if frame.hit is not None:
+            self.record.pauses[frame.iteration.number] = frame.hit.sentence
+            self.following = True
         if self.following:
             self._preview(frame)
         self.iterated.emit(frame)
+        if frame.hit is not None:
+            self.hit.emit(frame)
 
     def _preview(self, frame: Frame) -> None:
         self._history.note(frame.state, Moment(self.record, frame.iteration.number))

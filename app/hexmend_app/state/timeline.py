@@ -22,16 +22,21 @@ class Timeline(QObject):
     ----------
     record : Record or None
         The run that is gone through.
+    speed : float
+        Iterations that are played a second.
 
     Signals
     -------
+    runs_changed
+        There is another run, or one less.
     grown
-        There are more iterations, or the runs are others.
+        There are more iterations, or another run is gone through.
     moved
         Another iteration is shown, or none.
     playing_changed
     """
 
+    runs_changed = Signal()
     grown = Signal()
     moved = Signal()
     playing_changed = Signal()
@@ -42,11 +47,13 @@ class Timeline(QObject):
         self._smoothing = smoothing
         self.history = history
         self.record: Record | None = None
+        self.speed: float = SPEED
+        self._runs: list[Record] = []
         self._shown: Moment | None = None
         self._wanted: Moment | None = None
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self._go_where_wanted)
-        self._clock = QTimer(self, interval=1000 // SPEED)
+        self._clock = QTimer(self)
         self._clock.timeout.connect(self._play_on)
         document.mesh_replaced.connect(self._on_another)
         document.points_moved.connect(self._on_moved)
@@ -89,14 +96,26 @@ class Timeline(QObject):
         self.hold()
         self._go_on(by)
 
-    def play(self, speed: float = SPEED) -> None:
-        """Show the kept iterations one after another, so many a second, from here on; at the end, from the start."""
+    def go_to_newest(self) -> None:
+        """Show the newest iteration, and, while the run goes on, those that come."""
+        self.hold()
+        if self._smoothing.busy and self.record is self._smoothing.record:
+            self._smoothing.follow(True)
+        elif self.record is not None:
+            self.go(self.record, self.record.newest)
+
+    def set_speed(self, speed: float) -> None:
+        """Play so many iterations a second."""
+        self.speed = speed
+        self._clock.setInterval(round(1000 / speed))
+
+    def play(self) -> None:
+        """Show the kept iterations one after another from here on; at the end, from the start."""
         if self.record is None:
             return
-        self._clock.setInterval(round(1000 / speed))
         if self._shown is None or self._shown.number >= self.record.newest:
             self.go(self.record, 0)
-        self._clock.start()
+        self._clock.start(round(1000 / self.speed))
         self.playing_changed.emit()
 
     def hold(self) -> None:
@@ -124,6 +143,9 @@ class Timeline(QObject):
             self.hold()
             self.record = self.history.records[-1] if self.history.records else None
         self._on_moved()
+        if self._runs != self.history.records:
+            self._runs = list(self.history.records)
+            self.runs_changed.emit()
         self.grown.emit()
 
     def _go_on(self, by: int) -> None:

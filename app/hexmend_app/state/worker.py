@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,11 +14,15 @@ from PySide6.QtCore import QThread
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
+from hexmend.recipe import Recipe, Stage
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
 from hexmend_app.state.breakpoints import Breakpoints, Hit
 from hexmend_app.state.document import State
 from hexmend_app.state.measured import values
+
+#: How far the worker stands back behind the window, as `nice` counts.
+_NICE = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,18 +57,19 @@ class Mailbox:
 
 
 class Worker(QThread):
-    """Runs one smoother on one mesh, one iteration at a time as the gate lets it.
+    """Runs a smoother or a recipe on one mesh, one iteration at a time as the gate lets it.
 
     Parameters
     ----------
     mesh : Mesh
-    smoother : Smoother
-    stop : Stop
+    smoother : Smoother or Recipe
+    stop : Stop, optional
+        None for the recipe's own.
     keep : callable
         Called with every iteration, number 0 first, in the thread.
     """
 
-    def __init__(self, mesh: Mesh, smoother: Smoother, stop: Stop, keep: Callable[[Iteration], object]):
+    def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None, keep: Callable[[Iteration], object]):
         super().__init__()
         self.setObjectName(f"smoother {smoother.name}")
         self.mailbox = Mailbox()
@@ -77,6 +84,8 @@ class Worker(QThread):
         self._gate = threading.Condition()
         self._granted: float = 0  # iterations that may still be made; infinite while running
         self._ended = False
+        self._waits = False  # at the gate
+        self._change: Stage | None = None  # how the rest of the stage is to be done
 
     def grant(self, iterations: float) -> None:
         """Let that many further iterations pass; infinity runs on, 0 pauses after the one at hand."""
@@ -90,6 +99,11 @@ class Worker(QThread):
             self._granted = iterations if self._granted == float("inf") else max(self._granted, 0) + iterations
             self._gate.notify_all()
 
+    def change(self, stage: Stage) -> None:
+        """Do the rest of the stage at hand otherwise, from the next iteration on."""
+        with self._gate:
+            self._change = stage
+
     def end(self) -> None:
         """End the run after the iteration at hand, paused or not."""
         with self._gate:
@@ -98,12 +112,13 @@ class Worker(QThread):
 
     @property
     def waiting(self) -> bool:
-        """Whether the worker has used up its grant."""
-        return self._granted <= 0
+        """Whether the worker has used up its grant, and made its last iteration."""
+        return self._waits and self._granted <= 0
 
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
         try:
+            _give_way()
             # One core stays with the window; results do not depend on the number of threads.
             numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
             mesh, smoother, stop = self._order
@@ -142,7 +157,20 @@ class Worker(QThread):
 
     def _may_go_on(self, run: Run) -> bool:
         with self._gate:
+            self._waits = True
             while run.outcome is None and not self._ended and self._granted <= 0:
                 self._gate.wait()
+            self._waits = False
             self._granted -= 1
-            return run.outcome is None and not self._ended
+            change, self._change = self._change, None
+            ended = self._ended
+        if change is not None and run.outcome is None and not ended:
+            run.go_on_with(change.smoother, change.stop)  # which may have to compile: the window must not wait for it
+        return run.outcome is None and not ended
+
+
+def _give_way() -> None:
+    """Let the window's threads go first where they want the same core: a frame that waits is seen, a step is not."""
+    if hasattr(os, "setpriority"):
+        with contextlib.suppress(OSError):  # where the system does not know priorities of threads
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)

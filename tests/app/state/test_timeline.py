@@ -108,12 +108,14 @@ def test_it_plays_to_the_end_and_holds(session, qtbot):
     record = run(qtbot, session)
     shown = []
     session.timeline.moved.connect(lambda: shown.append(session.timeline.moment.number))
-    session.timeline.play(100)
+    session.timeline.speed = 100
+    session.timeline.play()
     assert session.timeline.playing
     qtbot.waitUntil(lambda: not session.timeline.playing, timeout=5000)
     assert shown == list(range(13))
     session.timeline.go(record, 6)
-    session.timeline.play(100)
+    session.timeline.speed = 100
+    session.timeline.play()
     session.timeline.step(-1)
     assert not session.timeline.playing
 
