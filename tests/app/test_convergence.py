@@ -85,7 +85,7 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
 
 def test_what_is_behind_other_docks_is_drawn_as_it_comes_to_the_front(window, qtbot):
     run(window, qtbot)
-    assert window.convergence_panel.curves == ()
+    assert len(window.convergence_panel.curves) == 0
     window.docks["convergence"].raise_()
     qtbot.waitUntil(lambda: len(window.convergence_panel.curves) == 1, timeout=3000)
 
@@ -106,7 +106,7 @@ def test_the_charts_are_saved_as_figures_and_all_figures_of_all_runs_as_a_table(
         assert window.saving.convergence(path, window.converging.write)
         assert path.read_bytes().startswith(start)
     assert window.saving.convergence(tmp_path / "charts.csv", window.converging.write)
-    rows = list(csv.DictReader((tmp_path / "charts.csv").open()))
+    rows = list(csv.DictReader((tmp_path / "charts.csv").read_text().splitlines()))
     assert len(rows) == len(first.rows) + len(second.rows)
     assert float(rows[1]["gradient_norm"]) == first.rows[1]["gradient_norm"]
     assert rows[-1]["run"] == second.name

@@ -125,8 +125,9 @@ class ConvergencePanel(QWidget):
         self._none.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._charts, self._runs = _scrolled(stack), _scrolled(self.legend)
         buttons = QHBoxLayout()
-        self.which.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.which.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (self.which, self.more):
+            part.setFixedHeight(self.axis.sizeHint().height())
             buttons.addWidget(part)
         self._head = QBoxLayout(QBoxLayout.Direction.TopToBottom)
         self._head.addLayout(buttons, 1)

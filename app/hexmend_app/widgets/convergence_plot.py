@@ -265,12 +265,20 @@ class ConvergencePlot(QWidget):
         self.hovered.emit(place if self.view.sceneBoundingRect().contains(place) else None)
 
 
+class _Points(pg.ScatterPlotItem):
+    """Points that leave clicks to what is behind them."""
+
+    def mouseClickEvent(self, ev) -> None:
+        """Leave it."""
+        ev.ignore()
+
+
 class _Line:
     """What one quantity of one run is drawn with, anew only where it has changed."""
 
     def __init__(self) -> None:
         self._curve = pg.PlotCurveItem(connect="finite", skipFiniteCheck=False)
-        self._points = pg.ScatterPlotItem(pen=None)
+        self._points = _Points(pen=None)
         self.items = (self._curve, self._points)
         self._how: tuple = ()
         self._what: tuple = ()
