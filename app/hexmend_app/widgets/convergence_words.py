@@ -35,7 +35,9 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
     nearest = int(kept[np.abs(kept - number).argmin()])
     gone = "" if nearest == number else f" (nearest kept: {nearest})"
     seconds = f" at {curve.columns.seconds[number]:.3g} s" if by_time else ""
-    return f"{curve.record.name} {number}{seconds}: {', '.join(figures)}{gone}"
+    pause = curve.record.pauses.get(number)
+    paused = f"\n    paused there: {pause}" if pause else ""
+    return f"{curve.record.name} {number}{seconds}: {', '.join(figures)}{gone}{paused}"
 
 
 def _significant(value: float) -> str:
