@@ -58,6 +58,7 @@ def movement(window: Window) -> None:
     cut(window)
     window.view.change(traces=Traces(arrows=Arrows.SIGHT))
     window.colour_panel.choose_metric("moved-most")
+    window.canvas.look_along("+x")
 
 
 def change(window: Window) -> None:
@@ -87,6 +88,7 @@ def main(folder: Path) -> None:
             window = opened(path, (1240, 780))
             scene(window)
             shoot(window, folder / f"watch-{scene.__name__}.png")
+            window.commands.reset()  # to what is recorded, or closing would ask
             shut(window)
     choose(Choice.LIGHT)
 

@@ -146,7 +146,7 @@ class Window(QMainWindow):
         ]
         behind = [
             ("convergence", "Convergence", self.convergence_panel),
-            ("movement", "Movement", self.movement_panel),
+            ("movement", "Movement", column(self.movement_panel)),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs, behind)
         self.statusBar().addWidget(self.counts, 1)

@@ -156,7 +156,7 @@ def _polys(places: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
 
 def _actors(renderer: vtkRenderer) -> tuple[vtkActor, vtkActor, vtkActor]:
     """The rim of shafts, shafts, and heads."""
-    rim, shaft, head = (_actor(renderer, *how) for how in ((_RIM, 3.5, -40.0), (_INK, 1.75, -80.0), (_INK, 1.0, -80.0)))
+    rim, shaft, head = (_actor(renderer, *how) for how in ((_RIM, 3.0, -40.0), (_INK, 1.75, -80.0), (_INK, 1.0, -80.0)))
     head.GetProperty().SetEdgeColor(*pv.Color(_RIM).float_rgb)
     head.GetProperty().SetEdgeOpacity(0.6)
     return rim, shaft, head

@@ -9,8 +9,9 @@ import numpy as np
 from hexmend.report.convergence import DrawnChart, DrawnCurve, write_convergence_figure
 from hexmend.report.documents import write_csv
 from hexmend_app.state.convergence import Curve
+from hexmend_app.widgets.convergence_line import colour_of
 from hexmend_app.widgets.convergence_panel import ConvergencePanel
-from hexmend_app.widgets.convergence_plot import ConvergencePlot, colour_of
+from hexmend_app.widgets.convergence_plot import ConvergencePlot
 
 
 def write_convergence(path: Path, panel: ConvergencePanel, title: str) -> None:

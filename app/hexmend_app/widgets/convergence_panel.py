@@ -222,7 +222,7 @@ class ConvergencePanel(QWidget):
         self._foot = foot
         spare = 0.012 * (high - low)
         ticks = [(tick, f"{tick:,.6g}") for tick in nice_ticks(low, high, 8) if self.by_time or tick == round(tick)]
-        left = self.fontMetrics().horizontalAdvance("0,000,000")
+        left = self.fontMetrics().horizontalAdvance("000,000")
         label = "seconds in the method" if self.by_time else "iteration"
         for plot in self.drawn:
             plot.set_span(low - spare, high + spare)

@@ -3,31 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, Qt, Signal
-from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.state.convergence import Chart, Curve, Quantity, thinned
 from hexmend_app.state.history import Record
-from hexmend_app.state.theme import TEXT, Role
-from hexmend_app.widgets.colour_bar import nice_ticks
-from hexmend_app.widgets.histogram_legend import KEPT_COLOURS
+from hexmend_app.state.theme import TEXT
+from hexmend_app.widgets.convergence_axis import UNIT, plain, powers
+from hexmend_app.widgets.convergence_line import MOST, RunLine, colour_of
 from hexmend_app.widgets.plots import calm_plot
-from hexmend_app.widgets.style import BLUE, dress, explain, note, smaller
-
-#: Colours of runs, by slot; after the last, the first again.
-RUN_COLOURS = (BLUE, *KEPT_COLOURS)
+from hexmend_app.widgets.style import dress, explain, note, smaller
 
 _STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine)
 _DASHES = ("—", "- -")
-
-#: Points up to which each is marked, so that a run of one step is seen, and points of which a curve is drawn at most: a
-#: thick line of a thousand takes longer to paint than all else.
-_FEW, _MOST = 40, 400
 
 #: Pixels from a curve within which a click means it rather than the run that is gone through.
 _REACH = 12
@@ -98,12 +90,11 @@ class ConvergencePlot(QWidget):
         self.plot.addItem(self._mark, ignoreBounds=True)
         self.plot.getAxis("bottom").setStyle(showValues=False)
         self.plot.getAxis("bottom").label.setFont(smaller(self.font()))
-        self._lines: dict[tuple[int, str], _Line] = {}
+        self._lines: dict[tuple[int, str], RunLine] = {}
         self._curves: Sequence[Curve] = ()
         self._by_time = self._log = False
         self._held: Record | None = None  # whose curve a drag has hold of
-        self._floor: float | None = None  # where zero is drawn on an axis of powers of ten
-        self._scale: tuple | None = None
+        self._scale = UNIT
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -135,13 +126,13 @@ class ConvergencePlot(QWidget):
     def _draw_curve(self, curve: Curve, quantity: Quantity, style: Qt.PenStyle) -> None:
         line = self._lines.get((curve.slot, quantity.key))
         if line is None:
-            line = self._lines[curve.slot, quantity.key] = _Line()
+            line = self._lines[curve.slot, quantity.key] = RunLine()
             for item in line.items:
                 self.plot.addItem(item, ignoreBounds=True)
         how = (str(colour_of(curve)), curve.current, style)
-        what = (curve.record, len(curve.columns), curve.begins, self._by_time, self.is_log, self._floor)
+        what = (curve.record, len(curve.columns), curve.begins, self._by_time, self.is_log, self._scale.floor)
         line.draw(
-            how, what, lambda: thinned(curve.x(self._by_time), self.heights(curve.columns.of(quantity.key)), _MOST)
+            how, what, lambda: thinned(curve.x(self._by_time), self.heights(curve.columns.of(quantity.key)), MOST)
         )
 
     def heights(self, values: np.ndarray) -> np.ndarray:
@@ -150,8 +141,8 @@ class ConvergencePlot(QWidget):
             return values
         with np.errstate(divide="ignore", invalid="ignore"):
             heights = np.log10(values)
-        if self._floor is not None:
-            heights[values <= 0] = self._floor
+        if self._scale.floor is not None:
+            heights[values <= 0] = self._scale.floor
         return heights
 
     @property
@@ -184,40 +175,15 @@ class ConvergencePlot(QWidget):
         bottom.resizeEvent()
 
     def _fit(self) -> None:
-        """Let the axis of figures reach as far as they do, in steps, so that it seldom changes."""
+        """Let the axis of figures reach as far as they do."""
         parts = [curve.columns.of(one.key) for curve in self._curves for one in self.chart.quantities]
         known = np.concatenate([*parts, np.empty(0)])
-        known = known[np.isfinite(known)]
-        scale = self._powers(known) if self.is_log else self._plain(known)
+        known, whole = known[np.isfinite(known)], self.chart.quantities[0].whole
+        scale = UNIT if self.chart.key == "quality" else (powers if self.is_log else plain)(known, whole)
         if scale != self._scale:
             self._scale = scale
-            (low, high), ticks = scale[:2]
-            self.plot.getAxis("left").setTicks([list(ticks)])
-            self.plot.setYRange(low, high, padding=0.08)
-
-    def _plain(self, known: np.ndarray) -> tuple:
-        self._floor = None
-        if self.chart.key == "quality":
-            return (0.0, 1.0), ((0.0, "0"), (0.5, "0.5"), (1.0, "1"))
-        top = float(known.max()) if known.size else 1.0
-        high = _round_up(top if top > 0 else 1.0)
-        ticks = nice_ticks(0, high, 3)
-        if self.chart.quantities[0].whole:
-            ticks = [tick for tick in ticks if tick == round(tick)]
-        return (0.0, high), tuple((tick, f"{tick:,.4g}") for tick in ticks)
-
-    def _powers(self, known: np.ndarray) -> tuple:
-        above = known[known > 0]
-        low, high = (math.floor(math.log10(above.min())), math.log10(above.max())) if above.size else (0, 1)
-        high = max(math.ceil(4 * high) / 4, low + 1)
-        least = 0 if self.chart.quantities[0].whole else low
-        self._floor = float(least - 1) if (known <= 0).any() else None
-        step = max(1, -(-(math.floor(high) - low + (self._floor is not None)) // 2))
-        ticks = [(float(k), _power(k)) for k in range(math.floor(high), low - 1, -step)]
-        if self._floor is not None:
-            ticks = [tick for tick in ticks if tick[0] - self._floor > 0.2 * (high - self._floor)]
-            ticks.append((self._floor, "0"))
-        return (float(low) if self._floor is None else self._floor, high), tuple(ticks)
+            self.plot.getAxis("left").setTicks([list(scale.ticks)])
+            self.plot.setYRange(scale.low, scale.high, padding=0.08)
 
     def _words(self) -> str:
         quantities = self.chart.quantities
@@ -263,67 +229,3 @@ class ConvergencePlot(QWidget):
 
     def _on_moved(self, place: QPointF) -> None:
         self.hovered.emit(place if self.view.sceneBoundingRect().contains(place) else None)
-
-
-class _Points(pg.ScatterPlotItem):
-    """Points that leave clicks to what is behind them."""
-
-    def mouseClickEvent(self, ev) -> None:
-        """Leave it."""
-        ev.ignore()
-
-
-class _Line:
-    """What one quantity of one run is drawn with, anew only where it has changed."""
-
-    def __init__(self) -> None:
-        self._curve = pg.PlotCurveItem(connect="finite", skipFiniteCheck=False)
-        self._points = _Points(pen=None)
-        self.items = (self._curve, self._points)
-        self._how: tuple = ()
-        self._what: tuple = ()
-
-    def draw(self, how: tuple[str, bool, Qt.PenStyle], what: tuple, find: Callable) -> None:
-        """Draw in a colour, strongly or not, in a style; `find` gives x and y of `what`."""
-        if how != self._how:
-            name, strong, style = how
-            colour = QColor(name)
-            colour.setAlphaF(1.0 if strong else 0.65)
-            self._curve.setPen(pg.mkPen(colour, width=2.0 if strong else 1.0, style=style))
-            self._points.setBrush(colour)
-            self._points.setSize(5 if strong else 4)
-            for item in self.items:
-                item.setZValue(10 if strong else 0)
-        if what != self._what:
-            x, y = find()
-            finite = np.isfinite(y)
-            self._curve.setData(x, y) if finite.any() else self._curve.clear()
-            few = len(x) <= _FEW
-            self._points.setVisible(few)
-            if few:
-                self._points.setData(x[finite], y[finite])
-        self._how, self._what = how, what
-
-
-def colour_of(curve: Curve) -> Role:
-    """The colour of a run."""
-    return RUN_COLOURS[curve.slot % len(RUN_COLOURS)]
-
-
-def _round_up(value: float) -> float:
-    """1, 1.5, 2, 3, 5 or 7 times a power of ten, at least `value`.
-
-    >>> _round_up(0.8), _round_up(1.2), _round_up(640)
-    (1.0, 1.5, 700.0)
-    """
-    power = 10.0 ** math.floor(math.log10(value))
-    return next(m * power for m in (1, 1.5, 2, 3, 5, 7, 10) if m * power >= value * (1 - 1e-9))
-
-
-def _power(exponent: int) -> str:
-    """A power of ten as it is read most easily.
-
-    >>> _power(3), _power(-1), _power(-7)
-    ('1,000', '0.1', '1e−7')
-    """
-    return f"{10.0**exponent:,g}" if -3 <= exponent <= 4 else f"1e{exponent}".replace("-", "−")

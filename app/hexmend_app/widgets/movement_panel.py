@@ -44,6 +44,12 @@ _ARROWS = [
     ),
     (Arrows.ALL.value, "All shown", "Arrows of all elements that are shown, through whatever is before them."),
 ]
+_FIGURES = {
+    "Nodes": "Nodes that are elsewhere than they were.",
+    "Distance": "How far these are from where they were, in mean edge lengths of the mesh as it was opened.",
+    "Elements": "Elements whose q(H) is higher or lower than it was.",
+    "Inverted": "Elements that were not inverted and are, and that were and no longer are.",
+}
 _FACTOR = "How many times as long as the way of their nodes arrows are drawn."
 
 
@@ -81,8 +87,8 @@ class MovementPanel(QWidget):
         self.factor.setFont(tabular(self.factor.font()))
         explain(self.factor, "Length of arrows", _FACTOR)
         self.show_newly = QPushButton("Show newly inverted")
-        self._named, self._drawn = note(), note()
-        self._figures = {name: _figure() for name in ("Nodes", "Distance", "Elements", "Inverted")}
+        self._drawn = note()
+        self._figures = {name: _figure() for name in _FIGURES}
         self._lay_out()
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
         self.arrows.chosen.connect(lambda key: self._change(arrows=Arrows(key)))
@@ -95,11 +101,12 @@ class MovementPanel(QWidget):
 
     def _lay_out(self) -> None:
         grid = QGridLayout(self)
-        grid.setContentsMargins(8, 6, 8, 6)
+        grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(10)
-        grid.setVerticalSpacing(6)
+        grid.setVerticalSpacing(5)
         grid.setColumnStretch(1, 1)
         lengths = QHBoxLayout()
+        lengths.setSpacing(8)
         lengths.addWidget(self.factor)
         lengths.addWidget(self._drawn, 1)
         rows = (("Since", self.since), ("Colours", self.colours), ("Arrows", self.arrows))
@@ -109,17 +116,17 @@ class MovementPanel(QWidget):
             label.setBuddy(part)
             grid.addWidget(part, row, 1)
         grid.addLayout(lengths, 3, 1)
-        grid.addWidget(self._named, 4, 0, 1, 2)
         last = QHBoxLayout()
         last.addWidget(self._figures["Inverted"], 1)
         last.addWidget(self.show_newly)
-        for row, (text, label) in enumerate(self._figures.items(), start=5):
+        for row, (text, label) in enumerate(self._figures.items(), start=4):
             grid.addWidget(QLabel(text), row, 0)
+            explain(label, text, _FIGURES[text])
             if text == "Inverted":
                 grid.addLayout(last, row, 1)
             else:
                 grid.addWidget(label, row, 1)
-        grid.setRowStretch(9, 1)
+        grid.setRowStretch(8, 1)
 
     # What is shown
 
@@ -146,8 +153,7 @@ class MovementPanel(QWidget):
         self.show_newly.setEnabled(counts is not None and counts.newly_inverted > 0)
         why = "None is." if counts is None or not counts.newly_inverted else "Isolate them; Esc shows the rest again."
         explain(self.show_newly, "Show newly inverted", f"Elements that were not inverted then and are now. {why}")
-        self._named.setText(f"Since {name}:" if counts is not None else "No mesh is open.")
-        texts = ("", "", "", "") if counts is None else _texts(counts, free)
+        texts = ("No mesh is open.", "", "", "") if counts is None else _texts(counts, name, free)
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)
 
@@ -181,11 +187,10 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
     return f"{these}, {times} true length."
 
 
-def _texts(counts: Counts, free: int) -> tuple[str, str, str, str]:
-    unit = "mean edge lengths"
-    way = f"{figure(counts.mean)} {unit} on average, {figure(counts.largest)} at most" if counts.moved else "–"
+def _texts(counts: Counts, name: str, free: int) -> tuple[str, str, str, str]:
+    way = f"{figure(counts.mean)} on average, {figure(counts.largest)} at most" if counts.moved else "–"
     return (
-        f"{counts.moved:,} moved, of {free:,} free",
+        f"{counts.moved:,} of {free:,} free, since {name}",
         way,
         f"{counts.better:,} better, {counts.worse:,} worse",
         f"{counts.newly_inverted:,} newly, {counts.mended:,} mended",
@@ -195,4 +200,5 @@ def _texts(counts: Counts, free: int) -> tuple[str, str, str, str]:
 def _figure() -> QLabel:
     label = note()
     label.setFont(tabular(label.font()))
+    label.setWordWrap(False)
     return label

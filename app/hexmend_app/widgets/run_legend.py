@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSizePolicy, QToolButton, 
 from hexmend_app.state.convergence import Curve
 from hexmend_app.state.history import Record
 from hexmend_app.state.theme import HOVER
-from hexmend_app.widgets.convergence_plot import colour_of
+from hexmend_app.widgets.convergence_line import colour_of
 from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.style import BLUE, MUTED, dress, explain, icon, smaller
 from hexmend_app.widgets.wording import counted
