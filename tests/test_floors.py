@@ -36,7 +36,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
-    {"counting", "docks", "inspecting", "looking", "menus", "opening", "saving", "tagging"},
+    {"comparing", "counting", "docks", "inspecting", "looking", "menus", "opening", "saving", "tagging"},
     {"window"},
     {"program"},
     {"bench", "cli"},

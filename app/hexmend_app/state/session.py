@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject
 
+from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
 from hexmend_app.state.view import View
+from hexmend_app.state.views import Views
 
 
 class Session(QObject):
@@ -23,6 +25,8 @@ class Session(QObject):
     smoothing : Smoothing
     opener : Opener
     finder : Finder
+    comparison : Comparison
+    views : Views
     """
 
     def __init__(self, parent: QObject | None = None):
@@ -33,6 +37,8 @@ class Session(QObject):
         self.smoothing = Smoothing(self.document, self)
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
+        self.comparison = Comparison(self.document, self)
+        self.views = Views(self.document, self)
 
     @property
     def editable(self) -> bool:
@@ -44,3 +50,4 @@ class Session(QObject):
         self.smoothing.shut_down()
         self.opener.shut_down()
         self.finder.shut_down()
+        self.comparison.shut_down()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -17,15 +18,18 @@ from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.box_widget import BoxWidget
 from hexmend_app.scene.colours import INVERTED, Colouring
 from hexmend_app.scene.flight import Flight
+from hexmend_app.scene.panes import ROOM, Panes, columns
 from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
-from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import Look
 from hexmend_app.state.theme import BLUE, THEME
+from hexmend_app.state.views import Wipe
+from hexmend_app.widgets.captions import Caption, CaptionRow, WipeRow
 from hexmend_app.widgets.colour_bar import ColourBar
 from hexmend_app.widgets.style import dress, explain
 from hexmend_app.widgets.view_keys import steer
+from hexmend_app.widgets.wipe_handle import WipeHandle
 
 #: Milliseconds of rest after which the fine still frame is drawn.
 _REST = 300
@@ -54,25 +58,43 @@ class Canvas(QWidget):
         The user clicked on an element, (hex, its nearest node), or beside the mesh, None.
     dug(hex)
         The user clicked on an element with Ctrl held down.
+    view_closed(int)
+        The user wants a view closed: 1 is the first beside that of the mesh.
+    wipe_chosen(left, right), wipe_moved(share)
+        The user wants other views on either side of the wipe's edge, or the edge elsewhere.
     """
 
     plane_dragged = Signal(object)
     box_dragged = Signal(object, object)
     clicked = Signal(object)
     dug = Signal(int)
+    view_closed = Signal(int)
+    wipe_chosen = Signal(int, int)
+    wipe_moved = Signal(float)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.interactor = QtInteractor(self, auto_update=False)
-        self.viewport = Viewport(self.interactor)
+        self.interactor = QtInteractor(self, auto_update=False, shape=(1, ROOM), border=False)
+        self.panes = Panes(self.interactor)
+        self.viewport = self.panes.first
         self.plane = PlaneWidget(self.interactor, self.plane_dragged.emit)
         self.box = BoxWidget(self.interactor, self.box_dragged.emit)
         self.colour_bar = ColourBar()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(_RING, _RING, _RING, 0)
         layout.setSpacing(_RING)
-        layout.addWidget(self.interactor, 1)
+        middle = QVBoxLayout()
+        middle.setSpacing(0)
+        self._above, self._below, self._wiped = CaptionRow(), CaptionRow(), WipeRow()
+        self._edge = WipeHandle(self.interactor)
+        for part in (self._above, self._wiped, self.interactor, self._below):
+            middle.addWidget(part, 1 if part is self.interactor else 0)
+        layout.addLayout(middle, 1)
         layout.addWidget(self.colour_bar)
+        for row in (self._above, self._below):
+            row.closed.connect(self.view_closed)
+        self._wiped.chosen.connect(self.wipe_chosen)
+        self._edge.moved.connect(self.wipe_moved)
         self._frame = QTimer(self)  # several changes in one turn of the event loop are one frame
         self._frame.setSingleShot(True)
         self._frame.timeout.connect(self._draw)
@@ -100,14 +122,14 @@ class Canvas(QWidget):
     def _wear_theme(self) -> None:
         if self._closed:
             return
-        self.viewport.set_dark(THEME.dark)
+        self.panes.set_dark(THEME.dark)
         self.plane.set_dark(THEME.dark)
         self.box.set_dark(THEME.dark)
         self._changed()
 
     def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
         """Draw another mesh."""
-        self.viewport.set_mesh(mesh, figures)
+        self.panes.set_mesh(mesh, figures)
         for handles in (self.plane, self.box):
             handles.set_bounds(self.viewport.bounds)
         self._show_colours()
@@ -116,6 +138,7 @@ class Canvas(QWidget):
     def set_points(self, points: np.ndarray, figures: ElementQuality, live: bool = False) -> None:
         """Draw the same mesh with its nodes elsewhere; `live` where more is to come, so that no fine frame is due."""
         self.viewport.set_points(points, figures)
+        self.panes.level()
         self._show_colours()
         self._changed()
         if live:
@@ -127,7 +150,7 @@ class Canvas(QWidget):
 
     def set_look(self, look: Look, handles: bool, at: int = 0) -> None:
         """Draw it differently, with handles at the box, or at one of the planes, or without."""
-        self.viewport.set_look(look)
+        self.panes.set_look(look)
         clip = look.clip
         self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) else None, handles)
         self.box.set(clip if isinstance(clip, BoxClip) else None, handles)
@@ -136,12 +159,12 @@ class Canvas(QWidget):
 
     def fit(self) -> None:
         """Show the whole mesh."""
-        self.viewport.reset_camera()
+        self.panes.fit()
         self._changed()
 
     def look_along(self, direction: str) -> None:
         """Look along an axis: +x, -x, ..., iso."""
-        self.viewport.view(direction)
+        self.panes.look_along(direction)
         self._changed()
 
     def set_parallel(self, on: bool) -> None:
@@ -152,7 +175,40 @@ class Canvas(QWidget):
     def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
         """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
         self.viewport.select(h, corners, node)
+        for view in self.panes.all[1:]:
+            view.select(h, corners)
         self._changed()
+
+    def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
+        """Show other places of the same mesh's nodes in views beside the first, or two views over one another.
+
+        Parameters
+        ----------
+        others : sequence of (Mesh, ElementQuality)
+        wipe : Wipe, optional
+            None shows all side by side.
+        """
+        self.panes.show(others, wipe)
+        self._edge.setVisible(wipe is not None)
+        if wipe is not None:
+            self._edge.set_share(wipe.at)
+        self._show_colours()
+        self._changed()
+
+    def move_wipe(self, wipe: Wipe) -> None:
+        """Bring the edge between two views elsewhere."""
+        self._edge.set_share(wipe.at)
+        self.panes.move_wipe(wipe)
+        self._turning()
+        self._draw_soon()
+
+    def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None = None) -> None:
+        """Say what is seen in which view; nothing is said of one alone."""
+        several = len(captions) > 1
+        above = columns(len(captions)) if several and wipe is None else 0
+        self._above.set_captions(captions[:above], 0)
+        self._below.set_captions(captions[above:] if above else [], above)
+        self._wiped.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
 
     def fly_to(self, h: int) -> None:
         """Bring an element before the camera."""
@@ -163,7 +219,7 @@ class Canvas(QWidget):
     def _fly_on(self) -> None:
         share = min(self._flown.elapsed() / _FLIGHT, 1.0)
         self._flight.at(share)
-        self.viewport.reset_depth()
+        self.panes.reset_depth()
         self._turning()
         self._draw_soon()
         if share == 1.0:
@@ -175,13 +231,15 @@ class Canvas(QWidget):
         if kind == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             if steer(self.viewport.camera, event):
                 self._fly.stop()
-                self.viewport.reset_depth()
+                self.panes.reset_depth()
                 self._changed()
             return True  # VTK has keys of its own, which would draw wires or end it
         if kind in (QEvent.Type.FocusIn, QEvent.Type.FocusOut):
             # Marked where keys brought it here: who clicks knows where.
             self._ring = kind == QEvent.Type.FocusIn and event.reason() in _BY_KEYS
             self.update()
+        if kind == QEvent.Type.Resize:
+            self._edge.fit()
         if kind == QEvent.Type.MouseButtonPress:
             self._fly.stop()
             self._pressed = event.position() if event.button() == Qt.MouseButton.LeftButton else None
@@ -214,7 +272,7 @@ class Canvas(QWidget):
     def _click(self, at: QPointF, dig: bool) -> None:
         ratio = self.devicePixelRatioF()
         x, y = at.x() * ratio, (self.interactor.height() - 1 - at.y()) * ratio
-        hit = self.viewport.pick(x, y)
+        hit = self.panes.at(x, y).pick(x, y)
         if not dig:
             self.clicked.emit(hit)
         elif hit is not None:
@@ -254,7 +312,7 @@ class Canvas(QWidget):
             self.colour_bar.set_inverted(self.viewport.figures.n_inverted, INVERTED)
 
     def _changed(self) -> None:
-        self.viewport.moving()
+        self.panes.moving()
         self._draw_soon()
 
     def _draw_soon(self) -> None:
@@ -264,7 +322,7 @@ class Canvas(QWidget):
 
     def _turning(self) -> None:
         self._rest.stop()
-        self.viewport.turning()
+        self.panes.turning()
 
     def _draw(self) -> None:
         self.interactor.render()
@@ -274,5 +332,5 @@ class Canvas(QWidget):
         self._rest.start()
 
     def _draw_still(self) -> None:
-        self.viewport.still()
+        self.panes.still()
         self.interactor.render()

@@ -128,6 +128,13 @@ class SmoothingPanel(QWidget):
         """Name of the method shown, "" where none is."""
         return self._name
 
+    def settings(self, names: Iterable[str]) -> tuple[dict[str, dict[str, Any]], dict[str, Any]] | None:
+        """Values of several methods as they were last set, and the stop conditions; None while one shown is wrong."""
+        if self._point_out_problems():
+            return None
+        known = self._edited | {self._name: self.form.values()}
+        return {name: dict(known.get(name, {})) for name in names}, self.stop_form.values()
+
     def set_state(self, state: str) -> None:
         """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
         self._state = state
@@ -173,8 +180,11 @@ class SmoothingPanel(QWidget):
         }[name]()
 
     def _request(self, signal: Any) -> None:
-        if not self._methods:
-            return
+        if self._methods and not self._point_out_problems():
+            signal.emit(self._name, self.form.values(), self.stop_form.values())
+
+    def _point_out_problems(self) -> bool:
+        """Whether a value is wrong; the first that is so is shown."""
         for form, section in zip((self.form, self.stop_form), self._sections, strict=True):
             if form.problems():
                 section.expand()
@@ -182,8 +192,8 @@ class SmoothingPanel(QWidget):
                 tint(self._sentence, WORSE)
                 self._sentence.setText("Not started: correct the marked value first.")
                 self._sentence.setVisible(True)
-                return
-        signal.emit(self._name, self.form.values(), self.stop_form.values())
+                return True
+        return False
 
     def _on_method(self) -> None:
         name = self._method.currentData()
