@@ -37,9 +37,8 @@ def grid(views: int) -> list[Rectangle]:
     """
     wide = columns(views)
     high = views // wide
-    return [
-        (k % wide / wide, 1 - (k // wide + 1) / high, (k % wide + 1) / wide, 1 - k // wide / high) for k in range(views)
-    ]
+    places = (divmod(k, wide) for k in range(views))
+    return [(at / wide, 1 - (row + 1) / high, (at + 1) / wide, 1 - row / high) for row, at in places]
 
 
 class Panes:
@@ -234,9 +233,7 @@ class Panes:
     @property
     def _aspect(self) -> float:
         width, height = self._window.GetSize()
-        left, low, right, high = (
-            (0.0, 0.0, 1.0, 1.0) if self._wipe is not None else self.seen[0].layers[0].GetViewport()
-        )
+        left, low, right, high = self.first.layers[0].GetViewport() if self._wipe is None else (0.0, 0.0, 1.0, 1.0)
         return (right - left) * width / max((high - low) * height, 1)
 
     def reset_depth(self) -> None:

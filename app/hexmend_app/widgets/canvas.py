@@ -309,7 +309,8 @@ class Canvas(QWidget):
             self.colour_bar.set_label(colouring.title)
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)
-            self.colour_bar.set_inverted(self.viewport.figures.n_inverted, INVERTED)
+            alone = len(self.panes.all) == 1  # of several, the captions say how many
+            self.colour_bar.set_inverted(self.viewport.figures.n_inverted if alone else 0, INVERTED)
 
     def _changed(self) -> None:
         self.panes.moving()

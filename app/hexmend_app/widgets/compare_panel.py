@@ -14,6 +14,9 @@ from hexmend_app.widgets.style import MUTED, explain, icon, smaller, tabular, ti
 
 _HINT = "Tick methods and press Run: each begins with the mesh as it is now."
 
+#: Pixels of a column beside its text, and beside its text and a check.
+_AROUND, _CHECK = 14, 26
+
 
 class ComparePanel(QWidget):
     """Asks for methods to be compared, and for their results to be shown, taken and saved.
@@ -113,11 +116,22 @@ class ComparePanel(QWidget):
         """Show rows; `full` where there is no room for another view, `busy` while methods are at work."""
         self._names = [one.name for one in entries]
         self._model.fill(entries, full, busy)
-        self._table.resizeColumnsToContents()
+        self._fit_columns()
         self._enable()
 
+    def _fit_columns(self) -> None:
+        """Make columns as wide as what is in them: the dock is narrow."""
+        table, model = self._table, self._model
+        head, text = table.horizontalHeader().fontMetrics(), table.fontMetrics()
+        for column in range(model.columnCount()):
+            title = model.headerData(column, Qt.Orientation.Horizontal)
+            words = [model.index(row, column).data() for row in range(model.rowCount())]
+            room = _CHECK if column == METHOD else _AROUND
+            inside = max((text.horizontalAdvance(f"{word}0") for word in words if word), default=0) + room
+            table.setColumnWidth(column, max(head.horizontalAdvance(title) + _AROUND, inside))
+
     def set_state(self, runnable: bool, editable: bool, several: bool, wiping: bool) -> None:
-        """Say whether methods may run, the mesh be changed, whether there are several views, and whether two are wiped."""
+        """Say whether methods may run, the mesh may be changed, there are several views, two of them are wiped."""
         self._runnable, self._editable = runnable, editable
         self._wipe.setEnabled(several)
         self._wipe.setChecked(wiping)

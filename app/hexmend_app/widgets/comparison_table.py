@@ -12,7 +12,7 @@ from PySide6.QtGui import QBrush, QColor, QFont
 from hexmend.report.comparison import FIGURES
 from hexmend.report.tables import Figure, of
 from hexmend_app.widgets.statistics import ROWS
-from hexmend_app.widgets.style import BETTER, MUTED, WORSE
+from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
 
 METHOD, VIEW, _FIRST = 0, 1, 2
 
@@ -138,8 +138,8 @@ class ComparisonModel(QAbstractTableModel):
         return first + known + without
 
     def _value(self, entry: Entry, column: int) -> Any:
-        if column == METHOD:
-            return entry.name
+        if column == METHOD:  # those that have run first
+            return not entry.record, entry.name
         return entry.shown if column == VIEW else entry.record.get(FIGURES[column - _FIRST].key)
 
     def rowCount(self, parent: QModelIndex | None = None) -> int:
@@ -181,7 +181,7 @@ class ComparisonModel(QAbstractTableModel):
 
     def _emphasis(self, entry: Entry, figure: Figure, is_best: bool, role: int) -> Any:
         if role == _Role.FontRole and is_best:
-            font = QFont()
+            font = tabular(QFont())
             font.setBold(True)
             return font
         if role == _Role.AccessibleTextRole and is_best:
