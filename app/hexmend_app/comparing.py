@@ -73,9 +73,9 @@ class Comparing:
     def set_canvas(self, canvas: Canvas) -> None:
         """Take the 3D view, which comes later than the rest."""
         self._canvas = canvas
-        canvas.view_closed.connect(self._close)
-        canvas.wipe_chosen.connect(self._views.choose_wiped)
-        canvas.wipe_moved.connect(self._views.move_wipe)
+        canvas.frame.view_closed.connect(self._close)
+        canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
+        canvas.frame.wipe_moved.connect(self._views.move_wipe)
 
     def handlers(self) -> dict[str, Callable]:
         """What its actions do, by id."""
@@ -155,7 +155,7 @@ class Comparing:
             captions = [
                 Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown
             ]
-            self._canvas.set_captions(captions, self._views.wipe)
+            self._canvas.frame.set_captions(captions, self._views.wipe)
 
     def _colour(self, state: State) -> Role | None:
         kept = self._kept.of(state)

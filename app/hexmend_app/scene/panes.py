@@ -1,9 +1,10 @@
-"""Several views of one mesh in one window, side by side or one wiped over the other."""
+"""Several views in one window, side by side or one wiped over the other."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkBoundingBox
 from vtkmodules.vtkRenderingCore import vtkActor2D
@@ -61,12 +62,14 @@ class Panes:
         self._dark = False
         self._others: dict[int, tuple[Mesh, Viewport]] = {}  # by renderer
         self._order: list[int] = []
-        self._wipe: Wipe | None = None
+        self.wipe: Wipe | None = None  # None where all stand side by side
         self._centres: dict[Viewport, float] = {}  # of the wipe's halves
         self._borders: list[tuple[pv.Renderer, vtkActor2D]] = []
         self._width = 0
         self._fitted: tuple[float, ...] = ()  # where the camera stands after `fit`
         self._watch(self.first)
+        # The hand may grasp what stands in the first view.
+        self._window.AddObserver("EndEvent", lambda *_: self._aim(self.first))
 
     # What is shown
 
@@ -78,10 +81,10 @@ class Panes:
     @property
     def seen(self) -> list[Viewport]:
         """The views that can be seen: of a wipe, the two."""
-        return self.all if self._wipe is None else [self.all[self._wipe.left], self.all[self._wipe.right]]
+        return self.all if self.wipe is None else [self.all[self.wipe.left], self.all[self.wipe.right]]
 
     def show(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
-        """Show these beside the first view, whose hexes are theirs.
+        """Show these beside the first view; of the same hexes, the same are left by a cut.
 
         Parameters
         ----------
@@ -98,7 +101,7 @@ class Panes:
         for mesh, figures in others:
             at = known.get(id(mesh))
             order.append(self._open(mesh, figures) if at is None else at)
-        self._order, self._wipe = order, wipe
+        self._order, self.wipe = order, wipe
         self.arrange()
         self.level()
         if fitted and abs(self._aspect - aspect) > 1e-6:
@@ -109,7 +112,8 @@ class Panes:
         view = Viewport(Pane(self._plotter, at), axes=False)
         view.set_dark(self._dark)
         view.set_look(self._look)
-        view.set_mesh(mesh, figures, self.first.filters, fly=False)
+        same = np.array_equal(mesh.hexes, self.first.mesh.hexes)
+        view.set_mesh(mesh, figures, self.first.filters if same else None, fly=False)
         self._others[at] = mesh, view
         self._watch(view)
         return at
@@ -149,13 +153,13 @@ class Panes:
 
     def move_wipe(self, wipe: Wipe) -> None:
         """Bring the edge between the same two views elsewhere."""
-        self._wipe = wipe
+        self.wipe = wipe
         self.arrange()
 
     def arrange(self) -> None:
         """Give each view its place, and the wipe its edge at a whole pixel of the window as wide as it is now."""
         self._width = width = max(self._window.GetSize()[0], 2)
-        seen, wipe = self.seen, self._wipe
+        seen, wipe = self.seen, self.wipe
         if wipe is None:
             places, self._centres = grid(len(seen)), {}
         else:
@@ -179,7 +183,7 @@ class Panes:
         for renderer, line in self._borders:
             renderer.RemoveViewProp(line)
         self._borders.clear()
-        for view in self.seen if self._wipe is None else ():
+        for view in self.seen if self.wipe is None else ():
             renderer = view.layers[0]
             edges = _inner(renderer.GetViewport())
             if edges:
@@ -194,18 +198,29 @@ class Panes:
                 return view
         return self.seen[0]
 
-    def _watch(self, view: Viewport) -> None:
-        """Before each layer of a view is drawn, lead the camera to what is its part of the picture."""
-        for layer in view.layers:
-            layer.AddObserver("StartEvent", lambda *_, view=view: self._aim(view))
+    def pick(self, x: float, y: float) -> tuple[int, int] | None:
+        """The hex that is seen at a place in pixels of the window, and its nearest node; None beside the meshes."""
+        view = self.at(x, y)
+        self._aim(view)
+        hit = view.pick(x, y)
+        self._aim(self.first)
+        return hit
 
-    def _aim(self, view: Viewport) -> None:
-        if self._wipe is not None and self._window.GetSize()[0] != self._width:
+    def _watch(self, view: Viewport) -> None:
+        """Be told before each layer of a view is drawn."""
+        for layer in view.layers:
+            layer.AddObserver("StartEvent", lambda *_, view=view: self._begin(view))
+
+    def _begin(self, view: Viewport) -> None:
+        if self.wipe is not None and self._window.GetSize()[0] != self._width:
             self.arrange()
-        camera = self.first.camera
-        camera.SetWindowCenter(self._centres.get(view, 0.0), 0.0)
         if self._others and view is self.seen[0]:
             self.reset_depth()
+        self._aim(view)
+
+    def _aim(self, view: Viewport) -> None:
+        """Lead the camera to what is a view's part of the picture."""
+        self.first.camera.SetWindowCenter(self._centres.get(view, 0.0), 0.0)
 
     # Camera and frames
 
@@ -213,14 +228,14 @@ class Panes:
         """Show the whole mesh, from where the camera looks."""
         renderer = self.first.layers[0]
         part = renderer.GetViewport()
-        if self._wipe is not None:
+        if self.wipe is not None:
             renderer.SetViewport(0, 0, 1, 1)  # the mesh has the whole's width
         self.first.reset_camera()
         renderer.SetViewport(*part)
         self._fitted = self._reach
 
-    def look_along(self, direction: str) -> None:
-        """Look at the whole mesh from a direction of `VIEWS`."""
+    def look_along(self, direction: str | tuple[float, float, float]) -> None:
+        """Look at the whole mesh from a direction: a name of `VIEWS`, or a vector."""
         self.first.view(direction)
         self.fit()
 
@@ -233,7 +248,7 @@ class Panes:
     @property
     def _aspect(self) -> float:
         width, height = self._window.GetSize()
-        left, low, right, high = self.first.layers[0].GetViewport() if self._wipe is None else (0.0, 0.0, 1.0, 1.0)
+        left, low, right, high = self.first.layers[0].GetViewport() if self.wipe is None else (0.0, 0.0, 1.0, 1.0)
         return (right - left) * width / max((high - low) * height, 1)
 
     def reset_depth(self) -> None:
@@ -254,7 +269,7 @@ class Panes:
     def turning(self) -> None:
         """Prepare for fast frames in which nothing but the camera moves."""
         for view in self.seen:
-            view.turning()
+            view.turning(len(self.seen))
 
     def still(self) -> None:
         """Prepare for a fine frame."""

@@ -377,10 +377,10 @@ class Viewport:
         self._plotter.render_window.SetMultiSamples(0)
         self._set_fast(True)
 
-    def turning(self) -> None:
-        """Prepare for fast frames in which nothing but the camera moves."""
+    def turning(self, views: int = 1) -> None:
+        """Prepare for fast frames in which nothing but the camera moves; they are of so many views like this."""
         self.moving()
-        if self._steady and self._skin_surface.poly is self._whole and len(self._faces.quads) > MANY:
+        if self._steady and self._skin_surface.poly is self._whole and len(self._faces.quads) * views > MANY:
             if self._coarse is None:
                 self._coarse = coarse(self._whole)
             self._skin_surface.stand_in(self._coarse)

@@ -17,19 +17,19 @@ from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.box_widget import BoxWidget
 from hexmend_app.scene.colours import INVERTED, Colouring
+from hexmend_app.scene.figure import Panel, figure
 from hexmend_app.scene.flight import Flight
-from hexmend_app.scene.panes import ROOM, Panes, columns
+from hexmend_app.scene.panes import ROOM, Panes
 from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
-from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.state.clip import BoxClip, Clip, PlaneClip
 from hexmend_app.state.look import Look
 from hexmend_app.state.theme import BLUE, THEME
 from hexmend_app.state.views import Wipe
-from hexmend_app.widgets.captions import Caption, CaptionRow, WipeRow
 from hexmend_app.widgets.colour_bar import ColourBar
 from hexmend_app.widgets.style import dress, explain
+from hexmend_app.widgets.view_frame import ViewFrame
 from hexmend_app.widgets.view_keys import steer
-from hexmend_app.widgets.wipe_handle import WipeHandle
 
 #: Milliseconds of rest after which the fine still frame is drawn.
 _REST = 300
@@ -58,19 +58,12 @@ class Canvas(QWidget):
         The user clicked on an element, (hex, its nearest node), or beside the mesh, None.
     dug(hex)
         The user clicked on an element with Ctrl held down.
-    view_closed(int)
-        The user wants a view closed: 1 is the first beside that of the mesh.
-    wipe_chosen(left, right), wipe_moved(share)
-        The user wants other views on either side of the wipe's edge, or the edge elsewhere.
     """
 
     plane_dragged = Signal(object)
     box_dragged = Signal(object, object)
     clicked = Signal(object)
     dug = Signal(int)
-    view_closed = Signal(int)
-    wipe_chosen = Signal(int, int)
-    wipe_moved = Signal(float)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -83,18 +76,9 @@ class Canvas(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(_RING, _RING, _RING, 0)
         layout.setSpacing(_RING)
-        middle = QVBoxLayout()
-        middle.setSpacing(0)
-        self._above, self._below, self._wiped = CaptionRow(), CaptionRow(), WipeRow()
-        self._edge = WipeHandle(self.interactor)
-        for part in (self._above, self._wiped, self.interactor, self._below):
-            middle.addWidget(part, 1 if part is self.interactor else 0)
-        layout.addLayout(middle, 1)
+        self.frame = ViewFrame(self.interactor)
+        layout.addLayout(self.frame, 1)
         layout.addWidget(self.colour_bar)
-        for row in (self._above, self._below):
-            row.closed.connect(self.view_closed)
-        self._wiped.chosen.connect(self.wipe_chosen)
-        self._edge.moved.connect(self.wipe_moved)
         self._frame = QTimer(self)  # several changes in one turn of the event loop are one frame
         self._frame.setSingleShot(True)
         self._frame.timeout.connect(self._draw)
@@ -104,6 +88,7 @@ class Canvas(QWidget):
         self._rest.timeout.connect(self._draw_still)
         self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._turning())
         self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
+        self._handled: tuple[Clip | None, bool, int] = (None, False, 0)
         self._pressed: QPointF | None = None
         self.interactor.installEventFilter(self)
         explain(self.interactor, "3D view", "")
@@ -151,11 +136,17 @@ class Canvas(QWidget):
     def set_look(self, look: Look, handles: bool, at: int = 0) -> None:
         """Draw it differently, with handles at the box, or at one of the planes, or without."""
         self.panes.set_look(look)
-        clip = look.clip
-        self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) else None, handles)
-        self.box.set(clip if isinstance(clip, BoxClip) else None, handles)
+        self._handled = look.clip, handles, at
+        self._show_handles()
         self._show_colours()
         self._changed()
+
+    def _show_handles(self) -> None:
+        """Put the handles into the first view; where a wipe leaves it out, there are none."""
+        clip, handles, at = self._handled
+        shown = handles and self.viewport in self.panes.seen
+        self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) else None, shown)
+        self.box.set(clip if isinstance(clip, BoxClip) else None, shown)
 
     def fit(self) -> None:
         """Show the whole mesh."""
@@ -189,26 +180,17 @@ class Canvas(QWidget):
             None shows all side by side.
         """
         self.panes.show(others, wipe)
-        self._edge.setVisible(wipe is not None)
-        if wipe is not None:
-            self._edge.set_share(wipe.at)
+        self._show_handles()
+        self.frame.set_wipe(wipe)
         self._show_colours()
         self._changed()
 
     def move_wipe(self, wipe: Wipe) -> None:
         """Bring the edge between two views elsewhere."""
-        self._edge.set_share(wipe.at)
+        self.frame.set_wipe(wipe)
         self.panes.move_wipe(wipe)
         self._turning()
         self._draw_soon()
-
-    def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None = None) -> None:
-        """Say what is seen in which view; nothing is said of one alone."""
-        several = len(captions) > 1
-        above = columns(len(captions)) if several and wipe is None else 0
-        self._above.set_captions(captions[:above], 0)
-        self._below.set_captions(captions[above:] if above else [], above)
-        self._wiped.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
 
     def fly_to(self, h: int) -> None:
         """Bring an element before the camera."""
@@ -239,7 +221,7 @@ class Canvas(QWidget):
             self._ring = kind == QEvent.Type.FocusIn and event.reason() in _BY_KEYS
             self.update()
         if kind == QEvent.Type.Resize:
-            self._edge.fit()
+            self.frame.fit()
         if kind == QEvent.Type.MouseButtonPress:
             self._fly.stop()
             self._pressed = event.position() if event.button() == Qt.MouseButton.LeftButton else None
@@ -272,18 +254,24 @@ class Canvas(QWidget):
     def _click(self, at: QPointF, dig: bool) -> None:
         ratio = self.devicePixelRatioF()
         x, y = at.x() * ratio, (self.interactor.height() - 1 - at.y()) * ratio
-        hit = self.panes.at(x, y).pick(x, y)
+        hit = self.panes.pick(x, y)
         if not dig:
             self.clicked.emit(hit)
         elif hit is not None:
             self.dug.emit(hit[0])
 
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
-        """Write what is seen, without the plane, as PNG of any size."""
+        """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
         seen = self.viewport
-        image = picture(
-            seen.mesh, seen.figures, seen.look, size, filters=seen.filters, camera=seen.camera, transparent=transparent
-        )
+        how = {"filters": seen.filters, "camera": seen.camera, "transparent": transparent}
+        if len(self.panes.all) == 1:
+            image = picture(seen.mesh, seen.figures, seen.look, size, **how)
+        else:
+            panels = [
+                Panel(caption.name, view.mesh, view.figures)
+                for caption, view in zip(self.frame.captions, self.panes.all, strict=True)
+            ]
+            image = figure(panels, seen.look, size, wipe=self.panes.wipe, **how)
         with replacing(path) as temporary:
             image.save(temporary, format="PNG")
 
