@@ -215,7 +215,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         separated=True,
     ),
     ActionSpec("wipe_left", "Wipe to the &left", "&Compare", "[", help="See more of the view at the right."),
-    ActionSpec("wipe_right", "Wipe to the &right", "&Compare", "]", help="See more of the view at the left."),
+    ActionSpec("wipe_right", "Wipe to the ri&ght", "&Compare", "]", help="See more of the view at the left."),
     ActionSpec(
         "close_views",
         "Close &other views",

@@ -98,7 +98,7 @@ def resolve(
     beside : (low, high), optional
         What a range that is fitted has to span too: the values of meshes that are to be compared by their colours.
     """
-    ends = _given(scale)
+    ends = declared_ends(scale)
     if ends is None:
         low, high = fitted(values, inverted)
         ends = (low, high) if beside is None else (min(low, beside[0]), max(high, beside[1]))
@@ -108,7 +108,7 @@ def resolve(
     return Colouring(METRICS[scale.metric].title, *ends, colours)
 
 
-def _given(scale: ColourScale) -> tuple[float, float] | None:
+def declared_ends(scale: ColourScale) -> tuple[float, float] | None:
     """The range where it does not depend on the values; None where it is fitted to them."""
     if scale.mode is RangeMode.PINNED:
         return scale.pinned

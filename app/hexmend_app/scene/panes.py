@@ -11,6 +11,7 @@ from vtkmodules.vtkRenderingCore import vtkActor2D
 
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
+from hexmend_app.scene.colours import declared_ends
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
@@ -143,10 +144,11 @@ class Panes:
 
     def level(self) -> None:
         """Let a range of colours that is fitted span what is drawn in all views."""
-        views = [view for view in self.all if view.colouring is not None]
-        ends = [view.ends for view in views] if len(views) > 1 else []
-        beside = (min(low for low, _ in ends), max(high for _, high in ends)) if ends else None
-        for view in views:
+        beside = None
+        if self._others and declared_ends(self._look.scale) is None:
+            lows, highs = zip(*(view.ends for view in self.all), strict=True)
+            beside = min(lows), max(highs)
+        for view in self.all:
             view.span(beside)
 
     # Where it is shown

@@ -250,6 +250,8 @@ class Viewport:
 
     def span(self, beside: tuple[float, float] | None) -> None:
         """Let a range of colours that is fitted span these values too, which are drawn in a view beside this."""
+        if beside == self._beside:
+            return
         before, self._beside = self._colouring, beside
         self._measure()
         if (before.low, before.high) != (self._colouring.low, self._colouring.high):

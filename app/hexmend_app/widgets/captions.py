@@ -60,21 +60,27 @@ class CaptionRow(QWidget):
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._row.setSpacing(0)
-        self._parts: list[QWidget] = []
+        self._shown: list[tuple] = []
+        self._parts: list[_Entry] = []
         self.hide()
 
     def set_captions(self, captions: Sequence[Caption], first: int) -> None:
         """Show captions, of views from the number `first` on; that of number 0 cannot be closed."""
-        for part in self._parts:
-            self._row.removeWidget(part)
-            part.hide()
-            part.deleteLater()  # its button is the one that was clicked
-        self._parts = [self._part(caption, number) for number, caption in enumerate(captions, first)]
-        for part in self._parts:
-            self._row.addWidget(part, 1)
+        shown = [(first, caption.name, caption.colour) for caption in captions]
+        if shown != self._shown:
+            self._shown = shown
+            for part in self._parts:
+                self._row.removeWidget(part)
+                part.hide()
+                part.deleteLater()  # its button is the one that was clicked
+            self._parts = [self._part(caption, number) for number, caption in enumerate(captions, first)]
+            for part in self._parts:
+                self._row.addWidget(part, 1)
+        for part, caption in zip(self._parts, captions, strict=True):
+            part.say(caption)
         self.setVisible(bool(captions))
 
-    def _part(self, caption: Caption, number: int) -> QWidget:
+    def _part(self, caption: Caption, number: int) -> _Entry:
         part = _Entry(caption)
         if number:
             cross = QToolButton()
@@ -143,11 +149,15 @@ class _Entry(QWidget):
         font.setBold(True)
         name.setFont(font)
         row.addWidget(name)
-        figures = _figures()
-        _say(figures, caption)
-        row.addWidget(figures, 1)
-        explain(self, f"{caption.name}: {caption.figures}", "")
+        self._figures = _figures()
+        row.addWidget(self._figures, 1)
         self.setFixedHeight(_HEIGHT)
+
+    def say(self, caption: Caption) -> None:
+        """Show the figures as they are now."""
+        if self._figures.text() != caption.figures:
+            _say(self._figures, caption)
+            explain(self, f"{caption.name}: {caption.figures}", "")
 
 
 def _figures() -> QElidingLabel:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 from superqt import QElidingLabel
 
+from hexmend_app.state.theme import FRAME
 from hexmend_app.widgets.comparison_table import INITIAL, METHOD, VIEW, ComparisonModel, Entry
 from hexmend_app.widgets.element_table import shape_table
-from hexmend_app.widgets.style import MUTED, explain, icon, smaller, tabular, tint
+from hexmend_app.widgets.style import MUTED, dress, explain, icon, smaller, tabular, tint
 
 _HINT = "Tick methods and press Run: each begins with the mesh as it is now."
 
@@ -93,10 +95,18 @@ class ComparePanel(QWidget):
         header.setSortIndicator(METHOD, Qt.SortOrder.AscendingOrder)
         header.setSectionsClickable(True)
         table.setSortingEnabled(True)
+        dress(table, lambda: self._frame_checks(table))
         table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         table.selectionModel().selectionChanged.connect(self._enable)
         table.doubleClicked.connect(self._toggle)
         return table
+
+    @staticmethod
+    def _frame_checks(table: QTableView) -> None:
+        """Fusion frames the checks of a table by a darker shade of the window's colour."""
+        palette = table.palette()
+        palette.setColor(QPalette.ColorRole.Window, QColor(str(FRAME)))
+        table.setPalette(palette)
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
