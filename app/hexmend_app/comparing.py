@@ -217,11 +217,13 @@ class Comparing:
     # What the user asks for
 
     def _run(self, names: list[str]) -> None:
-        values = self._smoothing_panel.settings(names)
-        if values is not None and self._session.editable:
-            methods, stop = values
+        self._smoothing_panel.request(lambda method, values, stop: self._start(names, Stop(**stop)))
+
+    def _start(self, names: list[str], stop: Stop) -> None:
+        if self._session.editable:
             self._close_all()
-            self._comparison.start([METHODS[name](**methods[name]) for name in names], Stop(**stop))
+            values_of = self._smoothing_panel.values_of
+            self._comparison.start([METHODS[name](**values_of(name)) for name in names], stop)
 
     def _state_of(self, name: str) -> State:
         return self._comparison.initial if name == INITIAL else self._comparison.of(name).state

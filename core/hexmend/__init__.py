@@ -18,20 +18,22 @@ __version__ = "0.1.0"
 if _TYPE_CHECKING:
     from hexmend import gallery
     from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
-    from hexmend.io import read, write
+    from hexmend.io import read, read_recipe, write, write_recipe
     from hexmend.mesh import Cells, Mesh
     from hexmend.optimise import Iteration, Outcome, Result
     from hexmend.quality import METRICS, Summary, measure, summarise
+    from hexmend.recipe import Recipe, Stage
     from hexmend.run import Run, Stop, iterate, smooth
     from hexmend.smoothers import METHODS, Smoother
     from hexmend.study.compare import Comparison, compare
 
 _HOMES = {
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
-    "io": ("read", "write"),
+    "io": ("read", "read_recipe", "write", "write_recipe"),
     "mesh": ("Cells", "Mesh"),
     "optimise": ("Iteration", "Outcome", "Result"),
     "quality": ("METRICS", "Summary", "measure", "summarise"),
+    "recipe": ("Recipe", "Stage"),
     "run": ("Run", "Stop", "iterate", "smooth"),
     "smoothers": ("METHODS", "Smoother"),
     "study.compare": ("Comparison", "compare"),
@@ -50,9 +52,11 @@ __all__ = [
     "MeshError",
     "Outcome",
     "ParameterError",
+    "Recipe",
     "Result",
     "Run",
     "Smoother",
+    "Stage",
     "Stop",
     "Summary",
     "compare",
@@ -60,9 +64,11 @@ __all__ = [
     "iterate",
     "measure",
     "read",
+    "read_recipe",
     "smooth",
     "summarise",
     "write",
+    "write_recipe",
 ]
 
 

@@ -43,4 +43,5 @@ class FileError(HexmendError):
         self.path = Path(path)
         self.problem = problem.rstrip(".")
         self.remedy = remedy
-        super().__init__(f"{self.path.name}: {self.problem}. {remedy}".rstrip())
+        end = "" if self.problem.endswith("?") else "."
+        super().__init__(f"{self.path.name}: {self.problem}{end} {remedy}".rstrip())

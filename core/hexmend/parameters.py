@@ -16,7 +16,7 @@ import dataclasses
 import difflib
 import math
 import typing
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -160,20 +160,40 @@ class Parametrised:
 
 
 def from_strings(cls: type[T], words: Mapping[str, str], owner: str = "") -> T:
-    """Make `cls` from textual values, as the command line and recipes give them.
+    """Make `cls` from textual values, as the command line gives them.
 
     Raises
     ------
     ParameterError
         For a name that is not declared (the message suggests the nearest) or a value out of bounds.
     """
-    by_name = {declaration.name: declaration for declaration in declared(cls)}
-    values = {}
-    for name, text in words.items():
-        key = name.replace("-", "_")
-        if key not in by_name:
-            near = difflib.get_close_matches(key, by_name, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(by_name) or 'none'}"
-            raise ParameterError(f"{owner or cls.__name__} has no parameter {name!r}: {hint}")
-        values[key] = by_name[key].parse(text)
-    return cls(**values)
+    by_name = _by_name(cls, words, owner)
+    return cls(**{one.name: one.parse(words[name]) for name, one in by_name.items()})
+
+
+def from_values(cls: type[T], values: Mapping[str, Any], owner: str = "") -> T:
+    """Make `cls` from values as a file gives them: numbers are numbers there. Raises as `from_strings` does."""
+    by_name = _by_name(cls, values, owner)
+    return cls(**{one.name: one.check(values[name]) for name, one in by_name.items()})
+
+
+def hint(name: str, known: Iterable[str]) -> str:
+    """What may have been meant.
+
+    >>> hint("deltta", ["p", "delta"])
+    'did you mean delta?'
+    >>> hint("x", ["p", "delta"])
+    'known: p, delta'
+    """
+    names = list(known)
+    near = difflib.get_close_matches(name, names, n=1)
+    return f"did you mean {near[0]}?" if near else f"known: {', '.join(names) or 'none'}"
+
+
+def _by_name(cls: type, names: Iterable[str], owner: str) -> dict[str, Parameter]:
+    """The declarations of these names, a dash counting as an underscore."""
+    by_name = {one.name: one for one in declared(cls)}
+    for name in names:
+        if name.replace("-", "_") not in by_name:
+            raise ParameterError(f"{owner or cls.__name__} has no parameter {name!r}: {hint(name, by_name)}")
+    return {name: by_name[name.replace("-", "_")] for name in names}

@@ -17,6 +17,7 @@ from hexmend.smoothers import Smoother
 from hexmend.study import compare
 from hexmend.study.row import Row, run_one
 from hexmend_app.state.document import Document, State
+from hexmend_app.state.worker import give_way
 
 #: Milliseconds between two looks at how far the methods are.
 _PERIOD = 100
@@ -62,6 +63,7 @@ class _Worker(QThread):
 
     def run(self) -> None:
         """What the thread does; a method that fails has its row, and the others go on."""
+        give_way()
         numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))  # one core stays with the window
         state, smoothers, stop = self._order
         for at, smoother in enumerate(smoothers):

@@ -7,9 +7,11 @@ from PySide6.QtCore import QObject
 from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
 from hexmend_app.state.finder import Finder
+from hexmend_app.state.history import History
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
+from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
 
@@ -22,7 +24,9 @@ class Session(QObject):
     document : Document
     view : View
     selection : Selection
+    history : History
     smoothing : Smoothing
+    timeline : Timeline
     opener : Opener
     finder : Finder
     comparison : Comparison
@@ -34,7 +38,9 @@ class Session(QObject):
         self.document = Document(self)
         self.view = View(self)
         self.selection = Selection(self)
-        self.smoothing = Smoothing(self.document, self)
+        self.history = History()
+        self.smoothing = Smoothing(self.document, self.history, self)
+        self.timeline = Timeline(self.document, self.smoothing, self.history, self)
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
         self.comparison = Comparison(self.document, self)

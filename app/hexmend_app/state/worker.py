@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numba
@@ -11,18 +14,24 @@ from PySide6.QtCore import QThread
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
+from hexmend.recipe import Recipe, Stage
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
+from hexmend_app.state.breakpoints import Breakpoints, Hit
 from hexmend_app.state.document import State
 from hexmend_app.state.measured import values
+
+#: How far the worker stands back behind the window, as `nice` counts.
+_NICE = 10
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """An iteration with what the window shows of it, measured in the worker."""
+    """An iteration with what the window shows of it, measured in the worker, and the break-point that it reached."""
 
     iteration: Iteration
     state: State
+    hit: Hit | None = None
 
 
 class Mailbox:
@@ -48,16 +57,19 @@ class Mailbox:
 
 
 class Worker(QThread):
-    """Runs one smoother on one mesh, one iteration at a time as the gate lets it.
+    """Runs a smoother or a recipe on one mesh, one iteration at a time as the gate lets it.
 
     Parameters
     ----------
     mesh : Mesh
-    smoother : Smoother
-    stop : Stop
+    smoother : Smoother or Recipe
+    stop : Stop, optional
+        None for the recipe's own.
+    keep : callable
+        Called with every iteration, number 0 first, in the thread.
     """
 
-    def __init__(self, mesh: Mesh, smoother: Smoother, stop: Stop):
+    def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None, keep: Callable[[Iteration], object]):
         super().__init__()
         self.setObjectName(f"smoother {smoother.name}")
         self.mailbox = Mailbox()
@@ -66,10 +78,14 @@ class Worker(QThread):
         self.error: Exception | None = None
         self.prepared = threading.Event()
         self.metrics: frozenset[str] = frozenset()  # what the window will ask of every iteration
+        self.breakpoints = Breakpoints()
         self._order = (mesh, smoother, stop)
+        self._keep = keep
         self._gate = threading.Condition()
         self._granted: float = 0  # iterations that may still be made; infinite while running
         self._ended = False
+        self._waits = False  # at the gate
+        self._change: Stage | None = None  # how the rest of the stage is to be done
 
     def grant(self, iterations: float) -> None:
         """Let that many further iterations pass; infinity runs on, 0 pauses after the one at hand."""
@@ -77,11 +93,16 @@ class Worker(QThread):
             self._granted = iterations
             self._gate.notify_all()
 
-    def grant_one_more(self) -> None:
-        """Let one further iteration pass: a step."""
+    def grant_more(self, iterations: int) -> None:
+        """Let so many further iterations pass: steps."""
         with self._gate:
-            self._granted = 1 if self._granted == float("inf") else self._granted + 1
+            self._granted = iterations if self._granted == float("inf") else max(self._granted, 0) + iterations
             self._gate.notify_all()
+
+    def change(self, stage: Stage) -> None:
+        """Do the rest of the stage at hand otherwise, from the next iteration on."""
+        with self._gate:
+            self._change = stage
 
     def end(self) -> None:
         """End the run after the iteration at hand, paused or not."""
@@ -91,21 +112,25 @@ class Worker(QThread):
 
     @property
     def waiting(self) -> bool:
-        """Whether the worker has used up its grant."""
-        return self._granted <= 0
+        """Whether the worker has used up its grant, and made its last iteration."""
+        return self._waits and self._granted <= 0
 
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
         try:
+            give_way()
             # One core stays with the window; results do not depend on the number of threads.
             numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
             mesh, smoother, stop = self._order
             run = iterate(mesh, smoother, stop)
+            self._keep(run.start)
             self.prepared.set()
             while self._may_go_on(run):
+                before = run.last
                 iteration = next(run, None)
                 if iteration is not None:
-                    self._report(iteration)
+                    self._keep(iteration)
+                    self._report(iteration, self._hit(before, iteration))
             run.close()
             if run.reached is not run.last:
                 self._report(run.reached)
@@ -115,16 +140,37 @@ class Worker(QThread):
         finally:
             self.prepared.set()
 
-    def _report(self, iteration: Iteration) -> None:
+    def _hit(self, before: Iteration, iteration: Iteration) -> Hit | None:
+        """The break-point that an iteration reaches, at which the run pauses."""
+        mesh, breakpoints = self._order[0], self.breakpoints
+        hit = breakpoints.hit(before, iteration, mesh.mean_edge_length or 1.0) if breakpoints.any else None
+        if hit is not None:
+            self.grant(0)
+        return hit
+
+    def _report(self, iteration: Iteration, hit: Hit | None = None) -> None:
         moved = self._order[0].with_points(iteration.points)
         for metric in self.metrics:
             values(metric, moved.points, moved.hexes, iteration.figures)
-        self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)))
+        self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)), hit)
         self.mailbox.put(self.last)
 
     def _may_go_on(self, run: Run) -> bool:
         with self._gate:
+            self._waits = True
             while run.outcome is None and not self._ended and self._granted <= 0:
                 self._gate.wait()
+            self._waits = False
             self._granted -= 1
-            return run.outcome is None and not self._ended
+            change, self._change = self._change, None
+            ended = self._ended
+        if change is not None and run.outcome is None and not ended:
+            run.go_on_with(change.smoother, change.stop)  # which may have to compile: the window must not wait for it
+        return run.outcome is None and not ended
+
+
+def give_way() -> None:
+    """Let the window's threads go first where they want the same core: a frame that waits is seen, a step is not."""
+    if hasattr(os, "setpriority"):
+        with contextlib.suppress(OSError):  # where the system does not know priorities of threads
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from html import escape
 from typing import Any
 
@@ -11,13 +11,16 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
+    QHBoxLayout,
     QLabel,
     QScrollArea,
+    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
 
 from hexmend.parameters import Parameter
+from hexmend_app.widgets.breakpoint_form import BreakpointForm
 from hexmend_app.widgets.parameter_form import ParameterForm
 from hexmend_app.widgets.run_buttons import STATES, RunButtons
 from hexmend_app.widgets.section import Section
@@ -33,15 +36,18 @@ class SmoothingPanel(QWidget):
 
     Signals
     -------
-    run_requested(name, values, stop_values), step_requested(name, values, stop_values)
-        str, dict, dict; not sent while a value is wrong.
+    run_requested(name, values, stop_values), step_requested(name, values, stop_values, iterations)
+        str, dict, dict, int; not sent while a value is wrong.
+    change_requested(name, values, stop_values)
+        Before a paused run goes on: the rest of it is to be done with what was set meanwhile.
     pause_requested, resume_requested, stop_requested, reset_requested
     method_changed(name)
         The user chose another method.
     """
 
     run_requested = Signal(str, dict, dict)
-    step_requested = Signal(str, dict, dict)
+    step_requested = Signal(str, dict, dict, int)
+    change_requested = Signal(str, dict, dict)
     pause_requested = Signal()
     resume_requested = Signal()
     stop_requested = Signal()
@@ -54,6 +60,7 @@ class SmoothingPanel(QWidget):
         self._edited: dict[str, dict[str, Any]] = {}  # what was set for each method, to find it again on return
         self._name = ""
         self._state = "idle"
+        self._begun: tuple | None = None  # what the run has been begun with
         self._placed = False
 
         self._method = QComboBox()
@@ -68,13 +75,21 @@ class SmoothingPanel(QWidget):
 
         self.form = ParameterForm()
         self.stop_form = ParameterForm(stop_conditions)
+        self.breakpoint_form = BreakpointForm()
         self._sections = (
             Section("Parameters", self.form, "How the method goes about it; the defaults suit most meshes."),
             Section("Stop when", self.stop_form, "When a run ends by itself."),
+            Section("Pause when", self.breakpoint_form, "Break-points: what a run pauses at, to be looked at."),
         )
         self.buttons = RunButtons()
         self.buttons.pressed.connect(self._on_button)
 
+        self._steps = QSpinBox()
+        self._steps.setRange(1, 9999)
+        self._steps.setFont(tabular(self._steps.font()))
+        explain(self._steps, "Iterations of a step", "How many iterations Step makes before it holds.")
+        steps = QLabel("Step by")
+        steps.setBuddy(self._steps)
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
         self._progress.setAccessibleName("Progress")
@@ -85,7 +100,11 @@ class SmoothingPanel(QWidget):
         layout.addLayout(choice)
         layout.addWidget(self._help)
         layout.addWidget(self.buttons)
-        layout.addWidget(self._progress)
+        foot = QHBoxLayout()
+        foot.addWidget(self._progress, 1)
+        foot.addWidget(steps)
+        foot.addWidget(self._steps)
+        layout.addLayout(foot)
         layout.addWidget(self._sentence)
         for section in self._sections:
             layout.addWidget(section)
@@ -128,15 +147,14 @@ class SmoothingPanel(QWidget):
         """Name of the method shown, "" where none is."""
         return self._name
 
-    def settings(self, names: Iterable[str]) -> tuple[dict[str, dict[str, Any]], dict[str, Any]] | None:
-        """Values of several methods as they were last set, and the stop conditions; None while one shown is wrong."""
-        if self._point_out_problems():
-            return None
-        known = self._edited | {self._name: self.form.values()}
-        return {name: dict(known.get(name, {})) for name in names}, self.stop_form.values()
+    def values_of(self, method: str) -> dict[str, Any]:
+        """What was last set for a method; empty where nothing was."""
+        return self.form.values() if method == self._name else dict(self._edited.get(method, {}))
 
     def set_state(self, state: str) -> None:
         """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
+        if state == "preparing" and state != self._state:
+            self._begun = self._order()
         self._state = state
         some = bool(self._methods)
         self.buttons.set_state(state, some)
@@ -162,14 +180,32 @@ class SmoothingPanel(QWidget):
         if self._state == "running":
             self.pause_requested.emit()
         elif self._state == "paused":
-            self.resume_requested.emit()
+            self.request(self._resume)
         elif STATES[self._state].run:
-            self._request(self.run_requested)
+            self.request(self.run_requested.emit)
 
     def step(self) -> None:
         """Ask for one iteration, where the state allows it."""
         if STATES[self._state].step:
-            self._request(self.step_requested)
+            self.request(self._step)
+
+    def _resume(self, *order: object) -> None:
+        self._change(order)
+        self.resume_requested.emit()
+
+    def _step(self, *order: object) -> None:
+        if self._state == "paused":
+            self._change(order)
+        self.step_requested.emit(*order, self._steps.value())
+
+    def _change(self, order: tuple) -> None:
+        """Tell what the rest of the run is to be done with, if that is something else."""
+        if order != self._begun:
+            self._begun = order
+            self.change_requested.emit(*order)
+
+    def _order(self) -> tuple:
+        return self._name, self.form.values(), self.stop_form.values()
 
     def _on_button(self, name: str) -> None:
         {
@@ -179,21 +215,19 @@ class SmoothingPanel(QWidget):
             "reset": self.reset_requested.emit,
         }[name]()
 
-    def _request(self, signal: Any) -> None:
-        if self._methods and not self._point_out_problems():
-            signal.emit(self._name, self.form.values(), self.stop_form.values())
-
-    def _point_out_problems(self) -> bool:
-        """Whether a value is wrong; the first that is so is shown."""
-        for form, section in zip((self.form, self.stop_form), self._sections, strict=True):
+    def request(self, ask: Callable[[str, dict, dict], object]) -> None:
+        """Call `ask` with the method, its values and the stop conditions, unless a value is wrong: then say which."""
+        if not self._methods:
+            return
+        for form, section in zip((self.form, self.stop_form), self._sections, strict=False):
             if form.problems():
                 section.expand()
                 form.show_problem()
                 tint(self._sentence, WORSE)
-                self._sentence.setText("Not started: correct the marked value first.")
+                self._sentence.setText("Correct the marked value first.")
                 self._sentence.setVisible(True)
-                return True
-        return False
+                return
+        ask(*self._order())
 
     def _on_method(self) -> None:
         name = self._method.currentData()
@@ -212,7 +246,7 @@ class SmoothingPanel(QWidget):
             around = around.parentWidget()
         room, whole = (self.height(), self) if around is None else (around.viewport().height(), around.widget())
         room -= whole.minimumSizeHint().height()  # what stands beside this panel counts too
-        for section, form in zip(self._sections, (self.form, self.stop_form), strict=True):
+        for section, form in zip(self._sections, (self.form, self.stop_form), strict=False):
             need = form.sizeHint().height() + _AROUND_FORM
             if need <= room:
                 section.expand()

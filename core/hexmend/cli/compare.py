@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from pathlib import Path
 
@@ -18,7 +19,11 @@ class Compare:
 
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
         parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the tables")
-        parser.add_argument("--methods", metavar="A,B,...", help="see `hexmend methods` (default: all of them)")
+        parser.add_argument(
+            "--methods",
+            metavar="A,B,...",
+            help="see `hexmend methods` (default: all of them); a FILE.toml is a recipe",
+        )
         parser.add_argument(
             "--set",
             metavar="[METHOD.]KEY=VALUE",
@@ -31,7 +36,7 @@ class Compare:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command import settings
-        from hexmend.cli.command.limits import limits
+        from hexmend.cli.command.limits import given_limits, limits
         from hexmend.cli.command.printed import print_table
         from hexmend.cli.command.progress import Progress
         from hexmend.io import read, write, writer_for
@@ -41,7 +46,7 @@ class Compare:
         from hexmend.study.compare import compare
 
         names = [name.strip() for name in args.methods.split(",")] if args.methods else list(METHODS)
-        smoothers, stop = chosen(names, settings(args.set)), limits(args)
+        smoothers, stop = chosen(names, settings(args.set), given_limits(args)), limits(args)
         mesh = read(args.mesh)
         folder = made_folder(args.output)
         suffix = Path(args.mesh).suffix
@@ -54,7 +59,7 @@ class Compare:
         paths = write_documents(folder, "comparison", table, comparison_rows(record), record)
         for row in comparison.rows if args.write_meshes else ():
             if row.mesh is not None:
-                paths.append(folder / f"{mesh.name}-{row.method}{suffix}")
+                paths.append(folder / f"{mesh.name}-{re.sub(r'[^A-Za-z0-9]+', '-', row.method)}{suffix}")
                 write(paths[-1], row.mesh)
         print_table(table)
         print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")

@@ -1,4 +1,4 @@
-"""Meshes from and to files: one format a file, each announcing itself in FORMATS.
+"""Meshes and recipes from and to files: one format a file, each announcing itself in FORMATS.
 
 >>> sorted(FORMATS)
 ['medit', 'medit-binary', 'vtk', 'vtu']
@@ -7,5 +7,17 @@
 from hexmend.io import medit, medit_binary, vtk_legacy, vtu  # noqa: F401  (they register themselves)
 from hexmend.io.files import left_out, read, readable_suffixes, writable_suffixes, write, writer_for
 from hexmend.io.format import FORMATS, Format
+from hexmend.io.recipes import read_recipe, write_recipe
 
-__all__ = ["FORMATS", "Format", "left_out", "read", "readable_suffixes", "writable_suffixes", "write", "writer_for"]
+__all__ = [
+    "FORMATS",
+    "Format",
+    "left_out",
+    "read",
+    "read_recipe",
+    "readable_suffixes",
+    "writable_suffixes",
+    "write",
+    "write_recipe",
+    "writer_for",
+]

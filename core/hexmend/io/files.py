@@ -32,7 +32,7 @@ def read(path: str | os.PathLike[str]) -> Mesh:
         For every reason why the file gives no mesh: it names the place in the file and what to do.
     """
     path = Path(path)
-    _check_readable(path)
+    check_readable(path, "a mesh file")
     format = _by_suffix(path, "read")
     try:
         return format.read(path).replace(name=path.stem)
@@ -119,10 +119,18 @@ def _by_suffix(path: Path, verb: str) -> Format:
     raise FileError(path, problem, f"Hexmend can {verb} {known}.")
 
 
-def _check_readable(path: Path) -> None:
+def check_readable(path: Path, expected: str) -> None:
+    """Raise a `FileError` where there is no regular file that may be read and holds something.
+
+    Parameters
+    ----------
+    path : Path
+    expected : str
+        What the file should be, such as "a mesh file".
+    """
     try:
         if path.is_dir():
-            raise FileError(path, "is a folder: expected a mesh file", "Name a file in it.")
+            raise FileError(path, f"is a folder: expected {expected}", "Name a file in it.")
         if not path.exists():
             raise FileError(path, f"there is no such file in {path.absolute().parent}", _nearest(path))
         if not path.is_file():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.mesh import Mesh
+from hexmend.optimise.stop import Stop
 from hexmend.quality import ElementQuality, Summary, objective
 
 
@@ -74,7 +76,7 @@ class Iteration:
     largest_move : float
         Of any node in this step, in mean edge lengths of the initial mesh: what Algorithm A.1 looks at.
     notes : mapping
-        From the step.
+        From the step, and "stage" (the number of the recipe's, from 1) and "method" (the name of the one at work).
     """
 
     number: int
@@ -98,6 +100,45 @@ class Iteration:
 
 
 @dataclass(frozen=True, eq=False)
+class StageResult:
+    """What one method did in a run of several.
+
+    Parameters
+    ----------
+    stage : int
+        Of the recipe, from 1; two in a row have the same where the method was changed within the stage.
+    method : str
+    parameters : mapping
+    stop : Stop
+        The limits of the stage.
+    outcome : Outcome
+    first : int
+        Number of the iteration that it began with.
+    iterations : int
+    seconds, setup_seconds : float
+    """
+
+    stage: int
+    method: str
+    parameters: Mapping[str, Any]
+    stop: Stop
+    outcome: Outcome
+    first: int
+    iterations: int
+    seconds: float
+    setup_seconds: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its fields as JSON holds them."""
+        fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        return fields | {
+            "parameters": dict(self.parameters),
+            "stop": self.stop.values(),
+            "outcome": self.outcome.key,
+        }
+
+
+@dataclass(frozen=True, eq=False)
 class Result:
     """A run that ended.
 
@@ -107,8 +148,10 @@ class Result:
         The smoothed mesh; everything but the points is the initial one's.
     before, after : Summary
     method : str
+        "recipe" where there are `stages`.
     parameters : mapping
     outcome : Outcome
+        Of the last stage.
     message : str
         The outcome with its figures, in sentences.
     iterations : int
@@ -118,6 +161,9 @@ class Result:
         Topology, colouring and whatever else the method prepares.
     history : tuple of dict
         A row an iteration, the initial mesh first.
+    stages : tuple of StageResult
+        The stages of a recipe as they were run, or the methods of a run whose method was changed on the way; empty for
+        a run of one method.
     """
 
     mesh: Mesh
@@ -131,3 +177,4 @@ class Result:
     seconds: float
     setup_seconds: float
     history: tuple[dict[str, float | int | None], ...]
+    stages: tuple[StageResult, ...] = ()

@@ -15,8 +15,8 @@ HISTORY = ("iteration", "seconds", "objective", "q_min", "q_mean", "inverted", "
 
 
 def record(result: Result) -> dict[str, Any]:
-    """The report of `hexmend smooth --json`."""
-    return {
+    """The report of `hexmend smooth --json`; `stages` is there for a run of several methods alone."""
+    report = {
         "method": result.method,
         "parameters": dict(result.parameters),
         "outcome": result.outcome.key,
@@ -28,6 +28,7 @@ def record(result: Result) -> dict[str, Any]:
         "after": result.after.to_dict(),
         "history": [{column: row[column] for column in HISTORY} for row in result.history],
     }
+    return report | {"stages": [stage.to_dict() for stage in result.stages]} if result.stages else report
 
 
 def to_json(data: Any) -> str:

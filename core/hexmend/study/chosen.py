@@ -4,32 +4,45 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from hexmend.errors import ParameterError
+from hexmend.io import read_recipe
 from hexmend.parameters import declared, from_strings
+from hexmend.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
 
 
-def chosen(names: Sequence[str], settings: Mapping[str, str]) -> list[Smoother]:
-    """Methods by name, each once, with settings in words.
+def chosen(
+    names: Sequence[str], settings: Mapping[str, str], limits: Mapping[str, Any] | None = None
+) -> list[Smoother | Recipe]:
+    """Methods by name, each once, with settings in words; a name that ends in `.toml` is the file of a recipe.
 
     Parameters
     ----------
     names : sequence of str
     settings : mapping of str to str
-        `key` is for every one of the methods that declares it, `method.key` for that one alone, and goes before.
+        `key` is for every one of the methods that declares it, `method.key` for that one alone, and goes before;
+        recipes have values of their own.
+    limits : mapping, optional
+        Limits of `Stop` for the stages of recipes, in place of their own.
 
     Raises
     ------
     ParameterError
-        For an unknown method, a value out of bounds, or a key that none of the methods declares.
+        For an unknown method, a value out of bounds, a key that none of the methods declares, or recipes that one would
+        take for each other.
+    FileError
+        For a recipe that cannot be read.
 
     Examples
     --------
     >>> [one.values().get("p") for one in chosen(["laplacian", "local-sd", "local-nr"], {"p": "4", "local-nr.p": "6"})]
     [None, 4.0, 6.0]
     """
-    keys = {name: [one.name for one in declared(METHODS[name])] for name in names}
+    recipes = {name: read_recipe(name).limited(**(limits or {})) for name in names if name.endswith(".toml")}
+    _check_titles(recipes)
+    keys = {name: [one.name for one in declared(METHODS[name])] for name in names if name not in recipes}
     words: dict[str, dict[str, str]] = {name: {} for name in keys}
     for setting in sorted(settings, key=lambda setting: "." in setting):
         owner, dot, key = setting.rpartition(".")
@@ -43,4 +56,18 @@ def chosen(names: Sequence[str], settings: Mapping[str, str]) -> list[Smoother]:
             raise ParameterError(f"none of the methods {', '.join(keys)} has a parameter {key!r}{hint}")
         for name in takers:
             words[name][key] = settings[setting]
-    return [from_strings(METHODS[name], words[name], owner=name) for name in keys]
+    return [
+        recipes[name] if name in recipes else from_strings(METHODS[name], words[name], owner=name)
+        for name in dict.fromkeys(names)
+    ]
+
+
+def _check_titles(recipes: Mapping[str, Recipe]) -> None:
+    """Tables name recipes by their titles: each must have one of its own."""
+    taken: dict[str, str] = dict.fromkeys(METHODS, "a method") | {"initial": "the mesh as given"}
+    for name, recipe in recipes.items():
+        if recipe.title in taken:
+            raise ParameterError(
+                f"{name} has the title {recipe.title!r} as {taken[recipe.title]} has: give it one of its own"
+            )
+        taken[recipe.title] = name

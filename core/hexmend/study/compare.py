@@ -8,6 +8,7 @@ from typing import Any
 
 from hexmend.mesh import Mesh
 from hexmend.quality import Summary, summarise
+from hexmend.recipe import Recipe
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.row import Row, Watch, distribution, run_one
@@ -48,7 +49,7 @@ class Comparison:
 
 def compare(
     mesh: Mesh,
-    methods: Iterable[Smoother | str] = METHODS,
+    methods: Iterable[Smoother | Recipe | str] = METHODS,
     stop: Stop | None = None,
     *,
     watch: Watch | None = None,
@@ -61,11 +62,11 @@ def compare(
     Parameters
     ----------
     mesh : Mesh
-    methods : iterable of Smoother or str
+    methods : iterable of Smoother, Recipe or str
         Names stand for methods with their defaults; `hexmend.study.chosen` takes settings in words. All that are
         registered if not given.
     stop : Stop, optional
-        Limits of each run.
+        Limits of each method's run; a recipe has its own.
     watch : callable, optional
         See `Watch`.
 

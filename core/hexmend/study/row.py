@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from hexmend.mesh import Mesh
-from hexmend.optimise import Outcome, Result
+from hexmend.optimise import Outcome, Result, StageResult
 from hexmend.quality import Summary, measure, summarise
+from hexmend.recipe import Recipe
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
 
@@ -31,6 +32,7 @@ class Row:
     Parameters
     ----------
     method : str
+        Its name; of a recipe the title.
     parameters : mapping
     outcome : str
         The key of an `Outcome`, or "failed".
@@ -41,6 +43,7 @@ class Row:
     after : Summary or None
     iterations : int
     seconds, setup_seconds : float
+    stages : tuple of StageResult
         As in `Result`.
     """
 
@@ -53,6 +56,7 @@ class Row:
     iterations: int = 0
     seconds: float = 0.0
     setup_seconds: float = 0.0
+    stages: tuple[StageResult, ...] = ()
 
     @property
     def seconds_per_iteration(self) -> float | None:
@@ -80,11 +84,11 @@ class Row:
             "seconds_per_iteration": self.seconds_per_iteration,
             "seconds_per_iteration_and_node": self.seconds_per_iteration_and_node,
             "distribution": distribution(self.mesh) if self.mesh else None,
-        }
+        } | ({"stages": [stage.to_dict() for stage in self.stages]} if self.stages else {})
 
 
-def run_one(mesh: Mesh, smoother: Smoother, stop: Stop, watch: Watch | None = None) -> tuple[Row, bool]:
-    """Run one method to its end.
+def run_one(mesh: Mesh, smoother: Smoother | Recipe, stop: Stop, watch: Watch | None = None) -> tuple[Row, bool]:
+    """Run one method to its end, or a recipe, under the limits of its own.
 
     Returns
     -------
@@ -93,8 +97,9 @@ def run_one(mesh: Mesh, smoother: Smoother, stop: Stop, watch: Watch | None = No
         False where the user ended it.
     """
     run, go_on = None, True
+    name, values = (smoother.title, {}) if isinstance(smoother, Recipe) else (smoother.name, smoother.values())
     try:
-        run = iterate(mesh, smoother, stop)
+        run = iterate(mesh, smoother, None if isinstance(smoother, Recipe) else stop)
         for _ in run:
             if watch is not None and watch(run) is False:
                 go_on = False
@@ -103,17 +108,17 @@ def run_one(mesh: Mesh, smoother: Smoother, stop: Stop, watch: Watch | None = No
         go_on = False
         if run is None:  # while it was compiled or prepared
             words = "Stopped by the user before its first iteration."
-            return Row(smoother.name, smoother.values(), Outcome.STOPPED.key, words, mesh, summarise(mesh)), go_on
+            return Row(name, values, Outcome.STOPPED.key, words, mesh, summarise(mesh)), go_on
         run.close()
     except Exception as error:  # whatever it is, the other methods' rows are worth having
-        log.info("%s failed", smoother.name, exc_info=True)
-        return Row(smoother.name, smoother.values(), "failed", f"Failed: {error or type(error).__name__}"), True
-    return _row(run.result()), go_on
+        log.info("%s failed", name, exc_info=True)
+        return Row(name, values, "failed", f"Failed: {error or type(error).__name__}"), True
+    return _row(name, run.result()), go_on
 
 
-def _row(result: Result) -> Row:
+def _row(name: str, result: Result) -> Row:
     return Row(
-        method=result.method,
+        method=name,
         parameters=result.parameters,
         outcome=result.outcome.key,
         message=result.message,
@@ -122,6 +127,7 @@ def _row(result: Result) -> Row:
         iterations=result.iterations,
         seconds=result.seconds,
         setup_seconds=result.setup_seconds,
+        stages=result.stages,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from hexmend.run import Stop
@@ -23,8 +23,21 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
 
 def limits(args: argparse.Namespace) -> Stop:
     """The limits that were given, the others at their defaults."""
-    from hexmend.parameters import declared, from_strings
+    from hexmend.parameters import from_strings
     from hexmend.run import Stop
 
-    given = {limit.name: getattr(args, limit.name) for limit in declared(Stop)}
-    return from_strings(Stop, {name: text for name, text in given.items() if text is not None}, owner="the run")
+    return from_strings(Stop, _given(args), owner="the run")
+
+
+def given_limits(args: argparse.Namespace) -> dict[str, Any]:
+    """The limits that were given, by name."""
+    values = limits(args).values()
+    return {name: values[name] for name in _given(args)}
+
+
+def _given(args: argparse.Namespace) -> dict[str, str]:
+    from hexmend.parameters import declared
+    from hexmend.run import Stop
+
+    words = {limit.name: getattr(args, limit.name) for limit in declared(Stop)}
+    return {name: text for name, text in words.items() if text is not None}

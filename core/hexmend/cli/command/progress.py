@@ -49,6 +49,12 @@ def follow(run: Run) -> None:
         print("Interrupted: what was reached so far is kept.", file=sys.stderr)
 
 
+def at_work(run: Run) -> str:
+    """The name of the method at work, with its place where there are several."""
+    place = f" ({run.stage_number} of {run.stage_count})" if run.stage_count > 1 else ""
+    return f"{run.stage.smoother.name}{place}"
+
+
 def described(run: Run) -> str:
     """The newest iteration in words."""
     at = run.last
@@ -86,8 +92,10 @@ class _Live:
             if self._task is not None:
                 self._line.remove_task(self._task)
             self._run = run
-            self._task = self._line.add_task("", total=run.stop.max_iterations, method=run.smoother.name)
-        self._line.update(self._task, completed=run.last.number, description=described(run))
+            self._task = self._line.add_task("", total=run.limit, method="")
+        self._line.update(
+            self._task, total=run.limit, completed=run.last.number, method=at_work(run), description=described(run)
+        )
 
     def close(self) -> None:
         self._line.stop()
@@ -103,8 +111,8 @@ class _Lines:
         if self._due is None:  # compiling, before the first iteration, does not count
             self._due = monotonic() + EVERY
         if monotonic() >= self._due:
-            at = f"iteration {run.last.number:,} of at most {run.stop.max_iterations:,}, {run.last.seconds:.0f} s"
-            print(f"{run.smoother.name}: {at}: {described(run)}", file=sys.stderr, flush=True)
+            at = f"iteration {run.last.number:,} of at most {run.limit:,}, {run.last.seconds:.0f} s"
+            print(f"{at_work(run)}: {at}: {described(run)}", file=sys.stderr, flush=True)
             self._due = monotonic() + EVERY
 
     def close(self) -> None:

@@ -1,0 +1,28 @@
+"""When a run ends by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hexmend.parameters import Parametrised, parameter
+
+
+@dataclass(frozen=True)
+class Stop(Parametrised):
+    """When a run ends by itself."""
+
+    max_iterations: int = parameter(300, low=0, high=1_000_000, help="Most iterations of a run.")
+    tolerance: float = parameter(
+        1e-4,
+        low=0,
+        high=1,
+        unit="mean edge length",
+        help="Converged when no node moves further than this in an iteration (Algorithm A.1).",
+    )
+    max_seconds: float = parameter(
+        0.0,
+        low=0,
+        high=1e7,
+        unit="s",
+        help="Most seconds in the smoother; 0 sets no limit. The iteration at hand ends.",
+    )

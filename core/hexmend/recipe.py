@@ -1,0 +1,180 @@
+"""Recipes: methods one after another, each with its values and its limits, as data that people read and write.
+
+As a file a recipe is TOML::
+
+    format = 1
+    title = "GETMe, then mend"
+
+    [[stage]]
+    method = "getme"
+    parameters = { relaxation = 0.75 }
+    stop = { max_iterations = 100 }
+
+    [[stage]]
+    method = "mend"
+
+What is not named has its default; what Hexmend writes names everything, so that a file means the same when defaults
+change. Only data is read: nothing in a file is ever run.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
+
+import tomli_w
+
+from hexmend.errors import ParameterError
+from hexmend.optimise import Stop
+from hexmend.parameters import from_values, hint
+from hexmend.smoothers import METHODS, Smoother
+
+#: The number of the format that is written; lower ones can be read.
+FORMAT = 1
+
+_HEAD = "# A recipe: hexmend smooth MESH -o OUT --recipe THIS-FILE\n"
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A method and when it ends."""
+
+    smoother: Smoother
+    stop: Stop = field(default_factory=Stop)
+
+    def values(self) -> dict[str, Any]:
+        """The stage as data: `method`, `parameters` and `stop`, every value of them."""
+        return {"method": self.smoother.name, "parameters": self.smoother.values(), "stop": self.stop.values()}
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """Stages that a run goes through, each from what the one before it reached.
+
+    Parameters
+    ----------
+    title : str
+    stages : tuple of Stage
+        At least one.
+
+    Raises
+    ------
+    ParameterError
+        Without a stage.
+
+    Examples
+    --------
+    >>> recipe = Recipe.of("getme", "mend")
+    >>> recipe.title
+    'GETMe, simultaneous; then Mend'
+    >>> from_toml(to_toml(recipe)) == recipe
+    True
+    """
+
+    #: What stands for the method in reports.
+    name: ClassVar[str] = "recipe"
+
+    title: str
+    stages: tuple[Stage, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "stages", tuple(self.stages))
+        if not self.stages:
+            raise ParameterError("a recipe has no stage: expected at least one")
+
+    @classmethod
+    def of(cls, *parts: Stage | Smoother | str, title: str = "") -> Recipe:
+        """A recipe of stages; a method, or the name of one, is a stage with the usual limits.
+
+        Without a title, it is that of its methods.
+        """
+        stages = tuple(map(_stage, parts))
+        return cls(title or "; then ".join(stage.smoother.title for stage in stages), stages)
+
+    def limited(self, **limits: Any) -> Recipe:
+        """The same with these limits of `Stop` for every stage, in place of its own."""
+        return replace(self, stages=tuple(replace(stage, stop=replace(stage.stop, **limits)) for stage in self.stages))
+
+    def values(self) -> dict[str, Any]:
+        """The recipe as data."""
+        return {"title": self.title, "stages": [stage.values() for stage in self.stages]}
+
+
+def _stage(part: Stage | Smoother | str) -> Stage:
+    if isinstance(part, Stage):
+        return part
+    return Stage(METHODS[part]() if isinstance(part, str) else part)
+
+
+def to_toml(recipe: Recipe) -> str:
+    """The recipe as TOML text that names every value."""
+    stages = [stage.values() for stage in recipe.stages]
+    return _HEAD + tomli_w.dumps({"format": FORMAT, "title": recipe.title, "stage": stages})
+
+
+def from_toml(text: str) -> Recipe:
+    """The recipe that TOML text describes.
+
+    Raises
+    ------
+    ParameterError
+        Naming line and column where it is no TOML, else the stage, the key and what was expected there.
+    """
+    data = _parsed(text)
+    _check_format(data)
+    _check_keys("the recipe", data, ("format", "title", "stage"))
+    title, stages = data.get("title", ""), data.get("stage", [])
+    if not isinstance(title, str):
+        raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
+    if not isinstance(stages, list) or not all(isinstance(stage, dict) for stage in stages) or not stages:
+        raise ParameterError('the recipe has no stage: expected [[stage]] and a line such as  method = "mend"')
+    return Recipe.of(*(_read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
+
+
+def _parsed(text: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ParameterError("is nested too deeply to be a recipe") from None
+    except ValueError as error:  # tomllib's own, and that of a number with thousands of digits
+        lines = text.splitlines() or [""]
+        end = f"at line {len(lines)}, column {len(lines[-1]) + 1}, the end"
+        said = str(error).replace("at end of document", end)
+        raise ParameterError(f"is not TOML: {said[:1].lower()}{said[1:]}") from None
+
+
+def _check_format(data: Mapping[str, Any]) -> None:
+    number = data.get("format")
+    if number is None:
+        raise ParameterError(f"the recipe has no format: expected  format = {FORMAT}  as its first line")
+    if type(number) is not int or number < 1:
+        raise ParameterError(f"format = {number!r} is no format of a recipe: expected {FORMAT}")
+    if number > FORMAT:
+        raise ParameterError(f"format = {number} is newer than this version of Hexmend, which reads {FORMAT}")
+
+
+def _read_stage(number: int, data: Mapping[str, Any]) -> Stage:
+    try:
+        _check_keys("the stage", data, ("method", "parameters", "stop"))
+        if "method" not in data:
+            raise ParameterError('it has no method: expected a line such as  method = "mend"')
+        cls = METHODS[str(data["method"])]
+        smoother = from_values(cls, _table(data, "parameters"), owner=cls.name)
+        return Stage(smoother, from_values(Stop, _table(data, "stop"), owner="stop"))
+    except ParameterError as error:
+        raise ParameterError(f"stage {number}: {error}") from None
+
+
+def _table(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    table = data.get(key, {})
+    if not isinstance(table, dict):
+        raise ParameterError(f"{key} = {table!r} is no table: expected [stage.{key}] and lines of  name = value")
+    return table
+
+
+def _check_keys(owner: str, data: Mapping[str, Any], known: Iterable[str]) -> None:
+    for key in data:
+        if key not in known:
+            raise ParameterError(f"{owner} has no key {key!r}: {hint(key, known)}")

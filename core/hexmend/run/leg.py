@@ -1,0 +1,159 @@
+"""One smoother at work: a run goes in legs, one for each stage and one more wherever the method is changed."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import replace
+from time import perf_counter
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.optimise import Iteration, Outcome, StageResult, Stop
+from hexmend.quality import measure, objective
+from hexmend.quality.measure import read_only
+from hexmend.recipe import Stage
+from hexmend.run.warm import one_blas_thread, warm_up
+from hexmend.smoothers import Smoother
+
+log = logging.getLogger(__name__)
+
+#: An objective still falls if a step lowers it by a greater share than the first, and by more than the second: a
+#: hundredth of what one hex of q = 1/2 has.
+_FALLING, _WORTH = 1e-3, 1e-2
+
+
+class Leg:
+    """A smoother at work from one iteration on, until a limit is reached or it has no further step.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The run's.
+    stage : Stage
+    number : int
+        Of the stage in its recipe, from 1.
+    start : Iteration
+        Where the nodes are as it begins.
+    after : Iteration
+        The run's newest: numbers and seconds go on from it.
+    since : Iteration
+        The run's newest as the stage began: the limits count from it.
+
+    Attributes
+    ----------
+    last, reached : Iteration
+        See `Run`.
+    outcome : Outcome or None
+        None while it goes on.
+    setup_seconds : float
+    decision : str
+        What the method decided at its newest step.
+    """
+
+    def __init__(self, mesh: Mesh, stage: Stage, number: int, start: Iteration, after: Iteration, since: Iteration):
+        warm_up(stage.smoother)
+        self.stage, self.number = stage, number
+        self.start, self.after, self.since = start, after, since
+        self.last, self.reached = after, start
+        self.outcome: Outcome | None = None
+        self.decision = ""
+        self._hexes, self._unit = mesh.hexes, mesh.mean_edge_length or 1.0
+        self._at = start
+        self._reached_rank = self._rank(start)
+        began = perf_counter()
+        self._steps = self.smoother.steps(mesh.with_points(start.points))
+        with one_blas_thread():
+            next(self._steps)
+        self.setup_seconds = perf_counter() - began
+        if not mesh.free.any():
+            self.end(Outcome.NOTHING_FREE)
+        else:
+            self._end_at_a_limit()
+
+    @property
+    def smoother(self) -> Smoother:
+        """The method at work."""
+        return self.stage.smoother
+
+    @property
+    def made(self) -> int:
+        """Iterations of this leg so far."""
+        return self.last.number - self.after.number
+
+    def advance(self) -> Iteration | None:
+        """Make a step; None where the method has none left."""
+        began = perf_counter()
+        try:
+            with one_blas_thread():
+                step = next(self._steps)
+        except StopIteration as end:
+            self.end(end.value or Outcome.FINISHED)
+            return None
+        seconds = self.last.seconds + perf_counter() - began
+        points, before = read_only(step.points), self._at
+        move = float(np.sqrt(np.square(points - before.points).sum(axis=1).max())) / self._unit
+        figures = step.figures if step.figures is not None else measure(points, self._hexes)
+        notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
+        now = self.last = self._at = Iteration(self.last.number + 1, points, figures, seconds, move, notes)
+        self.decision = step.decision
+        rank = self._rank(now)
+        if rank <= self._reached_rank:
+            self.reached, self._reached_rank = now, rank
+        if move < self.stage.stop.tolerance and not step.more and not self._falling(before, now):  # Algorithm A.1
+            self.end(Outcome.CONVERGED)
+        else:
+            self._end_at_a_limit()
+        return now
+
+    def limit(self, stop: Stop) -> None:
+        """Go on under other limits."""
+        self.stage = Stage(self.smoother, stop)
+        self._end_at_a_limit()
+
+    def end(self, outcome: Outcome) -> None:
+        """End it here."""
+        self.outcome = outcome
+        self._steps.close()
+        log.info("%s ended: %s", self.smoother.name, outcome.value)
+
+    def as_stage(self, cut: bool = False) -> Stage | None:
+        """The stage that does it again by itself; where it was cut off by a change, None if it had not made a step."""
+        if cut and not self.made:
+            return None
+        stop, before, spent = self.stage.stop, self.after.number - self.since.number, self.after.seconds
+        most = self.made if cut else max(stop.max_iterations - before, 0)
+        left = max(stop.max_seconds - (spent - self.since.seconds), 1e-3) if stop.max_seconds else 0.0
+        return Stage(self.smoother, replace(stop, max_iterations=most, max_seconds=left))
+
+    def result(self) -> StageResult:
+        """Its record as far as it went."""
+        return StageResult(
+            stage=self.number,
+            method=self.smoother.name,
+            parameters=self.smoother.values(),
+            stop=self.stage.stop,
+            outcome=self.outcome or Outcome.STOPPED,
+            first=self.start.number,
+            iterations=self.made,
+            seconds=self.last.seconds - self.after.seconds,
+            setup_seconds=self.setup_seconds,
+        )
+
+    def _rank(self, iteration: Iteration) -> tuple[float, ...]:
+        return self.smoother.rank(self.start.figures, iteration.figures) or ()
+
+    def _falling(self, before: Iteration, now: Iteration) -> bool:
+        """Whether an optimiser's objective still falls: beside the barrier steps are short, however much they gain."""
+        if not self.smoother.optimises:
+            return False
+        then, later = objective(before.figures), objective(now.figures)
+        known = then is not None and later is not None
+        return known and then - later > max(_FALLING * then, _WORTH)
+
+    def _end_at_a_limit(self) -> None:
+        stop, last, since = self.stage.stop, self.last, self.since
+        if last.number - since.number >= stop.max_iterations:
+            self.end(Outcome.MAX_ITERATIONS)
+        elif 0 < stop.max_seconds <= last.seconds - since.seconds:
+            self.end(Outcome.MAX_SECONDS)

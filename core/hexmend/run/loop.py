@@ -1,0 +1,224 @@
+"""The only loop: a smoother's steps become iterations with clocks, figures, stop conditions and an outcome."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from hexmend.mesh import Mesh
+from hexmend.optimise import Iteration, Outcome, Result, StageResult, Stop
+from hexmend.quality import measure, summarise
+from hexmend.quality.measure import read_only
+from hexmend.recipe import Recipe, Stage
+from hexmend.run.leg import Leg
+from hexmend.run.words import changes, iterations
+from hexmend.smoothers import METHODS, Smoother
+
+
+class Run(Iterator[Iteration]):
+    """A smoother or a recipe at work on a mesh: an iterator of iterations that knows its record and its outcome.
+
+    The stages of a recipe follow one another in one numbering, one clock and one history, each from what the stage
+    before it reached; one that has nothing to do is passed over.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    smoother : Smoother or Recipe
+    stop : Stop, optional
+        The defaults for a smoother; for a recipe, in place of the limits of every stage.
+
+    Attributes
+    ----------
+    mesh, smoother
+        As given.
+    start : Iteration
+        Number 0: the mesh as given.
+    last : Iteration
+        The newest.
+    reached : Iteration
+        The one that is the run's result: the last, or, if the method at work ranks them, the best since it began.
+    history : list of dict
+        `Iteration.row` of every iteration so far, number 0 first.
+    outcome : Outcome or None
+        None while the run goes on; then that of the last stage.
+    decisions : list of str
+        What was decided on the way, in sentences.
+    """
+
+    def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None = None):
+        self.mesh = mesh
+        self.smoother = smoother
+        self._stages = _stages(smoother, stop)
+        notes = {"stage": 1, "method": self._stages[0].smoother.name}
+        figures = measure(mesh.points, mesh.hexes)
+        self.start = Iteration(0, read_only(mesh.points), figures, 0.0, 0.0, notes)
+        self.history = [self.start.row()]
+        self.outcome: Outcome | None = None
+        self.decisions: list[str] = []
+        self._legs = [Leg(mesh, self._stages[0], 1, self.start, self.start, self.start)]
+        self._settle()
+
+    def __next__(self) -> Iteration:
+        while self.outcome is None:
+            if self._leg.outcome is not None:
+                self._begin_the_next_stage()
+                continue
+            iteration = self._leg.advance()
+            if iteration is not None:
+                self.history.append(iteration.row())
+                if self._leg.decision:
+                    self.decisions.append(self._leg.decision)
+            self._settle()
+            if iteration is not None:
+                return iteration
+        raise StopIteration
+
+    def go_on_with(self, smoother: Smoother | str, stop: Stop | None = None) -> None:
+        """Do the rest of the stage at hand by another method, with other values or under other limits.
+
+        It goes on from the newest iteration, where the nodes are. A stage that has just ended goes on too, if its new
+        limits let it. What has been decided says so; the record names each method.
+
+        Parameters
+        ----------
+        smoother : Smoother or str
+        stop : Stop, optional
+            Limits of the stage as a whole, counted from where it began; its own so far if None.
+
+        Raises
+        ------
+        ValueError
+            Where the run has ended.
+        """
+        if self.outcome is not None:
+            raise ValueError("the run has ended, so that nothing is left to change: begin another from its result")
+        old = self._leg
+        new = Stage(METHODS[smoother]() if isinstance(smoother, str) else smoother, stop or old.stage.stop)
+        if new == old.stage:
+            return
+        self.decisions.append(f"After iteration {self.last.number}: {changes(old.stage, new)}.")
+        if new.smoother == old.smoother and old.outcome is None:
+            old.limit(new.stop)
+        else:
+            leg = Leg(self.mesh, new, old.number, self.last, self.last, old.since)
+            if old.outcome is None:
+                old.end(Outcome.STOPPED)
+            self._legs.append(leg)
+        self._settle()
+
+    def close(self) -> None:
+        """End the run where it is; what was reached stands."""
+        if self.outcome is None:
+            if self._leg.outcome is None:
+                self._leg.end(Outcome.STOPPED)
+            self.outcome = Outcome.STOPPED
+
+    @property
+    def last(self) -> Iteration:
+        """See the class."""
+        return self._leg.last
+
+    @property
+    def reached(self) -> Iteration:
+        """See the class."""
+        return self._leg.reached
+
+    @property
+    def stage(self) -> Stage:
+        """The method at work and its limits."""
+        return self._leg.stage
+
+    @property
+    def stage_number(self) -> int:
+        """Number of the stage at hand, from 1."""
+        return self._leg.number
+
+    @property
+    def stage_count(self) -> int:
+        """Number of stages."""
+        return len(self._stages)
+
+    @property
+    def limit(self) -> int:
+        """The most iterations that it can come to as things stand."""
+        leg = self._leg
+        here = self.last.number if leg.outcome is not None else leg.since.number + leg.stage.stop.max_iterations
+        return here + sum(stage.stop.max_iterations for stage in self._to_come)
+
+    @property
+    def setup_seconds(self) -> float:
+        """What the methods' preparations took so far."""
+        return sum(leg.setup_seconds for leg in self._legs)
+
+    @property
+    def recipe(self) -> Recipe:
+        """What was run and what is still to come, as a recipe that does it again."""
+        legs = [leg.as_stage(cut=later.number == leg.number) for leg, later in pairwise(self._legs)]
+        done = [stage for stage in legs if stage is not None]
+        title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
+        return Recipe.of(*done, self._leg.as_stage(), *self._to_come, title=title)
+
+    @property
+    def message(self) -> str:
+        """What has been reached and why the run ended, in sentences."""
+        at, inverted = self.last, self.reached.figures.n_inverted
+        said = self.outcome.value if self.outcome is not None else "Running."
+        left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
+        move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
+        words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *self.decisions]
+        if self.reached is not self.last:
+            words.append(f"Kept is iteration {self.reached.number}, better than what came after.")
+        return " ".join(words)
+
+    def result(self) -> Result:
+        """The record of the run as far as it went."""
+        mesh = self.mesh.with_points(self.reached.points)
+        stages = self._stage_results()
+        return Result(
+            mesh=mesh,
+            before=summarise(self.mesh, self.start.figures),
+            after=summarise(mesh, self.reached.figures),
+            method=Recipe.name if stages else self.smoother.name,
+            parameters={} if stages else self.stage.smoother.values(),
+            outcome=self.outcome or Outcome.STOPPED,
+            message=self.message,
+            iterations=self.last.number,
+            seconds=self.last.seconds,
+            setup_seconds=self.setup_seconds,
+            history=tuple(self.history),
+            stages=stages,
+        )
+
+    @property
+    def _leg(self) -> Leg:
+        return self._legs[-1]
+
+    @property
+    def _to_come(self) -> Sequence[Stage]:
+        return self._stages[self._leg.number :]
+
+    def _begin_the_next_stage(self) -> None:
+        done, last, reached = self._leg, self.last, self.reached
+        kept = f" Kept of it is iteration {reached.number}." if reached is not last else ""
+        count = iterations(last.number - done.since.number)
+        self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
+        self._legs.append(Leg(self.mesh, self._to_come[0], done.number + 1, reached, last, last))
+        self._settle()
+
+    def _settle(self) -> None:
+        """End where the leg at hand has ended and nothing comes after it."""
+        over = self._leg.outcome
+        if over is Outcome.NOTHING_FREE or (over is not None and not self._to_come):
+            self.outcome = over
+
+    def _stage_results(self) -> tuple[StageResult, ...]:
+        if isinstance(self.smoother, Recipe) or len(self._legs) > 1:
+            return tuple(leg.result() for leg in self._legs)
+        return ()
+
+
+def _stages(smoother: Smoother | Recipe, stop: Stop | None) -> Sequence[Stage]:
+    if isinstance(smoother, Recipe):
+        return (smoother if stop is None else smoother.limited(**stop.values())).stages
+    return (Stage(smoother, stop or Stop()),)
