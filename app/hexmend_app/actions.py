@@ -101,6 +101,13 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Run the chosen method from the iteration shown, beside the run that it belongs to.",
         separated=True,
     ),
+    ActionSpec(
+        "film",
+        "Save a fil&m…",
+        "&Timeline",
+        icon="movie-open-outline",
+        help="Save the run as an animation: its iterations one after another, as the view shows them.",
+    ),
     ActionSpec("fit", "&Fit", "&View", "F", "fit-to-page-outline", "Show the whole mesh.", "Fit"),
     ActionSpec("view_iso", "&Isometric", "&View", "0", "axis-arrow", "Look from a corner.", "Iso"),
     ActionSpec("view_x", "Along &X", "&View", "1", "axis-x-arrow", "Look along the X axis.", "X"),
