@@ -102,6 +102,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
         separated=True,
     ),
     ActionSpec(
+        "iteration_beside",
+        "Keep &in a view",
+        "&Timeline",
+        "V",
+        "view-split-vertical",
+        "Show the mesh as it is now in a view of its own, to which what comes can be compared.",
+    ),
+    ActionSpec(
         "film",
         "Save a fil&m…",
         "&Timeline",

@@ -269,3 +269,22 @@ def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path
     window.actions_by_id["film"].trigger()
     assert not window.filming.going_on
     assert ".gif, .png, .webp" in " ".join(window.messages.messages()[-1])
+
+
+def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(window, qtbot):
+    stepped(window, qtbot, 6)
+    QTest.mouseClick(window.timeline_bar._slider, LEFT, pos=slider_place(window, 2))
+    qtbot.waitUntil(at(window, 2), timeout=2000)
+    kept = window.document.now
+    key(window, Qt.Key.Key_V)
+    key(window, Qt.Key.Key_V)
+    key(window, Qt.Key.Key_Period)
+    (shown,) = window.session.views.all
+    assert (shown.name, shown.state) == ("local-sd 2", kept)
+    assert window.document.now is not kept
+    for _ in range(2):
+        assert window.actions_by_id["iteration_beside"].isEnabled()
+        key(window, Qt.Key.Key_V)
+        key(window, Qt.Key.Key_Period)
+    assert [one.name for one in window.session.views.all] == ["local-sd 2", "local-sd 3", "local-sd 4"]
+    assert not window.actions_by_id["iteration_beside"].isEnabled()
