@@ -16,9 +16,11 @@ from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.commands import Commands, methods_offered
+from hexmend_app.comparing import TICKED, Comparing
 from hexmend_app.converging import Converging
 from hexmend_app.counting import Counting
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
+from hexmend_app.filming import Filming
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
 from hexmend_app.menus import build_menus
@@ -37,6 +39,7 @@ from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
+from hexmend_app.widgets.compare_panel import ComparePanel
 from hexmend_app.widgets.convergence_panel import ConvergencePanel
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.hint import Hint
@@ -84,6 +87,7 @@ class Window(QMainWindow):
         self.worst_list = WorstList()
         self.element_panel = ElementPanel()
         self.tag_panel = TagPanel()
+        self.compare_panel = ComparePanel(TICKED)
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
@@ -107,7 +111,9 @@ class Window(QMainWindow):
         self.tagging = Tagging(
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
         )
+        self.comparing = Comparing(session, self.commands, self.compare_panel, self.smoothing_panel, self.counting.kept)
         self.watching = Watching(session, self.commands, self.timeline_bar, self.smoothing_panel)
+        self.filming = Filming(self, session, self.busy, self.messages)
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.converging = Converging(session, self.convergence_panel, self.saving)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
@@ -143,6 +149,7 @@ class Window(QMainWindow):
             ("worst", "Worst elements", self.worst_list),
             ("element", "Element", self.element_panel),
             ("tags", "Tags", self.tag_panel),
+            ("compare", "Compare", self.compare_panel),
         ]
         behind = [
             ("convergence", "Convergence", self.convergence_panel),
@@ -163,7 +170,8 @@ class Window(QMainWindow):
         self.setTabOrder(self.hint.close_button, self.canvas.interactor)
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
-        self.saving.canvas = self.moving.canvas = self.canvas
+        self.comparing.set_canvas(self.canvas)
+        self.saving.canvas = self.filming.canvas = self.moving.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
         if self.document.is_open:
             self._on_mesh_replaced()
@@ -177,6 +185,10 @@ class Window(QMainWindow):
         for told in (self.opener.began, self.opener.ended, self.opener.cancelled, self.opener.failed):
             told.connect(self._enable)
         self.tag_panel.offer_changed.connect(self._enable)
+        self.compare_panel.save_requested.connect(lambda: self.saving.ask_comparison(self.session.comparison))
+        compared = self.session.comparison
+        for told in (compared.changed, self.session.views.changed, self.compare_panel.offer_changed):
+            told.connect(self._enable)
         self.session.timeline.runs_changed.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
@@ -218,7 +230,9 @@ class Window(QMainWindow):
             **self.looking.handlers(),
             **self.inspecting.handlers(),
             **self.tagging.handlers(),
+            **self.comparing.handlers(),
             **self.watching.handlers(),
+            **self.filming.handlers(),
         }
 
     # What the state tells
@@ -242,6 +256,7 @@ class Window(QMainWindow):
         self.statistics.set_summaries(start.summary, now.summary)
         self.inspecting.refresh()
         self.tagging.refresh()
+        self.comparing.move()
         self.looking.refresh()
         self.moving.refresh()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
@@ -292,14 +307,17 @@ class Window(QMainWindow):
         for id in ("run", "step", "reset"):
             self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
-        parts = (self.inspecting, self.tagging, self.looking, self.watching)
+        self.comparing.enable()
+        parts = (self.inspecting, self.tagging, self.looking, self.watching, self.comparing, self.filming)
         for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.
         self.busy.take_escape(self.opener.busy and self.messages.isHidden())
         if self.opener.busy or not self.messages.isHidden():
             self.actions_by_id["back"].setEnabled(False)
-        for id, on in (self.looking.checked() | {f"theme_{theming.chosen().value}": True}).items():
+        for id, on in (
+            self.looking.checked() | self.comparing.checked() | {f"theme_{theming.chosen().value}": True}
+        ).items():
             self.actions_by_id[id].setChecked(on)
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.timeline_bar.setVisible(self.document.is_open)
@@ -379,6 +397,7 @@ class Window(QMainWindow):
         settings.setValue("geometry", self.saveGeometry())
         settings.setValue("layout", self.saveState(LAYOUT))
         self.hide()  # threads may take a while to end
+        self.filming.cancel()
         self.session.shut_down()
         if self.canvas is not None:
             self.canvas.close()

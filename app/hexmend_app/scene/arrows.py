@@ -58,6 +58,11 @@ class ArrowLayer:
         self._through = self._fast = False
         self.hide()
 
+    @property
+    def layer(self) -> vtkRenderer:
+        """What draws inside the mesh."""
+        return self._inside
+
     def hide(self) -> None:
         """Draw none."""
         self.drawn = self.moved = 0

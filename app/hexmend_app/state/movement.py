@@ -94,6 +94,10 @@ class Movement:
     figures: ElementQuality
     _known: dict[str, np.ndarray] = field(default_factory=dict)
 
+    def until(self, points: np.ndarray, figures: ElementQuality) -> Movement:
+        """From the same moment to where the nodes are elsewhere, (n, 3) float64."""
+        return Movement(self.mesh, self.before, points, figures)
+
     def title(self, name: str) -> str:
         """What colours show under one of the names of `MOVEMENTS`, in short."""
         return f"{_SHORT[name]} since {self.before.name}"

@@ -53,6 +53,20 @@ def ask_convergence(parent: QWidget, stem: str) -> str:
     return QFileDialog.getSaveFileName(parent, "Save the convergence as", proposal, kinds)[0]
 
 
+def ask_film(parent: QWidget, stem: str) -> str:
+    """Where to save a film of a run, "" for nowhere."""
+    proposal = str(Path(_folder()) / f"{stem}.gif")
+    kinds = "GIF animation (*.gif);;WebP animation, smaller and finer (*.webp);;PNG animation, exact (*.png)"
+    return QFileDialog.getSaveFileName(parent, "Save the film as", proposal, kinds)[0]
+
+
+def ask_comparison(parent: QWidget, stem: str) -> str:
+    """Where to save the table of methods, "" for nowhere."""
+    proposal = str(Path(_folder()) / f"{stem}-comparison.csv")
+    kinds = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;Everything, for programs (*.json)"
+    return QFileDialog.getSaveFileName(parent, "Save the table as", proposal, kinds)[0]
+
+
 def remember_folder(path: Path) -> None:
     """Begin the next dialog where this file lies."""
     QSettings().setValue("folder", str(path.resolve().parent))
