@@ -10,8 +10,10 @@ from PySide6.QtTest import QTest
 
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.scene.film import pictures
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, RangeMode, Since
+from hexmend_app.state.shots import shots
 from tests.app.driving import LEFT, open_and_wait, pixels
 from tests.said import FIRST_RUN
 
@@ -165,3 +167,16 @@ def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
     qtbot.waitUntil(lambda: len(seen) > 3, timeout=FIRST_RUN)
     window.smoothing.end_now()
     assert all(title.startswith("mean edge lengths moved since") for title in seen)
+
+
+def test_a_film_compares_each_picture_with_the_one_before(window, record, panel):
+    history, mesh = window.session.history, window.document.now.mesh
+    press(panel.colours, "q-change")
+    press(panel.since, "iteration")
+    taken = list(shots(history, record, mesh, [0, 2, 5]))
+    look, movement = window.view.look, window.canvas.viewport.movement
+    frames = [np.asarray(one) for one in pictures(taken, look, (400, 300), movement=movement)]
+    assert len(frames) == 3
+    assert (frames[0] != frames[1]).any()
+    still = list(pictures([taken[2], taken[2]], look, (400, 300), movement=movement))
+    np.testing.assert_array_equal(np.asarray(still[0])[30:], np.asarray(still[1])[30:])  # since then nothing has moved
