@@ -110,7 +110,7 @@ def test_the_movement_is_told_in_figures(window, record, panel):
     change = now.figures.q - start.figures.q
     said = figures(panel)
     free = window.document.now.summary.free_nodes
-    assert said["Nodes"] == f"{free:,} of {free:,} free, since opening"
+    assert said["Nodes"] == f"{free:,} of {free:,} free moved since opening"
     assert said["Elements"] == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
     newly = np.count_nonzero(now.figures.inverted & ~start.figures.inverted)
     mended = np.count_nonzero(start.figures.inverted & ~now.figures.inverted)

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from hexmend_app.state.convergence import Chart, Curve, Quantity, thinned
 from hexmend_app.state.history import Record
 from hexmend_app.state.theme import TEXT
-from hexmend_app.widgets.convergence_axis import UNIT, plain, powers
+from hexmend_app.widgets.convergence_axis import UNIT, Scale, plain, powers
 from hexmend_app.widgets.convergence_line import MOST, RunLine, colour_of
 from hexmend_app.widgets.plots import calm_plot
 from hexmend_app.widgets.style import dress, explain, note, smaller
@@ -94,7 +94,7 @@ class ConvergencePlot(QWidget):
         self._curves: Sequence[Curve] = ()
         self._by_time = self._log = False
         self._held: Record | None = None  # whose curve a drag has hold of
-        self._scale = UNIT
+        self._scale = Scale(0.0, 0.0, ())
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)

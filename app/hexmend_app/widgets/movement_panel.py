@@ -190,7 +190,7 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
 def _texts(counts: Counts, name: str, free: int) -> tuple[str, str, str, str]:
     way = f"{figure(counts.mean)} on average, {figure(counts.largest)} at most" if counts.moved else "–"
     return (
-        f"{counts.moved:,} of {free:,} free, since {name}",
+        f"{counts.moved:,} of {free:,} free moved since {name}",
         way,
         f"{counts.better:,} better, {counts.worse:,} worse",
         f"{counts.newly_inverted:,} newly, {counts.mended:,} mended",

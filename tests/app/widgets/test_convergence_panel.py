@@ -70,6 +70,8 @@ def test_the_default_charts_are_drawn_below_one_another_with_one_axis(panel):
     low, high = panel.drawn[0].view.viewRange()[0]
     assert low < 0
     assert high > 20
+    ticks = panel.plots["quality"].plot.getAxis("left")._tickLevels
+    assert [text for _, text in ticks[0]] == ["0", "0.5", "1"]
 
 
 def test_zero_has_a_place_below_the_powers_of_ten_and_infinite_is_a_gap(panel):
