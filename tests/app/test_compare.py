@@ -16,6 +16,7 @@ from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.document import State
 from hexmend_app.state.look import ColourScale, RangeMode
 from hexmend_app.widgets.captions import CaptionRow, WipeRow
 from hexmend_app.widgets.comparison_table import METHOD, VIEW
@@ -205,6 +206,17 @@ def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
     assert captions(compared) == ["now", "iteration 7"]
     assert compared.canvas.panes.all[1].mesh.points is second.mesh.points
     assert [one.points for one in compared.counting.kept.all] == [second.mesh.points]
+
+
+def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(compared, qtbot):
+    compared.comparing.show("mine", State.of(compared.document.now.mesh.with_points(compared.document.now.mesh.points)))
+    tick(compared, "getme", VIEW)
+    tick(compared, "initial", VIEW)
+    assert captions(compared) == ["now", "mine", "getme", "initial"]
+    press(compared, "Run the comparison")
+    assert captions(compared) == ["now", "mine"]
+    qtbot.waitUntil(lambda: not compared.session.comparison.busy, timeout=FIRST_RUN)
+    assert not any(one.shown for one in model(compared).entries)
 
 
 def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(compared, qtbot):
