@@ -41,6 +41,9 @@ class Commands:
         HexmendError
             Where it cannot be written; the file that was there stays.
         """
+        moment = self._session.timeline.moment
+        if self.document.previews and self._session.editable:
+            self.document.commit("go back" if moment is None else f"go to {moment.name}", self.document.now)
         write(path, self.document.now.mesh)
         self.document.saved(Path(path))
         return left_out(path, self.document.now.mesh)
@@ -50,12 +53,17 @@ class Commands:
         if not self.opener.busy:
             self.smoothing.start(METHODS[method](**values), Stop(**stop))
 
-    def step(self, method: str, values: dict, stop: dict) -> None:
-        """Make one iteration: the next of a paused run, or the first of a new one."""
+    def step(self, method: str, values: dict, stop: dict, iterations: int) -> None:
+        """Make so many iterations: the next of a paused run, or the first of a new one."""
         if self.smoothing.busy:
-            self.smoothing.step()
+            self.smoothing.step(iterations)
         elif not self.opener.busy:
-            self.smoothing.start(METHODS[method](**values), Stop(**stop), iterations=1)
+            self.smoothing.start(METHODS[method](**values), Stop(**stop), iterations)
+
+    def branch(self, method: str, values: dict, stop: dict) -> None:
+        """Run a method on the mesh as it is shown, whatever iteration that is; a run under way ends first."""
+        self.smoothing.end_now()
+        self.run(method, values, stop)
 
     def reset(self) -> None:
         """End a run and put the nodes back to where they were when the mesh was opened."""

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from weakref import WeakKeyDictionary
-
 import numpy as np
 
 from hexmend.quality import measure
 from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept, KeptMoments
 from hexmend_app.state.measured import values
-from hexmend_app.state.run import Frame
 from hexmend_app.state.session import Session
 from hexmend_app.widgets.histogram import QualityHistogram
 
@@ -30,15 +27,13 @@ class Counting:
 
     def __init__(self, session: Session, histogram: QualityHistogram):
         view = self._view = session.view
-        self._document, self._smoothing = session.document, session.smoothing
+        self._document, self._smoothing, self._history = session.document, session.smoothing, session.history
         self._histogram = histogram
         self._own: str | None = None  # chosen here, not by the colours
         self._counted: tuple[str, State] | None = None  # what the axis was made for
         self.kept = KeptMoments()
         self._kept_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
-        self._names: WeakKeyDictionary[State, str] = WeakKeyDictionary()
         view.look_changed.connect(self._on_look_changed)
-        session.smoothing.iterated.connect(self._on_iterated)
         self.kept.changed.connect(self._show_kept)
         histogram.metric_chosen.connect(self._on_metric)
         histogram.range_changed.connect(lambda chosen: view.change(quality_range=chosen))
@@ -93,12 +88,10 @@ class Counting:
 
     # What is kept
 
-    def _on_iterated(self, frame: Frame) -> None:
-        self._names[frame.state] = f"{self._smoothing.method} {frame.iteration.number}"
-
     def _keep(self) -> None:
         now = self._document.now
-        self.kept.keep(self._names.get(now, "kept"), now)
+        moment = self._history.moment_of(now)
+        self.kept.keep("kept" if moment is None else moment.name, now)
 
     def _show_kept(self) -> None:
         kept = self.kept.all

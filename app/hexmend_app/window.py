@@ -29,6 +29,7 @@ from hexmend_app.state.run import Frame, Phase
 from hexmend_app.state.session import Session
 from hexmend_app.state.theme import Choice
 from hexmend_app.tagging import Tagging
+from hexmend_app.watching import Watching
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.clip_panel import ClipPanel
@@ -45,6 +46,7 @@ from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
 from hexmend_app.widgets.structure_panel import StructurePanel
 from hexmend_app.widgets.tag_panel import TagPanel
+from hexmend_app.widgets.timeline_bar import TimelineBar
 from hexmend_app.widgets.welcome import Welcome
 from hexmend_app.widgets.worst_list import WorstList
 
@@ -85,6 +87,7 @@ class Window(QMainWindow):
         self.inside_panel = InsidePanel()
         self.structure_panel = StructurePanel()
         self.colour_panel = ColourPanel()
+        self.timeline_bar = TimelineBar()
         self.busy = Busy()
         self.hint = Hint()
         self.counts = QLabel()
@@ -97,10 +100,17 @@ class Window(QMainWindow):
         self.tagging = Tagging(
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
         )
+        self.watching = Watching(session, self.commands, self.timeline_bar, self.smoothing_panel)
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
             {id: self.actions_by_id[id].shortcut().toString() for id in ("run", "step", "stop", "reset")}
+        )
+        self.timeline_bar.set_shortcuts(
+            {
+                id.removeprefix("iteration_"): self.actions_by_id[id].shortcut().toString()
+                for id in self.watching.handlers()
+            }
         )
         self._connect()
         self._restore()
@@ -113,6 +123,7 @@ class Window(QMainWindow):
         self._centre.addWidget(self.messages)
         self._centre.addWidget(self.hint)
         self._centre.addWidget(self.welcome, 1)
+        self._centre.addWidget(self.timeline_bar)
         centre = QWidget()
         centre.setLayout(self._centre)
         self.setCentralWidget(centre)
@@ -135,7 +146,7 @@ class Window(QMainWindow):
         from hexmend_app.widgets.canvas import Canvas
 
         self.canvas = Canvas()
-        self._centre.addWidget(self.canvas, 1)
+        self._centre.insertWidget(self._centre.indexOf(self.timeline_bar), self.canvas, 1)
         name_tabs(self)
         self.setTabOrder(self.hint.close_button, self.canvas.interactor)
         self.looking.set_canvas(self.canvas)
@@ -154,6 +165,7 @@ class Window(QMainWindow):
         for told in (self.opener.began, self.opener.ended, self.opener.cancelled, self.opener.failed):
             told.connect(self._enable)
         self.tag_panel.offer_changed.connect(self._enable)
+        self.session.timeline.runs_changed.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
         self.smoothing.ended.connect(self._on_ended)
@@ -193,6 +205,7 @@ class Window(QMainWindow):
             **self.looking.handlers(),
             **self.inspecting.handlers(),
             **self.tagging.handlers(),
+            **self.watching.handlers(),
         }
 
     # What the state tells
@@ -265,7 +278,8 @@ class Window(QMainWindow):
         for id in ("run", "step", "reset"):
             self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
-        for id, on in (self.inspecting.offered() | self.tagging.offered() | self.looking.offered()).items():
+        parts = (self.inspecting, self.tagging, self.looking, self.watching)
+        for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.
         self.busy.take_escape(self.opener.busy and self.messages.isHidden())
@@ -274,6 +288,7 @@ class Window(QMainWindow):
         for id, on in (self.looking.checked() | {f"theme_{theming.chosen().value}": True}).items():
             self.actions_by_id[id].setChecked(on)
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
+        self.timeline_bar.setVisible(self.document.is_open)
         self.smoothing_panel.setEnabled(self.document.is_open and not self.opener.busy)
         self.looking.set_enabled(self.document.is_open)
         self.tag_panel.setEnabled(self.document.is_open)

@@ -83,6 +83,7 @@ def test_tab_goes_in_reading_order(everything_on):
     reached = walk(window)
     parts = [
         window.canvas,
+        window.timeline_bar,
         window.docks["tools"],
         window.docks["histogram"],
         window.docks["quality"],

@@ -65,7 +65,7 @@ class Document(QObject):
         self.now: State | None = None
         self._changes: list[Change] = []
         self._at = 0
-        self._saved = 0
+        self._saved: State | None = None
 
     @property
     def is_open(self) -> bool:
@@ -85,14 +85,14 @@ class Document(QObject):
     @property
     def modified(self) -> bool:
         """Whether there is something that was not saved."""
-        return self.is_open and self._at != self._saved
+        return self.is_open and self._changes[self._at].state is not self._saved
 
     def replace(self, state: State, path: Path | None) -> None:
         """Open another mesh; its changes begin anew."""
         self.path = path
         self.now = state
         self._changes = [Change("open", state)]
-        self._at = self._saved = 0
+        self._at, self._saved = 0, state
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 
@@ -101,16 +101,25 @@ class Document(QObject):
         self.now = state
         self.points_moved.emit()
 
-    def commit(self, title: str, state: State) -> None:
-        """Record where the nodes are now, what is pinned and what is tagged, as one change that undo takes back."""
+    @property
+    def previews(self) -> bool:
+        """Whether what is shown is no recorded change: nodes on their way, or an iteration that was gone back to."""
+        return self.is_open and self.now is not self._changes[self._at].state
+
+    def commit(self, title: str, state: State, show: bool = True) -> None:
+        """Record where the nodes are now, what is pinned and what is tagged, as one change that undo takes back.
+
+        Without `show`, what is previewed stays in view.
+        """
         before, after = self._changes[self._at].state.mesh, state.mesh
         if any(getattr(after, part) is not getattr(before, part) for part in ("points", "pinned", "hex_sets")):
             del self._changes[self._at + 1 :]
-            if self._saved > self._at:
-                self._saved = -1  # what was saved can no longer be reached
             self._changes.append(Change(title, state))
             self._at += 1
-        self._show()
+        if show:
+            self._show()
+        else:
+            self.changes_changed.emit()
 
     @property
     def undo_title(self) -> str | None:
@@ -145,9 +154,9 @@ class Document(QObject):
             self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
 
     def saved(self, path: Path) -> None:
-        """Remember that the mesh as it is now is on disk."""
+        """Remember that the mesh as it is shown is on disk."""
         self.path = path
-        self._saved = self._at
+        self._saved = self.now
         self.changes_changed.emit()
 
     def _show(self) -> None:

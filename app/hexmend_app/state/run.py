@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from enum import Enum
+from functools import partial
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
@@ -12,7 +13,9 @@ from hexmend import compiling
 from hexmend.optimise import Result
 from hexmend.run import Stop
 from hexmend.smoothers import Smoother
+from hexmend_app.state.breakpoints import Breakpoints
 from hexmend_app.state.document import Document, State
+from hexmend_app.state.history import History, Moment, Record
 from hexmend_app.state.worker import Frame, Worker
 
 #: Milliseconds between two looks into the mailbox.
@@ -33,11 +36,21 @@ class Phase(Enum):
 class Smoothing(QObject):
     """Runs smoothers on the document's mesh in a worker thread.
 
+    Attributes
+    ----------
+    phase : Phase
+    record : Record or None
+        The history's of the run that goes on or went on last.
+    following : bool
+        Whether iterations are shown as they come; the user may look at earlier ones meanwhile.
+
     Signals
     -------
     phase_changed
     iterated(Frame)
-        The newest iteration; those between two looks are not shown, their figures are in the result's history.
+        The newest iteration; those between two looks are not shown, but in the history.
+    hit(Frame)
+        The run has reached a break-point and pauses.
     ended(Result)
         The run is over, and the document holds its last iteration as one change.
     failed(Exception)
@@ -46,17 +59,21 @@ class Smoothing(QObject):
 
     phase_changed = Signal()
     iterated = Signal(object)
+    hit = Signal(object)
     ended = Signal(object)
     failed = Signal(object)
 
-    def __init__(self, document: Document, parent: QObject | None = None):
+    def __init__(self, document: Document, history: History, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
+        self._history = history
         self._before: State | None = None
         self._worker: Worker | None = None
         self._title = ""
-        self.method = ""  # name of the method that ran last
         self._metrics: frozenset[str] = frozenset()
+        self._breakpoints = Breakpoints()
+        self.record: Record | None = None
+        self.following = True
         self.phase = Phase.IDLE
         self._compiled, self._said = 0, False
         self._timer = QTimer(self)
@@ -79,9 +96,11 @@ class Smoothing(QObject):
         if self.busy or not self._document.is_open:
             return
         self._before = self._document.now
-        self._title, self.method = smoother.title, smoother.name
-        self._worker = Worker(self._before.mesh, smoother, stop)
-        self._worker.metrics = self._metrics
+        self._title = smoother.title
+        self.record = self._history.begin(smoother.name, smoother.title, self._before)
+        self.following = True
+        self._worker = Worker(self._before.mesh, smoother, stop, partial(self._history.add, self.record))
+        self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
         self._worker.grant(iterations)
         self._compiled, self._said = compiling.begun, False
         self._set_phase(Phase.PREPARING)
@@ -94,21 +113,35 @@ class Smoothing(QObject):
         if self._worker is not None:
             self._worker.metrics = self._metrics
 
+    def break_at(self, breakpoints: Breakpoints) -> None:
+        """Pause at these from now on."""
+        self._breakpoints = breakpoints
+        if self._worker is not None:
+            self._worker.breakpoints = breakpoints
+
+    def follow(self, on: bool) -> None:
+        """Show iterations as they come, beginning with the newest, or stay where the user looks."""
+        self.following = on
+        if on and self._worker is not None and self._worker.last is not None:
+            self._preview(self._worker.last)
+
     def pause(self) -> None:
         """Pause after the iteration at hand."""
         if self._worker is not None:
             self._worker.grant(0)
 
     def resume(self) -> None:
-        """Go on."""
+        """Go on, and show it."""
         if self._worker is not None:
+            self.following = True
             self._worker.grant(math.inf)
             self._look()
 
-    def step(self) -> None:
-        """Make one more iteration and pause."""
+    def step(self, iterations: int = 1) -> None:
+        """Make so many more iterations, show them, and pause."""
         if self._worker is not None:
-            self._worker.grant_one_more()
+            self.following = True
+            self._worker.grant_more(iterations)
             self._look()
 
     def stop(self) -> None:
@@ -132,13 +165,14 @@ class Smoothing(QObject):
             self._worker.end()
             self._worker.wait()
             self._worker = None
+            self._history.finish(self.record, None, None, "")
             self._set_phase(Phase.IDLE)
 
     def _look(self) -> None:
         worker = self._worker
         if worker is None:
             return
-        over = worker.isFinished()
+        over, waits = worker.isFinished(), worker.waiting  # before the mailbox is emptied
         frame = worker.mailbox.take()
         if frame is not None and not over:
             self._show(frame)
@@ -148,24 +182,38 @@ class Smoothing(QObject):
             self._said = True
             self.phase_changed.emit()
         elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
-            self._set_phase(Phase.PAUSED if worker.waiting else Phase.RUNNING)
+            self._set_phase(Phase.PAUSED if waits else Phase.RUNNING)
 
     def _show(self, frame: Frame) -> None:
-        self._document.preview(frame.state)
+        if frame.hit is not None:
+            self.record.pauses[frame.iteration.number] = frame.hit.sentence
+            self.following = True
+        if self.following:
+            self._preview(frame)
         self.iterated.emit(frame)
+        if frame.hit is not None:
+            self.hit.emit(frame)
+
+    def _preview(self, frame: Frame) -> None:
+        self._history.note(frame.state, Moment(self.record, frame.iteration.number))
+        self._document.preview(frame.state)
 
     def _finish(self, worker: Worker) -> None:
         self._timer.stop()
         worker.wait()
         self._worker = None
         if worker.error is not None:
+            self._history.finish(self.record, None, None, f"Failed: {worker.error}.")
             self._document.preview(self._before)
             self._set_phase(Phase.IDLE)
             self.failed.emit(worker.error)
             return
-        if worker.last is not None:
-            self._document.commit(self._title, worker.last.state)
-            self.iterated.emit(worker.last)
+        last = worker.last
+        reached = None if last is None else Moment(self.record, last.iteration.number)
+        self._history.finish(self.record, reached, last and last.state, worker.result.message)
+        if last is not None:
+            self._document.commit(self._title, last.state, show=self.following)
+            self.iterated.emit(last)
         self._set_phase(Phase.FINISHED)
         self.ended.emit(worker.result)
 

@@ -6,9 +6,11 @@ from PySide6.QtCore import QObject
 
 from hexmend_app.state.document import Document
 from hexmend_app.state.finder import Finder
+from hexmend_app.state.history import History
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
+from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
 
 
@@ -20,7 +22,9 @@ class Session(QObject):
     document : Document
     view : View
     selection : Selection
+    history : History
     smoothing : Smoothing
+    timeline : Timeline
     opener : Opener
     finder : Finder
     """
@@ -30,7 +34,9 @@ class Session(QObject):
         self.document = Document(self)
         self.view = View(self)
         self.selection = Selection(self)
-        self.smoothing = Smoothing(self.document, self)
+        self.history = History()
+        self.smoothing = Smoothing(self.document, self.history, self)
+        self.timeline = Timeline(self.document, self.smoothing, self.history, self)
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
 

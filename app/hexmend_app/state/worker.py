@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numba
@@ -13,16 +14,18 @@ from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
+from hexmend_app.state.breakpoints import Breakpoints, Hit
 from hexmend_app.state.document import State
 from hexmend_app.state.measured import values
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """An iteration with what the window shows of it, measured in the worker."""
+    """An iteration with what the window shows of it, measured in the worker, and the break-point that it reached."""
 
     iteration: Iteration
     state: State
+    hit: Hit | None = None
 
 
 class Mailbox:
@@ -55,9 +58,11 @@ class Worker(QThread):
     mesh : Mesh
     smoother : Smoother
     stop : Stop
+    keep : callable
+        Called with every iteration, number 0 first, in the thread.
     """
 
-    def __init__(self, mesh: Mesh, smoother: Smoother, stop: Stop):
+    def __init__(self, mesh: Mesh, smoother: Smoother, stop: Stop, keep: Callable[[Iteration], object]):
         super().__init__()
         self.setObjectName(f"smoother {smoother.name}")
         self.mailbox = Mailbox()
@@ -66,10 +71,13 @@ class Worker(QThread):
         self.error: Exception | None = None
         self.prepared = threading.Event()
         self.metrics: frozenset[str] = frozenset()  # what the window will ask of every iteration
+        self.breakpoints = Breakpoints()
         self._order = (mesh, smoother, stop)
+        self._keep = keep
         self._gate = threading.Condition()
         self._granted: float = 0  # iterations that may still be made; infinite while running
         self._ended = False
+        self._waits = False  # at the gate
 
     def grant(self, iterations: float) -> None:
         """Let that many further iterations pass; infinity runs on, 0 pauses after the one at hand."""
@@ -77,10 +85,10 @@ class Worker(QThread):
             self._granted = iterations
             self._gate.notify_all()
 
-    def grant_one_more(self) -> None:
-        """Let one further iteration pass: a step."""
+    def grant_more(self, iterations: int) -> None:
+        """Let so many further iterations pass: steps."""
         with self._gate:
-            self._granted = 1 if self._granted == float("inf") else self._granted + 1
+            self._granted = iterations if self._granted == float("inf") else max(self._granted, 0) + iterations
             self._gate.notify_all()
 
     def end(self) -> None:
@@ -91,8 +99,8 @@ class Worker(QThread):
 
     @property
     def waiting(self) -> bool:
-        """Whether the worker has used up its grant."""
-        return self._granted <= 0
+        """Whether the worker has used up its grant, and made its last iteration."""
+        return self._waits and self._granted <= 0
 
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
@@ -101,11 +109,14 @@ class Worker(QThread):
             numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
             mesh, smoother, stop = self._order
             run = iterate(mesh, smoother, stop)
+            self._keep(run.start)
             self.prepared.set()
             while self._may_go_on(run):
+                before = run.last
                 iteration = next(run, None)
                 if iteration is not None:
-                    self._report(iteration)
+                    self._keep(iteration)
+                    self._report(iteration, self._hit(before, iteration))
             run.close()
             if run.reached is not run.last:
                 self._report(run.reached)
@@ -115,16 +126,26 @@ class Worker(QThread):
         finally:
             self.prepared.set()
 
-    def _report(self, iteration: Iteration) -> None:
+    def _hit(self, before: Iteration, iteration: Iteration) -> Hit | None:
+        """The break-point that an iteration reaches, at which the run pauses."""
+        mesh, breakpoints = self._order[0], self.breakpoints
+        hit = breakpoints.hit(before, iteration, mesh.mean_edge_length or 1.0) if breakpoints.any else None
+        if hit is not None:
+            self.grant(0)
+        return hit
+
+    def _report(self, iteration: Iteration, hit: Hit | None = None) -> None:
         moved = self._order[0].with_points(iteration.points)
         for metric in self.metrics:
             values(metric, moved.points, moved.hexes, iteration.figures)
-        self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)))
+        self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)), hit)
         self.mailbox.put(self.last)
 
     def _may_go_on(self, run: Run) -> bool:
         with self._gate:
+            self._waits = True
             while run.outcome is None and not self._ended and self._granted <= 0:
                 self._gate.wait()
+            self._waits = False
             self._granted -= 1
             return run.outcome is None and not self._ended

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from html import escape
 from typing import Any
 
@@ -11,13 +11,16 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
+    QHBoxLayout,
     QLabel,
     QScrollArea,
+    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
 
 from hexmend.parameters import Parameter
+from hexmend_app.widgets.breakpoint_form import BreakpointForm
 from hexmend_app.widgets.parameter_form import ParameterForm
 from hexmend_app.widgets.run_buttons import STATES, RunButtons
 from hexmend_app.widgets.section import Section
@@ -33,15 +36,15 @@ class SmoothingPanel(QWidget):
 
     Signals
     -------
-    run_requested(name, values, stop_values), step_requested(name, values, stop_values)
-        str, dict, dict; not sent while a value is wrong.
+    run_requested(name, values, stop_values), step_requested(name, values, stop_values, iterations)
+        str, dict, dict, int; not sent while a value is wrong.
     pause_requested, resume_requested, stop_requested, reset_requested
     method_changed(name)
         The user chose another method.
     """
 
     run_requested = Signal(str, dict, dict)
-    step_requested = Signal(str, dict, dict)
+    step_requested = Signal(str, dict, dict, int)
     pause_requested = Signal()
     resume_requested = Signal()
     stop_requested = Signal()
@@ -68,13 +71,21 @@ class SmoothingPanel(QWidget):
 
         self.form = ParameterForm()
         self.stop_form = ParameterForm(stop_conditions)
+        self.breakpoint_form = BreakpointForm()
         self._sections = (
             Section("Parameters", self.form, "How the method goes about it; the defaults suit most meshes."),
             Section("Stop when", self.stop_form, "When a run ends by itself."),
+            Section("Pause when", self.breakpoint_form, "Break-points: what a run pauses at, to be looked at."),
         )
         self.buttons = RunButtons()
         self.buttons.pressed.connect(self._on_button)
 
+        self._steps = QSpinBox()
+        self._steps.setRange(1, 9999)
+        self._steps.setFont(tabular(self._steps.font()))
+        explain(self._steps, "Iterations of a step", "How many iterations Step makes before it holds.")
+        steps = QLabel("Step by")
+        steps.setBuddy(self._steps)
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
         self._progress.setAccessibleName("Progress")
@@ -85,7 +96,11 @@ class SmoothingPanel(QWidget):
         layout.addLayout(choice)
         layout.addWidget(self._help)
         layout.addWidget(self.buttons)
-        layout.addWidget(self._progress)
+        foot = QHBoxLayout()
+        foot.addWidget(self._progress, 1)
+        foot.addWidget(steps)
+        foot.addWidget(self._steps)
+        layout.addLayout(foot)
         layout.addWidget(self._sentence)
         for section in self._sections:
             layout.addWidget(section)
@@ -157,12 +172,12 @@ class SmoothingPanel(QWidget):
         elif self._state == "paused":
             self.resume_requested.emit()
         elif STATES[self._state].run:
-            self._request(self.run_requested)
+            self.request(self.run_requested.emit)
 
     def step(self) -> None:
         """Ask for one iteration, where the state allows it."""
         if STATES[self._state].step:
-            self._request(self.step_requested)
+            self.request(lambda *order: self.step_requested.emit(*order, self._steps.value()))
 
     def _on_button(self, name: str) -> None:
         {
@@ -172,10 +187,11 @@ class SmoothingPanel(QWidget):
             "reset": self.reset_requested.emit,
         }[name]()
 
-    def _request(self, signal: Any) -> None:
+    def request(self, ask: Callable[[str, dict, dict], object]) -> None:
+        """Call `ask` with the method, its values and the stop conditions, unless a value is wrong: then say which."""
         if not self._methods:
             return
-        for form, section in zip((self.form, self.stop_form), self._sections, strict=True):
+        for form, section in zip((self.form, self.stop_form), self._sections, strict=False):
             if form.problems():
                 section.expand()
                 form.show_problem()
@@ -183,7 +199,7 @@ class SmoothingPanel(QWidget):
                 self._sentence.setText("Not started: correct the marked value first.")
                 self._sentence.setVisible(True)
                 return
-        signal.emit(self._name, self.form.values(), self.stop_form.values())
+        ask(self._name, self.form.values(), self.stop_form.values())
 
     def _on_method(self) -> None:
         name = self._method.currentData()
@@ -202,7 +218,7 @@ class SmoothingPanel(QWidget):
             around = around.parentWidget()
         room, whole = (self.height(), self) if around is None else (around.viewport().height(), around.widget())
         room -= whole.minimumSizeHint().height()  # what stands beside this panel counts too
-        for section, form in zip(self._sections, (self.form, self.stop_form), strict=True):
+        for section, form in zip(self._sections, (self.form, self.stop_form), strict=False):
             need = form.sizeHint().height() + _AROUND_FORM
             if need <= room:
                 section.expand()

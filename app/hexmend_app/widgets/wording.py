@@ -80,6 +80,15 @@ def position(place: float, extent: float, digits: int = 4) -> str:
     return f"{0.0 if abs(place) < 1e-4 * extent else place:.{digits}g}".replace("-", "−")
 
 
+def megabytes(bytes: int) -> str:
+    """An amount of memory.
+
+    >>> megabytes(123 << 20), megabytes(1 << 30), megabytes(10_000)
+    ('123 MB', '1 GB', '0 MB')
+    """
+    return f"{bytes / (1 << 30):g} GB" if bytes and bytes % (1 << 30) == 0 else f"{round(bytes / (1 << 20)):,} MB"
+
+
 def counted(number: int, noun: str, plural: str = "") -> str:
     """A number with its noun.
 

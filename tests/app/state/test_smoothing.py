@@ -12,6 +12,7 @@ from hexmend.smoothers import Smoother
 from hexmend.smoothers.local_sd import LocalSteepestDescent
 from hexmend_app.state import measured
 from hexmend_app.state.document import Document, State
+from hexmend_app.state.history import History
 from hexmend_app.state.run import Phase, Smoothing
 from hexmend_app.state.worker import Mailbox
 from tests.core.grids import grid, scrambled
@@ -40,7 +41,7 @@ def document(qtbot):
 
 @pytest.fixture
 def smoothing(document):
-    smoothing = Smoothing(document)
+    smoothing = Smoothing(document, History())
     yield smoothing
     smoothing.shut_down()
 
@@ -143,7 +144,7 @@ def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing,
     smoothing.start(LocalSteepestDescent(), Stop(), iterations=1)
     qtbot.waitUntil(lambda: len(frames) == 1, timeout=FIRST_RUN)
     assert "condition" in measured._known[frames[0].state.figures]
-    assert smoothing.method == "local-sd"
+    assert smoothing.record.name == "local-sd"
     smoothing.want({"taper", "q"})  # in the middle of a run
     smoothing.step()
     qtbot.waitUntil(lambda: len(frames) == 2, timeout=FIRST_RUN)

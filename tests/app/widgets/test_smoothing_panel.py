@@ -73,7 +73,7 @@ def test_run_asks_with_what_is_set(panel, heard):
     click(panel, "run")
     click(panel, "step")
     expected = ("blend", {"rho": 0.25}, {"max_iterations": 7})
-    assert heard == [("run_requested", *expected), ("step_requested", *expected)]
+    assert heard == [("run_requested", *expected), ("step_requested", *expected, 1)]
 
 
 def test_the_main_button_runs_pauses_and_resumes(panel, heard):

@@ -1,0 +1,110 @@
+"""Break-points: what a run pauses at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.optimise import Iteration
+
+
+@dataclass(frozen=True)
+class Hit:
+    """A break-point that was reached.
+
+    Parameters
+    ----------
+    sentence : str
+        What has happened.
+    hexes, nodes : tuple of int
+        Where; empty where it is nowhere in particular.
+    """
+
+    sentence: str
+    hexes: tuple[int, ...] = ()
+    nodes: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class Breakpoints:
+    """What a run pauses at; nothing by default.
+
+    Parameters
+    ----------
+    inverts : bool
+        An element that was not inverted is.
+    q_min_falls : bool
+        The least quality is lower than it was before the iteration.
+    node, move : int or None, float
+        The node moves further than `move` mean edge lengths in an iteration.
+    hex, change : int or None, float
+        The quality of the element changes by more than `change` in an iteration.
+    cuts : int or None
+        The line search cuts the step more often; methods that search for each node by itself do not tell.
+    """
+
+    inverts: bool = False
+    q_min_falls: bool = False
+    node: int | None = None
+    move: float = 0.1
+    hex: int | None = None
+    change: float = 0.1
+    cuts: int | None = None
+
+    @property
+    def any(self) -> bool:
+        """Whether there is anything to pause at."""
+        watched = (self.node, self.hex, self.cuts)
+        return self.inverts or self.q_min_falls or any(one is not None for one in watched)
+
+    def hit(self, before: Iteration, now: Iteration, unit: float) -> Hit | None:
+        """The first break-point that an iteration reaches, in the order above.
+
+        Parameters
+        ----------
+        before, now : Iteration
+            Of one run, one after the other.
+        unit : float
+            Mean edge length of the mesh.
+        """
+        hits = (self._inverted(before, now), self._fell(before, now), self._moved(before, now, unit),
+                self._changed(before, now), self._cut(now))  # fmt: skip
+        return next((hit for hit in hits if hit is not None), None)
+
+    def _inverted(self, before: Iteration, now: Iteration) -> Hit | None:
+        if not self.inverts:
+            return None
+        hexes = np.flatnonzero(now.figures.inverted & ~before.figures.inverted)
+        if not hexes.size:
+            return None
+        more = f" and {hexes.size - 1:,} more" if hexes.size > 1 else ""
+        return Hit(f"Element {hexes[0]}{more} inverted", tuple(int(h) for h in hexes))
+
+    def _fell(self, before: Iteration, now: Iteration) -> Hit | None:
+        least, worst = before.figures.q.min(), int(now.figures.q.argmin())
+        if not (self.q_min_falls and now.figures.q[worst] < least):
+            return None
+        return Hit(f"q min fell from {least:.4f} to {now.figures.q[worst]:.4f}, at element {worst}", (worst,))
+
+    def _moved(self, before: Iteration, now: Iteration, unit: float) -> Hit | None:
+        if self.node is None:
+            return None
+        move = float(np.linalg.norm(now.points[self.node] - before.points[self.node])) / unit
+        if not move > self.move:
+            return None
+        return Hit(f"Node {self.node} moved by {move:.3g} mean edge lengths", nodes=(self.node,))
+
+    def _changed(self, before: Iteration, now: Iteration) -> Hit | None:
+        if self.hex is None:
+            return None
+        was, is_now = float(before.figures.q[self.hex]), float(now.figures.q[self.hex])
+        if not abs(is_now - was) > self.change:
+            return None
+        return Hit(f"q of element {self.hex} went from {was:.4f} to {is_now:.4f}", (self.hex,))
+
+    def _cut(self, now: Iteration) -> Hit | None:
+        cuts = now.notes.get("cuts", 0)
+        if self.cuts is None or not cuts > self.cuts:
+            return None
+        return Hit(f"The line search cut the step {cuts} times, to {now.notes.get('step_length', 0.0):.3g}")

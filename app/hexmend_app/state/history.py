@@ -1,0 +1,242 @@
+"""Every iteration of the runs on the open mesh: its figures for good, where its nodes were as long as memory lasts."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.optimise import Iteration
+from hexmend_app.state.document import State
+
+#: Bytes that positions may take unless the user says otherwise: 400 iterations of 110,000 hexes.
+LIMIT = 512 << 20
+
+
+class Record:
+    """What is kept of one run.
+
+    Attributes
+    ----------
+    name : str
+        Short and its own: the method's, with a number where it ran before.
+    title : str
+        The method's title.
+    start : State
+        Where it began, as it was.
+    parent : Moment or None
+        The iteration of another run that it went on from.
+    rows : list of dict
+        Of every iteration, `Iteration.row` and what numbers its notes hold; number 0 first.
+    result : int or None
+        Number of the iteration that is the run's result; None until it has ended.
+    end : State or None
+        The result, as it was.
+    message : str
+        What came out, in sentences; "" until it has ended.
+    pauses : dict
+        The break-points that it paused at, in words, by the number of the iteration.
+    """
+
+    def __init__(self, name: str, title: str, start: State, parent: Moment | None):
+        self.name, self.title, self.start, self.parent = name, title, start, parent
+        self.rows: list[dict[str, Any]] = []
+        self.result: int | None = None
+        self.end: State | None = None
+        self.message = ""
+        self.pauses: dict[int, str] = {}
+        self._free = np.flatnonzero(start.mesh.free).astype(np.int32)
+        self._offsets: dict[int, np.ndarray] = {}  # of free nodes from the start, float32, by number
+
+    @property
+    def newest(self) -> int:
+        """Number of the last iteration."""
+        return len(self.rows) - 1
+
+    def numbers(self) -> np.ndarray:
+        """Numbers of the iterations whose positions are there, ascending, (k,) int."""
+        numbers = np.array([0, *self._offsets])  # a dict keeps the order of adding
+        return numbers if self.end is None or self.result in self._offsets else np.union1d(numbers, self.result)
+
+    def compact(self, points: np.ndarray) -> np.ndarray:
+        """How far the free nodes are from where they started, (free nodes, 3) float32."""
+        return (points[self._free] - self.start.mesh.points[self._free]).astype(np.float32)
+
+    def points(self, number: int) -> np.ndarray:
+        """Where the nodes were, (n, 3) float64: as they were at the start and the result, else within rounding.
+
+        A way from the start is kept as float32, so that a node is off by 6e-8 of its way at most.
+
+        Raises
+        ------
+        KeyError
+            For an iteration that was thinned out.
+        """
+        if number == 0:
+            return self.start.mesh.points
+        if number == self.result and self.end is not None:
+            return self.end.mesh.points
+        points = self.start.mesh.points.copy()
+        points[self._free] += self._offsets[number]
+        return points
+
+
+@dataclass(frozen=True)
+class Moment:
+    """An iteration of a run."""
+
+    record: Record
+    number: int
+
+    @property
+    def name(self) -> str:
+        """What to call it."""
+        return f"{self.record.name} {self.number}" if self.number else f"before {self.record.name}"
+
+
+class History:
+    """The runs on the open mesh, oldest first.
+
+    A run adds to it from its own thread, so that no iteration is lost however seldom the window looks. Positions that
+    take more than the limit are thinned: the older they are, the further apart are those that stay. The start, the
+    newest iteration and the result of a run are always there.
+
+    Parameters
+    ----------
+    limit : int
+        Bytes that positions may take.
+    """
+
+    def __init__(self, limit: int = LIMIT):
+        self.records: list[Record] = []
+        self._limit = limit
+        self._bytes = 0
+        self._kept: list[tuple[Record, int, int]] = []  # with a stamp that counts on, in the order of adding
+        self._stamp = 0
+        self._lock = threading.Lock()
+        self._moments: WeakKeyDictionary[State, Moment] = WeakKeyDictionary()
+
+    @property
+    def bytes(self) -> int:
+        """What positions take now."""
+        return self._bytes
+
+    @property
+    def limit(self) -> int:
+        """Bytes that positions may take; less than there are thins them at once."""
+        return self._limit
+
+    @limit.setter
+    def limit(self, limit: int) -> None:
+        with self._lock:
+            self._limit = limit
+            self._thin()
+
+    def begin(self, name: str, title: str, start: State) -> Record:
+        """Open the record of a run that is about to begin; what it goes on from is known by its start."""
+        names = {record.name for record in self.records}
+        count = 1
+        while (own := f"{name} ({count})" if count > 1 else name) in names:
+            count += 1
+        record = Record(own, title, start, self.moment_of(start))
+        self.records.append(record)
+        self._moments[start] = Moment(record, 0)
+        return record
+
+    def add(self, record: Record, iteration: Iteration) -> None:
+        """Keep an iteration; called by the thread that made it."""
+        numbers = {name: value for name, value in iteration.notes.items() if isinstance(value, (int, float, str))}
+        row = numbers | iteration.row()
+        offsets = record.compact(iteration.points) if iteration.number else None
+        with self._lock:
+            if offsets is not None:
+                record._offsets[iteration.number] = offsets
+                self._stamp += 1
+                self._kept.append((record, iteration.number, self._stamp))
+                self._bytes += offsets.nbytes
+                self._thin()
+            record.rows.append(row)  # last, so that whoever counts rows finds the positions
+
+    def finish(self, record: Record, result: Moment | None, end: State | None, message: str) -> None:
+        """Close the record of a run; one without an iteration is dropped."""
+        if record.newest < 1:
+            self.remove(record)
+            return
+        record.message = message
+        if result is not None:
+            record.result, record.end = result.number, end
+            self._moments[end] = result
+
+    def remove(self, record: Record) -> None:
+        """Forget a run."""
+        with self._lock:
+            self.records = [one for one in self.records if one is not record]
+            self._kept = [one for one in self._kept if one[0] is not record]
+            self._bytes -= sum(offsets.nbytes for offsets in record._offsets.values())
+            record._offsets.clear()
+        for state, moment in list(self._moments.items()):
+            if moment.record is record:
+                del self._moments[state]
+
+    def clear(self) -> None:
+        """Forget all: another mesh is open."""
+        for record in list(self.records):
+            self.remove(record)
+
+    def note(self, state: State, moment: Moment) -> None:
+        """Remember which iteration a state shows."""
+        self._moments[state] = moment
+
+    def moment_of(self, state: State | None) -> Moment | None:
+        """Which iteration a state shows; None if none that is known."""
+        return None if state is None else self._moments.get(state)
+
+    def kept(self, record: Record) -> np.ndarray:
+        """Numbers of the iterations whose positions are there, ascending, (k,) int."""
+        with self._lock:
+            return record.numbers()
+
+    def state(self, moment: Moment, mesh: Mesh) -> State:
+        """The mesh as it was at an iteration, or at the nearest one whose positions are there: `moment_of` tells which.
+
+        Parameters
+        ----------
+        moment : Moment
+        mesh : Mesh
+            The open one: what is pinned and tagged is as it is there.
+        """
+        record = moment.record
+        with self._lock:
+            numbers = record.numbers()
+            number = int(numbers[np.abs(numbers - moment.number).argmin()])
+            points = record.points(number)
+        for state in (record.start, record.end):
+            if state is not None and state.mesh.points is points and _carries(state.mesh, mesh):
+                break
+        else:
+            state = State.of(mesh.with_points(points))
+        self._moments[state] = Moment(record, number)
+        return state
+
+    def _thin(self) -> None:
+        """Drop positions until they fit: each time those that leave the smallest gap for their age."""
+        while self._bytes > self._limit:
+            numbers = np.array([number for _, number, _ in self._kept])
+            age = self._stamp + 1 - np.array([stamp for _, _, stamp in self._kept])
+            owners = np.array([id(record) for record, _, _ in self._kept])
+            begins = np.append(True, owners[1:] != owners[:-1])
+            ends = np.append(begins[1:], True)
+            before = np.where(begins, 0, np.roll(numbers, 1))
+            gap = np.where(ends, np.inf, np.roll(numbers, -1) - before)
+            if np.isinf(gap).all():
+                break
+            record, number, _ = self._kept.pop(int((gap / age).argmin()))
+            self._bytes -= record._offsets.pop(number).nbytes
+
+
+def _carries(one: Mesh, other: Mesh) -> bool:
+    return one.pinned is other.pinned and one.hex_sets is other.hex_sets

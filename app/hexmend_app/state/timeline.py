@@ -1,0 +1,190 @@
+"""Where one is in the history, and the ways through it: to any iteration, step by step, or played."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from hexmend_app.state.document import Document
+from hexmend_app.state.history import History, Moment, Record
+from hexmend_app.state.run import Phase, Smoothing
+
+#: Iterations a second at which a run is played.
+SPEED = 10
+
+
+class Timeline(QObject):
+    """Goes through the iterations of the open mesh's runs; whatever shows the document follows.
+
+    Going to an iteration changes nothing that undo would take back. A method that is run there begins a run of its own:
+    a branch.
+
+    Attributes
+    ----------
+    record : Record or None
+        The run that is gone through.
+    speed : float
+        Iterations that are played a second.
+
+    Signals
+    -------
+    runs_changed
+        There is another run, or one less.
+    grown
+        There are more iterations, or another run is gone through.
+    moved
+        Another iteration is shown, or none.
+    playing_changed
+    """
+
+    runs_changed = Signal()
+    grown = Signal()
+    moved = Signal()
+    playing_changed = Signal()
+
+    def __init__(self, document: Document, smoothing: Smoothing, history: History, parent: QObject | None = None):
+        super().__init__(parent)
+        self._document = document
+        self._smoothing = smoothing
+        self.history = history
+        self.record: Record | None = None
+        self.speed: float = SPEED
+        self._runs: list[Record] = []
+        self._shown: Moment | None = None
+        self._wanted: Moment | None = None
+        self._soon = QTimer(self, singleShot=True, interval=0)
+        self._soon.timeout.connect(self._go_where_wanted)
+        self._clock = QTimer(self)
+        self._clock.timeout.connect(self._play_on)
+        document.mesh_replaced.connect(self._on_another)
+        document.points_moved.connect(self._on_moved)
+        smoothing.iterated.connect(lambda frame: self.grown.emit())
+        smoothing.phase_changed.connect(self._on_phase)
+
+    @property
+    def moment(self) -> Moment | None:
+        """The iteration that is shown; None where what is shown is none."""
+        return self._shown
+
+    @property
+    def live(self) -> bool:
+        """Whether the run that is gone through goes on, and its iterations are shown as they come."""
+        return self._smoothing.busy and self._smoothing.following
+
+    @property
+    def playing(self) -> bool:
+        """Whether the iterations are shown one after another."""
+        return self._clock.isActive()
+
+    def go(self, record: Record, number: int) -> None:
+        """Show the iteration of a run that is nearest to one and still kept."""
+        if self._smoothing.busy:
+            newest = record is self._smoothing.record and number >= record.newest
+            self._smoothing.follow(newest)
+            if newest:
+                return
+        state = self.history.state(Moment(record, number), self._document.now.mesh)
+        if state is not self._document.now:
+            self._document.preview(state)
+
+    def go_soon(self, record: Record, number: int) -> None:
+        """Go there as soon as there is nothing else to do: of many wishes only the last counts."""
+        self._wanted = Moment(record, number)
+        self._soon.start()
+
+    def step(self, by: int) -> None:
+        """Go so many kept iterations on, or back where `by` is below zero, and hold."""
+        self.hold()
+        self._go_on(by)
+
+    def go_to_newest(self) -> None:
+        """Show the newest iteration, and, while the run goes on, those that come."""
+        self.hold()
+        if self._smoothing.busy and self.record is self._smoothing.record:
+            self._smoothing.follow(True)
+        elif self.record is not None:
+            self.go(self.record, self.record.newest)
+
+    def set_speed(self, speed: float) -> None:
+        """Play so many iterations a second."""
+        self.speed = speed
+        self._clock.setInterval(round(1000 / speed))
+
+    def play(self) -> None:
+        """Show the kept iterations one after another from here on; at the end, from the start."""
+        if self.record is None:
+            return
+        if self._shown is None or self._shown.number >= self.record.newest:
+            self.go(self.record, 0)
+        self._clock.start(round(1000 / self.speed))
+        self.playing_changed.emit()
+
+    def hold(self) -> None:
+        """Play no more."""
+        if self.playing:
+            self._clock.stop()
+            self.playing_changed.emit()
+
+    def choose(self, record: Record) -> None:
+        """Go through another run, from its result or its newest iteration on."""
+        self.hold()
+        self.record = record
+        self.grown.emit()
+        self.go(record, record.newest if record.result is None else record.result)
+
+    def forget(self, record: Record) -> None:
+        """Keep a run no longer; not one that goes on."""
+        if self._smoothing.busy and record is self._smoothing.record:
+            return
+        self.history.remove(record)
+        self._take_newest()
+
+    def _take_newest(self) -> None:
+        if self.record not in self.history.records:
+            self.hold()
+            self.record = self.history.records[-1] if self.history.records else None
+        self._on_moved()
+        if self._runs != self.history.records:
+            self._runs = list(self.history.records)
+            self.runs_changed.emit()
+        self.grown.emit()
+
+    def _go_on(self, by: int) -> None:
+        if self.record is None:
+            return
+        numbers = self.history.kept(self.record).tolist()
+        at = self._shown.number if self._shown is not None and self._shown.record is self.record else 0
+        later = [n for n in numbers if n > at] if by > 0 else [n for n in reversed(numbers) if n < at]
+        if later:
+            self.go(self.record, later[min(abs(by), len(later)) - 1])
+
+    def _play_on(self) -> None:
+        before = self._shown
+        self._go_on(1)
+        if self._shown is before:
+            self.hold()
+
+    def _go_where_wanted(self) -> None:
+        if self._wanted is not None and self._wanted.record in self.history.records:
+            self.go(self._wanted.record, self._wanted.number)
+        self._wanted = None
+
+    def _on_moved(self) -> None:
+        shown = self.history.moment_of(self._document.now)
+        if shown != self._shown:
+            self._shown = shown
+            if shown is not None and shown.number and shown.record is not self.record:
+                self.record = shown.record
+                self.grown.emit()
+            self.moved.emit()
+
+    def _on_another(self) -> None:
+        self.hold()
+        self.history.clear()
+        self._take_newest()
+
+    def _on_phase(self) -> None:
+        if self._smoothing.phase in (Phase.PREPARING, Phase.RUNNING):
+            self.hold()
+        if self._smoothing.phase is Phase.PREPARING:
+            self.record = self._smoothing.record
+        self._take_newest()

@@ -1,0 +1,110 @@
+"""What a run pauses at."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend import gallery
+from hexmend.optimise import Iteration
+from hexmend.quality import measure
+from hexmend.run import Stop, iterate
+from hexmend.smoothers.laplacian import Laplacian
+from hexmend_app.state.breakpoints import Breakpoints
+from hexmend_app.state.document import State
+from hexmend_app.state.run import Phase
+from hexmend_app.state.session import Session
+from tests.core.grids import grid, scrambled
+from tests.said import FIRST_RUN
+
+MESH = gallery.make("bridge-sharp", size=500)  # Laplacian inverts hexes of it
+
+
+def iteration(number, points, **notes):
+    return Iteration(number, points, measure(points, MESH.hexes), 0.0, 0.0, notes)
+
+
+@pytest.fixture(scope="module")
+def run():
+    run = iterate(MESH, "laplacian", Stop(max_iterations=15, tolerance=0))
+    return [run.start, *run]
+
+
+def test_nothing_is_asked_for_by_default(run):
+    assert not Breakpoints().any
+    assert all(Breakpoints().hit(a, b, 1.0) is None for a, b in pairwise(run))
+
+
+def test_an_element_that_inverts_is_named(run):
+    for before, now in pairwise(run):
+        hit = Breakpoints(inverts=True).hit(before, now, 1.0)
+        expected = np.flatnonzero(now.figures.inverted & ~before.figures.inverted)
+        assert (hit is not None) == bool(len(expected))
+        if hit is not None:
+            assert hit.hexes == tuple(expected)
+    assert run[-1].figures.n_inverted > 0
+
+
+def test_q_min_falling_is_told_with_its_element(run):
+    before, now = run[0], next(one for one in run if one.figures.q.min() < run[0].figures.q.min())
+    hit = Breakpoints(q_min_falls=True).hit(before, now, 1.0)
+    assert hit.hexes == (int(now.figures.q.argmin()),)
+    assert Breakpoints(q_min_falls=True).hit(now, before, 1.0) is None
+
+
+def test_moves_and_changes_are_measured_against_what_is_asked(run):
+    before, now = run[:2]
+    moves = np.linalg.norm(now.points - before.points, axis=1)
+    node = int(moves.argmax())
+    unit = MESH.mean_edge_length
+    assert Breakpoints(node=node, move=moves[node] / unit * 0.99).hit(before, now, unit).nodes == (node,)
+    assert Breakpoints(node=node, move=moves[node] / unit * 1.01).hit(before, now, unit) is None
+    changes = np.abs(now.figures.q - before.figures.q)
+    hex = int(changes.argmax())
+    assert Breakpoints(hex=hex, change=changes[hex] * 0.99).hit(before, now, unit).hexes == (hex,)
+    assert Breakpoints(hex=hex, change=changes[hex] * 1.01).hit(before, now, unit) is None
+
+
+def test_cuts_of_the_line_search():
+    still, cut = iteration(1, MESH.points), iteration(2, MESH.points, cuts=5, step_length=0.17)
+    assert Breakpoints(cuts=5).hit(still, cut, 1.0) is None
+    assert "5 times, to 0.17" in Breakpoints(cuts=4).hit(still, cut, 1.0).sentence
+    assert Breakpoints(cuts=0).hit(cut, still, 1.0) is None
+
+
+@pytest.fixture
+def session(qtbot):
+    session = Session()
+    session.document.replace(State.of(MESH), Path("a.vtu"))
+    yield session
+    session.shut_down()
+
+
+def test_a_run_pauses_at_the_iteration_and_not_before_or_after(session, run, qtbot):
+    smoothing = session.smoothing
+    smoothing.break_at(Breakpoints(inverts=True))
+    pauses = [b.number for a, b in pairwise(run) if Breakpoints(inverts=True).hit(a, b, 1.0)]
+    with qtbot.waitSignal(smoothing.hit, timeout=FIRST_RUN) as hit:
+        smoothing.start(Laplacian(), Stop(max_iterations=15, tolerance=0))
+    assert hit.args[0].iteration.number == pauses[0]
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
+    assert smoothing.record.newest == pauses[0] == session.timeline.moment.number
+    for number in pauses[1:3]:
+        with qtbot.waitSignal(smoothing.hit, timeout=5000) as hit:
+            smoothing.resume()
+        assert hit.args[0].iteration.number == number
+    assert list(smoothing.record.pauses) == pauses[:3]
+    smoothing.break_at(Breakpoints())
+    with qtbot.waitSignal(smoothing.ended, timeout=5000):
+        smoothing.resume()
+    assert smoothing.record.newest == 15
+
+
+def test_break_points_can_be_set_while_it_runs(session, qtbot):
+    session.document.replace(State.of(scrambled(grid(6), 0.4)), Path("b.vtu"))
+    session.smoothing.start(Laplacian(), Stop(max_iterations=10**6, tolerance=0))
+    qtbot.waitUntil(lambda: session.smoothing.phase is Phase.RUNNING, timeout=FIRST_RUN)
+    node = int(np.flatnonzero(session.document.now.mesh.free)[0])
+    with qtbot.waitSignal(session.smoothing.hit, timeout=5000):
+        session.smoothing.break_at(Breakpoints(hex=0, change=-1.0, node=node))

@@ -1,0 +1,118 @@
+"""What is kept of runs: every figure, and positions under a limit."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.run import Stop, iterate
+from hexmend_app.state.document import State
+from hexmend_app.state.history import History, Moment
+from tests.core.grids import grid, scrambled
+
+MESH = scrambled(grid(5), 0.4)
+FREE = 12 * int(MESH.free.sum())  # bytes of an iteration
+
+
+def recorded(history, iterations=20, start=None):
+    """A run of local-sd, kept; the record and the iterations as they were."""
+    start = start or State.of(MESH)
+    record = history.begin("local-sd", "Local steepest descent", start)
+    run = iterate(start.mesh, "local-sd", Stop(max_iterations=iterations, tolerance=0))
+    history.add(record, run.start)
+    seen = [run.start]
+    for iteration in run:
+        history.add(record, iteration)
+        seen.append(iteration)
+    return record, run, seen
+
+
+def test_every_iteration_is_there_as_it_was():
+    history = History()
+    record, run, seen = recorded(history)
+    assert [row["iteration"] for row in record.rows] == list(range(21))
+    assert [row["q_min"] for row in record.rows] == [row["q_min"] for row in run.history]
+    assert history.kept(record).tolist() == list(range(21))
+    assert history.bytes == 20 * FREE
+    for iteration in seen:
+        state = history.state(Moment(record, iteration.number), MESH)
+        way = np.abs(iteration.points - MESH.points).max()
+        np.testing.assert_allclose(state.mesh.points, iteration.points, rtol=0, atol=way * 1.2e-7)
+        np.testing.assert_array_equal(state.mesh.points[~MESH.free], MESH.points[~MESH.free])
+        assert history.moment_of(state) == Moment(record, iteration.number)
+
+
+def test_a_result_is_exact():
+    history = History()
+    record, run, _ = recorded(history)
+    end = State.of(run.result().mesh)
+    history.finish(record, Moment(record, 20), end, "Done.")
+    assert history.state(Moment(record, 20), end.mesh) is end
+    assert history.state(Moment(record, 0), MESH) is record.start
+
+
+@given(kept=st.integers(1, 25))
+def test_positions_fit_the_limit_and_the_ends_stay(kept):
+    history = History(kept * FREE)
+    record, _, _ = recorded(history, 24)
+    numbers = history.kept(record)
+    assert history.bytes == FREE * (len(numbers) - 1) <= history.limit
+    assert len(numbers) == 1 + min(kept, 24)
+    assert (numbers[0], numbers[-1]) == (0, 24)
+    assert len(record.rows) == 25
+
+
+def test_the_older_the_further_apart():
+    history = History(30 * FREE)
+    record, _, _ = recorded(history, 300)
+    gaps = np.diff(history.kept(record))
+    assert gaps[-10:].max() <= 3
+    assert gaps.sum() == 300
+    early, late = gaps[: len(gaps) // 2].mean(), gaps[len(gaps) // 2 :].mean()
+    assert early > 4 * late
+
+
+def test_a_lower_limit_thins_at_once_and_the_nearest_is_shown():
+    history = History()
+    record, _, _ = recorded(history)
+    history.limit = 4 * FREE
+    numbers = history.kept(record)
+    assert len(numbers) == 5
+    gone = next(n for n in range(20) if n not in numbers)
+    moment = history.moment_of(history.state(Moment(record, gone), MESH))
+    assert moment.number in numbers
+    assert abs(moment.number - gone) == np.abs(numbers - gone).min()
+
+
+def test_a_run_knows_what_it_branched_from_and_has_a_name_of_its_own():
+    history = History()
+    first, _, _ = recorded(history)
+    middle = history.state(Moment(first, 7), MESH)
+    second, _, _ = recorded(history, 3, middle)
+    assert second.parent == Moment(first, 7)
+    assert [first.name, second.name] == ["local-sd", "local-sd (2)"]
+    assert Moment(second, 3).name == "local-sd (2) 3"
+    history.remove(first)
+    assert history.records == [second]
+    assert history.bytes == 3 * FREE
+
+
+def test_what_is_pinned_since_stays_pinned():
+    history = History()
+    record, _, _ = recorded(history)
+    pinned = MESH.topology.boundary.copy()
+    pinned[np.flatnonzero(MESH.free)[:5]] = True
+    now = MESH.replace(pinned=pinned)
+    for number in (0, 10, 20):
+        state = history.state(Moment(record, number), now)
+        np.testing.assert_array_equal(state.mesh.pinned, pinned)
+        assert state.summary.free_nodes == int(now.free.sum())
+
+
+@pytest.mark.parametrize("added", [0, 1])
+def test_a_run_without_iterations_is_not_kept(added):
+    history = History()
+    record, run, _ = recorded(history, added)
+    result = Moment(record, added) if added else None
+    history.finish(record, result, State.of(run.result().mesh) if added else None, "Stopped.")
+    assert history.records == [record] * added

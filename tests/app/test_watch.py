@@ -1,0 +1,196 @@
+"""Watching a run in the window, by mouse and keys: scrubbing, playing, branching, break-points."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QSettings, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QSpinBox
+
+from hexmend_app.state.run import Phase
+from tests.app.driving import LEFT, click, drag, open_and_wait, phase, pixels
+from tests.said import FIRST_RUN
+
+ENDLESS = {"tolerance": 0.0, "max_iterations": 1_000_000}
+
+
+def key(window, key, modifier=Qt.KeyboardModifier.NoModifier):
+    QTest.keyClick(window, key, modifier)
+
+
+def stepped(window, qtbot, iterations=12, method="local-sd"):
+    """Make so many iterations by the Step button, and hold."""
+    panel = window.smoothing_panel
+    panel.set_method(method)
+    panel.stop_form.set_values(ENDLESS)
+    box = next(b for b in panel.findChildren(QSpinBox) if b.accessibleName() == "Iterations of a step")
+    box.setFocus()
+    box.selectAll()
+    QTest.keyClicks(box, str(iterations))
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    return window.smoothing.record
+
+
+def press(window, name):
+    button = window.timeline_bar.button(name)
+    assert button.isEnabled()
+    QTest.mouseClick(button, LEFT)
+
+
+def slider_place(window, number):
+    """Where a number stands on the slider."""
+    slider = window.timeline_bar._slider
+    return QPoint(slider._x(number, slider._groove()), slider.height() // 2)
+
+
+def at(window, number):
+    return lambda: window.session.timeline.moment is not None and window.session.timeline.moment.number == number
+
+
+def check(window, text):
+    box = next(b for b in window.smoothing_panel.breakpoint_form.findChildren(QCheckBox) if b.text() == text)
+    QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
+    assert box.isChecked()
+
+
+def test_the_bar_waits_for_a_run(window):
+    bar = window.timeline_bar
+    assert bar.isVisible()
+    assert not any(bar.button(name).isEnabled() for name in ("first", "back", "play", "on", "newest", "branch"))
+    assert not window.actions_by_id["iteration_play"].isEnabled()
+
+
+def test_everything_follows_the_slider(window, qtbot):
+    record = stepped(window, qtbot)
+    slider = window.timeline_bar._slider
+    newest, picture = window.document.now, pixels(window)
+    drag(slider, slider_place(window, 12), slider_place(window, 3))
+    qtbot.waitUntil(at(window, 3), timeout=2000)
+    state = window.document.now
+    assert state.summary.q_mean == pytest.approx(record.rows[3]["q_mean"], abs=1e-6)
+    assert state.summary.inverted == record.rows[3]["inverted"]
+    assert np.abs(pixels(window) - picture).max() > 50
+    assert window.counts.text().endswith(f"{state.summary.inverted:,} inverted")
+    assert window.worst_list.elements[0] == int(np.lexsort((np.arange(len(state.figures.q)), state.figures.q))[0])
+    assert state is not newest
+
+
+def test_keys_go_back_and_on_and_to_the_ends(window, qtbot):
+    stepped(window, qtbot)
+    for pressed, number in (
+        (Qt.Key.Key_Comma, 11),
+        (Qt.Key.Key_Comma, 10),
+        (Qt.Key.Key_Period, 11),
+    ):
+        key(window, pressed)
+        assert at(window, number)()
+    key(window, Qt.Key.Key_Home, Qt.KeyboardModifier.AltModifier)
+    assert at(window, 0)()
+    assert not window.timeline_bar.button("back").isEnabled()
+    key(window, Qt.Key.Key_End, Qt.KeyboardModifier.AltModifier)
+    assert at(window, 12)()
+    assert window.session.timeline.live
+
+
+def test_buttons_and_playing(window, qtbot):
+    stepped(window, qtbot)
+    window.session.timeline.set_speed(60)
+    press(window, "first")
+    assert at(window, 0)()
+    press(window, "play")
+    assert window.timeline_bar.button("play").accessibleName() == "Hold"
+    qtbot.waitUntil(lambda: not window.session.timeline.playing, timeout=10_000)
+    assert at(window, 12)()
+    press(window, "back")
+    press(window, "back")
+    assert at(window, 10)()
+    key(window, Qt.Key.Key_K)
+    assert window.session.timeline.playing
+    key(window, Qt.Key.Key_K)
+    assert not window.session.timeline.playing
+
+
+def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
+    first = stepped(window, qtbot)
+    QTest.mouseClick(window.timeline_bar._slider, LEFT, pos=slider_place(window, 4))
+    qtbot.waitUntil(at(window, 4), timeout=2000)
+    window.smoothing_panel.stop_form.set_values({"max_iterations": 3})
+    window.smoothing_panel.set_method("laplacian")
+    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):  # of the run that is left
+        key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    second = window.smoothing.record
+    assert (second.name, second.parent.record, second.parent.number, second.newest) == ("laplacian", first, 4, 3)
+    runs = window.timeline_bar._runs
+    assert [runs.itemText(i) for i in range(runs.count())] == ["local-sd", "laplacian"]
+    assert runs.currentText() == "laplacian"
+    runs.setFocus()
+    QTest.keyClick(runs, Qt.Key.Key_Up)
+    assert window.session.timeline.record is first
+    assert at(window, 12)()
+    for title in ("Laplacian", "Local steepest descent"):
+        assert window.document.undo_title == title
+        key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert window.document.now is window.document.start
+
+
+def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
+    window.smoothing_panel._sections[2].expand()
+    check(window, "An element inverts")
+    window.smoothing_panel.set_method("laplacian")
+    window.smoothing_panel.stop_form.set_values(ENDLESS)
+    with qtbot.waitSignal(window.smoothing.hit, timeout=FIRST_RUN) as hit:
+        click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
+    frame = hit.args[0]
+    assert window.selection.hex == frame.hit.hexes[0]
+    assert window.smoothing_panel._sentence.text() == f"Paused at a break-point: {frame.hit.sentence}."
+    assert at(window, frame.iteration.number)()
+    assert frame.hit.sentence in window.timeline_bar._slider.toolTip()
+
+
+def test_what_is_saved_is_the_iteration_shown(window, qtbot, tmp_path):
+    from hexmend import io
+
+    record = stepped(window, qtbot)
+    with qtbot.waitSignal(window.smoothing.ended, timeout=5000):
+        click(window, "Stop")
+    QTest.mouseClick(window.timeline_bar._slider, LEFT, pos=slider_place(window, 5))
+    qtbot.waitUntil(at(window, 5), timeout=2000)
+    path = Path(tmp_path) / "five.vtu"
+    assert window.saving.mesh(path)
+    np.testing.assert_array_equal(io.read(path).points, window.document.now.mesh.points)
+    assert not window.document.modified
+    assert window.document.undo_title == f"go to {record.name} 5"
+    window.document.undo()
+    assert window.document.modified
+    assert at(window, 12)()
+
+
+def test_memory_and_speed_are_remembered(window, qtbot):
+    record = stepped(window, qtbot)
+    each = (window.session.history.bytes) // 12
+    window.session.history.limit = 4 * each
+    menu = window.timeline_bar._more.menu()
+    choices = {action.text(): action for action in menu.actions()}
+    choices["128 MB"].trigger()
+    choices["30 iterations"].trigger()
+    assert window.session.history.limit == 128 << 20
+    assert window.session.timeline.speed == 30
+    assert (QSettings().value("history_megabytes"), QSettings().value("iterations_played")) == (128, 30)
+    assert "Positions are kept of 5 of them" in window.timeline_bar._slider.toolTip()
+    assert not choices["Forget this run"].isEnabled()  # it is under way
+    with qtbot.waitSignal(window.smoothing.ended, timeout=5000):
+        click(window, "Stop")
+    choices["Forget this run"].trigger()
+    assert record not in window.session.history.records
+    assert not window.actions_by_id["iteration_play"].isEnabled()
+
+
+def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
+    stepped(window, qtbot)
+    open_and_wait(qtbot, window, mesh_file)
+    assert window.timeline_bar._runs.count() == 0
+    assert not window.timeline_bar.button("play").isEnabled()
