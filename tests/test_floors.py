@@ -37,7 +37,7 @@ APP = [
     {"scene"},
     {"widgets"},
     {"actions", "commands"},
-    {"counting", "docks", "inspecting", "looking", "menus", "opening", "saving", "tagging", "watching"},
+    {"advising", "counting", "docks", "inspecting", "looking", "menus", "opening", "saving", "tagging", "watching"},
     {"window"},
     {"program"},
     {"bench", "cli"},

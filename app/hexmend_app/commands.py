@@ -70,11 +70,11 @@ class Commands:
         self.smoothing.end_now()
         self.document.reset()
 
-    def pin(self, node: int, on: bool) -> None:
-        """Keep a node where it is whatever smooths the mesh, or let it go, while the mesh may be changed."""
+    def pin(self, nodes: int | np.ndarray, on: bool) -> None:
+        """Keep a node or several where they are whatever smooths the mesh, or let them go, while it may be changed."""
         mesh = self.document.now.mesh
         pinned = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()
-        pinned[node] = on
+        pinned[nodes] = on
         self._amend("pin" if on else "unpin", pinned=pinned)
 
     def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:

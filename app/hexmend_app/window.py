@@ -15,6 +15,7 @@ from hexmend.parameters import declared
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
+from hexmend_app.advising import Advising
 from hexmend_app.commands import Commands, methods_offered
 from hexmend_app.counting import Counting
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
@@ -40,6 +41,7 @@ from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.outcome_panel import OutcomePanel
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
 from hexmend_app.widgets.recent_menu import RecentMenu
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
@@ -80,6 +82,7 @@ class Window(QMainWindow):
         self.worst_list = WorstList()
         self.element_panel = ElementPanel()
         self.tag_panel = TagPanel()
+        self.outcome_panel = OutcomePanel()
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
@@ -101,6 +104,14 @@ class Window(QMainWindow):
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
         )
         self.watching = Watching(session, self.commands, self.timeline_bar, self.smoothing_panel)
+        self.advising = Advising(
+            session,
+            self.commands,
+            self.outcome_panel,
+            self.docks["outcome"],
+            self.smoothing_panel,
+            self.inspecting.go_to,
+        )
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
@@ -135,6 +146,7 @@ class Window(QMainWindow):
             ("worst", "Worst elements", self.worst_list),
             ("element", "Element", self.element_panel),
             ("tags", "Tags", self.tag_panel),
+            ("outcome", "Outcome", self.outcome_panel),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs)
         self.statusBar().addWidget(self.counts, 1)

@@ -83,8 +83,8 @@ def test_every_kind_of_suggestion_is_made_somewhere():
     ]
     titles = {suggestion.title for result in runs for suggestion in advise(result).suggestions}
     assert titles == {
-        "Mend", "Undo, then Smart Laplacian", "Go on", "Tighter tolerance", "GETMe, sequential", "Mend, p up to 16",
-        "Undo, then Mend with guard", "δ = 0.01", "Unpin, then Mend",
+        "Mend", "Smart Laplacian from before the run", "Go on", "Tighter tolerance", "GETMe, sequential", "Mend, p up to 16",
+        "Guarded Mend from before the run", "δ = 0.01", "Unpin, then Mend",
     }  # fmt: skip
 
 

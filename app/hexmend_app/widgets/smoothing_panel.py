@@ -139,6 +139,17 @@ class SmoothingPanel(QWidget):
         self.form.set_declarations(declarations)
         self.form.set_values(self._edited.get(name, {}) | dict(values or {}))
 
+    def choose(self, name: str, values: Mapping[str, Any], stop_values: Mapping[str, Any]) -> None:
+        """Show a method, its values and the stop conditions; without a signal."""
+        self.set_method(name, values)
+        self.stop_form.set_values(stop_values)
+
+    def tell(self, sentence: str) -> None:
+        """Say something below the buttons, beside how far the run is."""
+        tint(self._sentence, MUTED)
+        self._sentence.setText(sentence)
+        self._sentence.setVisible(bool(sentence))
+
     def method(self) -> str:
         """Name of the method shown, "" where none is."""
         return self._name
@@ -161,9 +172,7 @@ class SmoothingPanel(QWidget):
         if seconds is not None:
             parts.append(f"{seconds:.2f} s")
         self._progress.setText("  ·  ".join(parts) or "Not run yet")
-        tint(self._sentence, MUTED)
-        self._sentence.setText(sentence)
-        self._sentence.setVisible(bool(sentence))
+        self.tell(sentence)
 
     def run_or_pause(self) -> None:
         """What the main button does: run, pause or resume, as the state has it."""

@@ -8,7 +8,7 @@ Converged: in the last of 34 iterations no node moved further than 0.0001 mean e
 >>> print(advice.left)
 10 of 500 hexes are inverted. None was at the start.
 >>> [suggestion.title for suggestion in advice.suggestions]
-['Mend', 'Undo, then Smart Laplacian']
+['Mend', 'Smart Laplacian from before the run']
 """
 
 from hexmend.advice.advise import Advice, advise

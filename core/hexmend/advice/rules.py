@@ -59,8 +59,8 @@ def undo_harm(now: Situation) -> Suggestion | None:
     if now.result.before.inverted or not now.loose.size:
         return None
     return Suggestion(
-        "Undo, then Smart Laplacian",
-        f"Undo the run: no hex was inverted before {now.smoother.title} moved it. Smart Laplacian takes back every "
+        "Smart Laplacian from before the run",
+        "Begin again from before the run: no hex was inverted then. Smart Laplacian takes back every "
         "move that would invert one.",
         "inverted",
         SmartLaplacian(),
@@ -161,9 +161,9 @@ def guard(now: Situation) -> Suggestion | None:
     if not _is_mend(now) or now.smoother.guard or before.inverted or after.inverted or after.q_min >= before.q_min:
         return None
     return Suggestion(
-        "Undo, then Mend with guard",
-        f"Undo the run, as q min fell from {before.q_min:.3f} to {after.q_min:.3f}, and run Mend with guard: it keeps "
-        "the best iterate that lowers neither q min nor the least scaled Jacobian.",
+        "Guarded Mend from before the run",
+        f"Begin again from before the run, as q min fell from {before.q_min:.3f} to {after.q_min:.3f}, with Mend's "
+        "guard: it keeps the best iterate that lowers neither q min nor the least scaled Jacobian.",
         "q_min",
         replace(now.smoother, guard=True),
         undo=True,

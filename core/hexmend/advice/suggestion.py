@@ -24,8 +24,8 @@ class Suggestion:
         The figure of `Summary` that it betters, or at least keeps where `undo` is True.
     smoother : Smoother
         The method to run, with its values.
-    stop : Stop, optional
-        Its limits, where they matter.
+    stop : Stop
+        Its limits.
     undo : bool
         Whether the run is to be taken back first: the method begins from the mesh as it was.
     unpin : (k,) int
@@ -36,6 +36,6 @@ class Suggestion:
     text: str
     gain: str
     smoother: Smoother
-    stop: Stop | None = None
+    stop: Stop = field(default_factory=Stop)
     undo: bool = False
     unpin: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
