@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.io import left_out, write
 from hexmend.parameters import declared
 from hexmend.quality import summarise
+from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.state.document import State
@@ -59,6 +60,10 @@ class Commands:
             self.smoothing.step(iterations)
         elif not self.opener.busy:
             self.smoothing.start(METHODS[method](**values), Stop(**stop), iterations)
+
+    def change(self, method: str, values: dict, stop: dict) -> None:
+        """Do the rest of a run's stage by another method, with other values or other limits."""
+        self.smoothing.change(Stage(METHODS[method](**values), Stop(**stop)))
 
     def branch(self, method: str, values: dict, stop: dict) -> None:
         """Run a method on the mesh as it is shown, whatever iteration that is; a run under way ends first."""

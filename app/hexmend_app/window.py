@@ -184,6 +184,7 @@ class Window(QMainWindow):
         self.smoothing.failed.connect(self._on_failed)
         self.smoothing_panel.run_requested.connect(self.commands.run)
         self.smoothing_panel.step_requested.connect(self.commands.step)
+        self.smoothing_panel.change_requested.connect(self.commands.change)
         self.smoothing_panel.pause_requested.connect(self.smoothing.pause)
         self.smoothing_panel.resume_requested.connect(self.smoothing.resume)
         self.smoothing_panel.stop_requested.connect(self.smoothing.stop)

@@ -73,7 +73,7 @@ def test_everything_follows_the_slider(window, qtbot):
     assert state.summary.inverted == record.rows[3]["inverted"]
     assert np.abs(pixels(window) - picture).max() > 50
     assert window.counts.text().endswith(f"{state.summary.inverted:,} inverted")
-    assert window.worst_list.elements[0] == int(np.lexsort((np.arange(len(state.figures.q)), state.figures.q))[0])
+    assert state.figures.inverted[window.worst_list.elements[0]]
     assert state is not newest
 
 
@@ -194,3 +194,36 @@ def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
     open_and_wait(qtbot, window, mesh_file)
     assert window.timeline_bar._runs.count() == 0
     assert not window.timeline_bar.button("play").isEnabled()
+
+
+def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbot):
+    record = stepped(window, qtbot, 4)
+    panel = window.smoothing_panel
+    click(window, "Step")
+    qtbot.waitUntil(at(window, 8), timeout=5000)
+    method = panel._method
+    method.setFocus()
+    QTest.keyClicks(method, "Laplacian")  # chooses it
+    assert panel.method() == "laplacian"
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
+    click(window, "Step")
+    qtbot.waitUntil(at(window, 12), timeout=FIRST_RUN)
+    assert [row["method"] for row in record.rows[1:]] == ["local-sd"] * 8 + ["laplacian"] * 4
+    panel.stop_form.set_values({"max_iterations": 15})
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
+    with qtbot.waitSignal(window.smoothing.ended, timeout=5000) as ended:
+        click(window, "Resume")
+    assert ended.args[0].iterations == 15
+    assert "After iteration 8" in panel._sentence.text()
+    assert "After iteration 12" in panel._sentence.text()
+    assert window.document.undo_title == "Local steepest descent"
+    window.document.undo()
+    assert window.document.now is window.document.start
+
+
+def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot):
+    record = stepped(window, qtbot, 3, "local-nr")
+    with qtbot.assertNotEmitted(window.smoothing_panel.change_requested):
+        click(window, "Step")
+        qtbot.waitUntil(at(window, 6), timeout=5000)
+    assert {row["method"] for row in record.rows} == {"local-nr"}

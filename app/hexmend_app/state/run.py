@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend import compiling
 from hexmend.optimise import Result
+from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
 from hexmend.smoothers import Smoother
 from hexmend_app.state.breakpoints import Breakpoints
@@ -91,8 +92,8 @@ class Smoothing(QObject):
         """Whether kernels had to be compiled since the run was asked for."""
         return compiling.begun > self._compiled
 
-    def start(self, smoother: Smoother, stop: Stop, iterations: float = math.inf) -> None:
-        """Begin a run on the document's mesh and make that many iterations of it."""
+    def start(self, smoother: Smoother | Recipe, stop: Stop | None, iterations: float = math.inf) -> None:
+        """Begin a run on the document's mesh and make that many iterations of it; a recipe has limits of its own."""
         if self.busy or not self._document.is_open:
             return
         self._before = self._document.now
@@ -143,6 +144,11 @@ class Smoothing(QObject):
             self.following = True
             self._worker.grant_more(iterations)
             self._look()
+
+    def change(self, stage: Stage) -> None:
+        """Do the rest of the stage at hand by another method, with other values or other limits."""
+        if self._worker is not None:
+            self._worker.change(stage)
 
     def stop(self) -> None:
         """End the run after the iteration at hand, or once it is prepared; what was reached stays."""

@@ -12,6 +12,7 @@ from PySide6.QtCore import QThread
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
+from hexmend.recipe import Recipe, Stage
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
 from hexmend_app.state.breakpoints import Breakpoints, Hit
@@ -51,18 +52,19 @@ class Mailbox:
 
 
 class Worker(QThread):
-    """Runs one smoother on one mesh, one iteration at a time as the gate lets it.
+    """Runs a smoother or a recipe on one mesh, one iteration at a time as the gate lets it.
 
     Parameters
     ----------
     mesh : Mesh
-    smoother : Smoother
-    stop : Stop
+    smoother : Smoother or Recipe
+    stop : Stop, optional
+        None for the recipe's own.
     keep : callable
         Called with every iteration, number 0 first, in the thread.
     """
 
-    def __init__(self, mesh: Mesh, smoother: Smoother, stop: Stop, keep: Callable[[Iteration], object]):
+    def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None, keep: Callable[[Iteration], object]):
         super().__init__()
         self.setObjectName(f"smoother {smoother.name}")
         self.mailbox = Mailbox()
@@ -78,6 +80,7 @@ class Worker(QThread):
         self._granted: float = 0  # iterations that may still be made; infinite while running
         self._ended = False
         self._waits = False  # at the gate
+        self._change: Stage | None = None  # how the rest of the stage is to be done
 
     def grant(self, iterations: float) -> None:
         """Let that many further iterations pass; infinity runs on, 0 pauses after the one at hand."""
@@ -90,6 +93,11 @@ class Worker(QThread):
         with self._gate:
             self._granted = iterations if self._granted == float("inf") else max(self._granted, 0) + iterations
             self._gate.notify_all()
+
+    def change(self, stage: Stage) -> None:
+        """Do the rest of the stage at hand otherwise, from the next iteration on."""
+        with self._gate:
+            self._change = stage
 
     def end(self) -> None:
         """End the run after the iteration at hand, paused or not."""
@@ -148,4 +156,8 @@ class Worker(QThread):
                 self._gate.wait()
             self._waits = False
             self._granted -= 1
-            return run.outcome is None and not self._ended
+            change, self._change = self._change, None
+            ended = self._ended
+        if change is not None and run.outcome is None and not ended:
+            run.go_on_with(change.smoother, change.stop)  # which may have to compile: the window must not wait for it
+        return run.outcome is None and not ended

@@ -38,7 +38,7 @@ STATES = {
     "running": RunState(
         "Pause", "pause", "Hold after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
     ),
-    "paused": RunState("Resume", "play", "Go on with the run.", run=True, step=True, stop=True, reset=True, edit=False),
+    "paused": RunState("Resume", "play", "Go on with the run.", run=True, step=True, stop=True, reset=True, edit=True),
     "finished": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=True, edit=True),
 }
 _HELP = {

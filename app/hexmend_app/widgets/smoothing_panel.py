@@ -38,6 +38,8 @@ class SmoothingPanel(QWidget):
     -------
     run_requested(name, values, stop_values), step_requested(name, values, stop_values, iterations)
         str, dict, dict, int; not sent while a value is wrong.
+    change_requested(name, values, stop_values)
+        Before a paused run goes on: the rest of it is to be done with what was set meanwhile.
     pause_requested, resume_requested, stop_requested, reset_requested
     method_changed(name)
         The user chose another method.
@@ -45,6 +47,7 @@ class SmoothingPanel(QWidget):
 
     run_requested = Signal(str, dict, dict)
     step_requested = Signal(str, dict, dict, int)
+    change_requested = Signal(str, dict, dict)
     pause_requested = Signal()
     resume_requested = Signal()
     stop_requested = Signal()
@@ -57,6 +60,7 @@ class SmoothingPanel(QWidget):
         self._edited: dict[str, dict[str, Any]] = {}  # what was set for each method, to find it again on return
         self._name = ""
         self._state = "idle"
+        self._begun: tuple | None = None  # what the run has been begun with
         self._placed = False
 
         self._method = QComboBox()
@@ -156,6 +160,8 @@ class SmoothingPanel(QWidget):
 
     def set_state(self, state: str) -> None:
         """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
+        if state == "preparing" and state != self._state:
+            self._begun = self._order()
         self._state = state
         some = bool(self._methods)
         self.buttons.set_state(state, some)
@@ -179,14 +185,32 @@ class SmoothingPanel(QWidget):
         if self._state == "running":
             self.pause_requested.emit()
         elif self._state == "paused":
-            self.resume_requested.emit()
+            self.request(self._resume)
         elif STATES[self._state].run:
             self.request(self.run_requested.emit)
 
     def step(self) -> None:
         """Ask for one iteration, where the state allows it."""
         if STATES[self._state].step:
-            self.request(lambda *order: self.step_requested.emit(*order, self._steps.value()))
+            self.request(self._step)
+
+    def _resume(self, *order: object) -> None:
+        self._change(order)
+        self.resume_requested.emit()
+
+    def _step(self, *order: object) -> None:
+        if self._state == "paused":
+            self._change(order)
+        self.step_requested.emit(*order, self._steps.value())
+
+    def _change(self, order: tuple) -> None:
+        """Tell what the rest of the run is to be done with, if that is something else."""
+        if order != self._begun:
+            self._begun = order
+            self.change_requested.emit(*order)
+
+    def _order(self) -> tuple:
+        return self._name, self.form.values(), self.stop_form.values()
 
     def _on_button(self, name: str) -> None:
         {
@@ -205,10 +229,10 @@ class SmoothingPanel(QWidget):
                 section.expand()
                 form.show_problem()
                 tint(self._sentence, WORSE)
-                self._sentence.setText("Not started: correct the marked value first.")
+                self._sentence.setText("Correct the marked value first.")
                 self._sentence.setVisible(True)
                 return
-        ask(self._name, self.form.values(), self.stop_form.values())
+        ask(*self._order())
 
     def _on_method(self) -> None:
         name = self._method.currentData()

@@ -121,7 +121,8 @@ class TimelineBar(QWidget):
                 self._slider.setValue(number)
         words = f"{'–' if number is None else number:>} of {newest}" if self._runs.count() else ""
         self._at.setText(words)
-        self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(f"{newest} of {newest}  "))
+        longest = max(newest, 999)  # so that the slider keeps its place under the pointer
+        self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(f"{longest} of {longest}"))
         back = number is None or number > 0
         for name, on in (("first", back), ("back", back), ("on", number != newest), ("newest", number != newest)):
             self._buttons[name].setEnabled(on and self._runs.count() > 0 and not (live and name in ("on", "newest")))
