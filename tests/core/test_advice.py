@@ -37,8 +37,8 @@ RUNS = {
 
 def better(gain, before, after):
     """Whether a figure of `Summary` is better."""
-    if gain == "q_min":
-        return after.q_min > before.q_min
+    if gain in ("q_min", "q_norm"):
+        return getattr(after, gain) > getattr(before, gain)
     then, now = getattr(before, gain), getattr(after, gain)
     return now is not None and (then is None or now < then)
 
@@ -56,7 +56,17 @@ def followed(mesh, result, suggestion):
 @pytest.mark.parametrize("which", MESHES)
 def test_following_a_suggestion_helps(which):
     name, parameters = MESHES[which]
-    mesh, seen = make(name, **parameters), set()
+    follow_all(make(name, **parameters))
+
+
+def test_following_a_suggestion_helps_beside_what_is_locked():
+    follow_all(with_locked_corner(make("five-side", size=500)))
+    follow_all(with_locked_corner(make("five-side", size=500, scramble=0.8)))
+
+
+def follow_all(mesh):
+    """Follow every suggestion after every run on a mesh."""
+    seen = set()
     for what, (smoother, stop) in RUNS.items():
         result = smooth(mesh, smoother, stop)
         for suggestion in advise(result).suggestions:

@@ -74,16 +74,16 @@ def go_on(now: Situation) -> Suggestion | None:
         return None
     limit, stop = now.result.outcome, now.stop
     if limit is Outcome.MAX_ITERATIONS:
-        stop = replace(stop, max_iterations=min(max(2 * stop.max_iterations, 10), 1_000_000))
+        stop = replace(stop, max_iterations=min(max(2 * stop.max_iterations, 100), 1_000_000))
     elif limit is Outcome.MAX_SECONDS:
         stop = replace(stop, max_seconds=min(2 * stop.max_seconds, 1e7))
     more = {
         Outcome.MAX_ITERATIONS: f" with a limit of {stop.max_iterations:,} iterations",
         Outcome.MAX_SECONDS: f" with a limit of {stop.max_seconds:g} s",
     }.get(limit, "")
-    gain = "inverted" if now.loose.size else "objective"
-    fell = "fewer hexes were inverted" if gain == "inverted" else "the objective fell"
-    text = f"Run the same again{more}: it goes on from here, and {fell} until its last iterations."
+    gain = "inverted" if now.loose.size else now.aim
+    gained = {"inverted": "fewer hexes were inverted", "objective": "the objective fell", "q_norm": "the quality rose"}
+    text = f"Run the same again{more}: it goes on from here, and {gained[gain]} until its last iterations."
     return Suggestion("Go on", text, gain, now.smoother, stop)
 
 
@@ -94,7 +94,7 @@ def faster(now: Situation) -> Suggestion | None:
     return Suggestion(
         "Mend",
         f"Run Mend: its Newton steps go to the same optimum as {now.smoother.title} in far fewer iterations.",
-        "objective",
+        now.aim,
         Mend(p=now.p),
     )
 

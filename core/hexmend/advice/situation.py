@@ -63,6 +63,11 @@ class Situation:
         """The exponent that it was raised to."""
         return max(self.p, getattr(self.smoother, "highest_p", 1.0))
 
+    @property
+    def aim(self) -> str:
+        """The figure that an optimiser betters: the objective, or, where locked hexes make that infinite, q_norm."""
+        return "objective" if self.result.after.objective is not None else "q_norm"
+
     @cached_property
     def improving(self) -> bool:
         """Whether the last quarter of the last method's iterations still gained."""

@@ -20,7 +20,7 @@ class Suggestion:
         A few words, as a button has them.
     text : str
         A sentence: what it does, and what it costs.
-    gain : {"inverted", "objective", "q_min"}
+    gain : {"inverted", "objective", "q_min", "q_norm"}
         The figure of `Summary` that it betters, or at least keeps where `undo` is True.
     smoother : Smoother
         The method to run, with its values.
