@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.io import left_out, write
 from hexmend.parameters import declared
 from hexmend.quality import summarise
-from hexmend.recipe import Stage
+from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.state.document import State
@@ -60,6 +60,11 @@ class Commands:
             self.smoothing.step(iterations)
         elif not self.opener.busy:
             self.smoothing.start(METHODS[method](**values), Stop(**stop), iterations)
+
+    def run_recipe(self, recipe: Recipe) -> None:
+        """Run methods one after another on the mesh as it is now, unless another is being read."""
+        if not self.opener.busy:
+            self.smoothing.start(recipe, None)
 
     def change(self, method: str, values: dict, stop: dict) -> None:
         """Do the rest of a run's stage by another method, with other values or other limits."""

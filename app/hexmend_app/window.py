@@ -16,6 +16,7 @@ from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.advising import Advising
+from hexmend_app.chaining import Chaining
 from hexmend_app.commands import Commands, methods_offered
 from hexmend_app.counting import Counting
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
@@ -104,6 +105,7 @@ class Window(QMainWindow):
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
         )
         self.watching = Watching(session, self.commands, self.timeline_bar, self.smoothing_panel)
+        self.chaining = Chaining(self, session, self.commands, self.smoothing_panel, self.messages)
         self.advising = Advising(
             session,
             self.commands,
@@ -178,6 +180,7 @@ class Window(QMainWindow):
             told.connect(self._enable)
         self.tag_panel.offer_changed.connect(self._enable)
         self.session.timeline.runs_changed.connect(self._enable)
+        self.chaining.chain.changed.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
         self.smoothing.ended.connect(self._on_ended)
@@ -219,6 +222,7 @@ class Window(QMainWindow):
             **self.inspecting.handlers(),
             **self.tagging.handlers(),
             **self.watching.handlers(),
+            **self.chaining.handlers(),
         }
 
     # What the state tells
@@ -270,7 +274,8 @@ class Window(QMainWindow):
         self.smoothing_panel.set_status(sentence=sentence)
 
     def _on_iterated(self, frame: Frame) -> None:
-        self.smoothing_panel.set_status(frame.iteration.number, frame.iteration.seconds)
+        iteration, stage = frame.iteration, self.chaining.at_work(frame)
+        self.smoothing_panel.set_status(iteration.number, iteration.seconds, stage)
 
     def _on_ended(self, result: Result) -> None:
         self.smoothing_panel.set_status(result.iterations, result.seconds, result.message)
@@ -291,7 +296,7 @@ class Window(QMainWindow):
         for id in ("run", "step", "reset"):
             self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
-        parts = (self.inspecting, self.tagging, self.looking, self.watching)
+        parts = (self.inspecting, self.tagging, self.looking, self.watching, self.chaining)
         for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.

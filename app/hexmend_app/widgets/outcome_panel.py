@@ -65,6 +65,7 @@ class OutcomePanel(QWidget):
             elements.show_requested.connect(self.show_requested)
         self._next = QLabel("What to try next")
         self._next.setFont(font)
+        self._nothing = note("Nothing is known that would better this mesh.")
         self._rows = QGridLayout()
         self._rows.setColumnStretch(0, 1)
         self._rows.setVerticalSpacing(6)
@@ -84,7 +85,7 @@ class OutcomePanel(QWidget):
         column = QVBoxLayout(inside)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(6)
-        for part in (self._title, self._why, self._left, self._locked, self._loose, self._next):
+        for part in (self._title, self._why, self._left, self._locked, self._loose, self._next, self._nothing):
             column.addWidget(part)
         column.addLayout(self._rows)
         column.addStretch()
@@ -123,7 +124,7 @@ class OutcomePanel(QWidget):
             item.widget().hide()
             item.widget().deleteLater()
         self._buttons = []
-        self._next.setVisible(bool(suggestions))
+        self._nothing.setVisible(not suggestions)
         before: QWidget = self._loose.button
         for at, one in enumerate(suggestions):
             text = self._text()

@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 from hexmend.parameters import Parameter
 from hexmend_app.widgets.breakpoint_form import BreakpointForm
 from hexmend_app.widgets.parameter_form import ParameterForm
+from hexmend_app.widgets.recipe_panel import RecipePanel
 from hexmend_app.widgets.run_buttons import STATES, RunButtons
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.style import MUTED, WORSE, explain, note, tabular, tint
@@ -76,9 +77,11 @@ class SmoothingPanel(QWidget):
         self.form = ParameterForm()
         self.stop_form = ParameterForm(stop_conditions)
         self.breakpoint_form = BreakpointForm()
+        self.recipe_panel = RecipePanel()
         self._sections = (
             Section("Parameters", self.form, "How the method goes about it; the defaults suit most meshes."),
             Section("Stop when", self.stop_form, "When a run ends by itself."),
+            Section("Recipe", self.recipe_panel, "Methods that are run one after another, as one run."),
             Section("Pause when", self.breakpoint_form, "Break-points: what a run pauses at, to be looked at."),
         )
         self.buttons = RunButtons()

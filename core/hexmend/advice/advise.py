@@ -45,10 +45,16 @@ def advise(result: Result) -> Advice:
 
 
 def _why(now: Situation) -> str:
+    several = len({stage.stage for stage in now.result.stages}) > 1
+    return f"The last stage, {now.smoother.title}: {_end(now)}" if several else _end(now)
+
+
+def _end(now: Situation) -> str:
     result, stop = now.result, now.stop
     move = result.history[-1]["largest_move"]
     still = f" The last one still moved a node by {move:.2g} mean edge lengths." if move > stop.tolerance else ""
-    many = result.iterations
+    stage = result.stages[-1].stage
+    many = sum(one.iterations for one in result.stages if one.stage == stage)
     count = f"{many:,} iteration{'s' * (many != 1)}"
     if result.outcome is Outcome.CONVERGED and many:
         return (
@@ -70,7 +76,8 @@ def _left(now: Situation) -> str:
     before, after = now.result.before, now.result.after
     if not after.inverted:
         done = " It can hardly be better." if after.q_min >= 0.99 else ""
-        mended = f" {_inverted(before.inverted)} at the start." if before.inverted else ""
+        count = before.inverted
+        mended = f" {count:,} {'was' if count == 1 else 'were'} inverted at the start." if count else ""
         return f"No hex is inverted; the worst has q = {after.q_min:.3f}.{mended}{done}"
     words = [f"{after.inverted:,} of {after.hexes:,} hexes {'is' if after.inverted == 1 else 'are'} inverted."]
     if before.inverted != after.inverted:

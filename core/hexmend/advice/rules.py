@@ -82,7 +82,12 @@ def go_on(now: Situation) -> Suggestion | None:
         Outcome.MAX_SECONDS: f" with a limit of {stop.max_seconds:g} s",
     }.get(limit, "")
     gain = "inverted" if now.loose.size else now.aim
-    gained = {"inverted": "fewer hexes were inverted", "objective": "the objective fell", "q_norm": "the quality rose"}
+    gained = {
+        "inverted": "fewer hexes were inverted",
+        "objective": "the objective fell",
+        "energy": "nodes moved down the energy",
+        "q_norm": "the quality rose",
+    }
     text = f"Run the same again{more}: it goes on from here, and {gained[gain]} until its last iterations."
     return Suggestion("Go on", text, gain, now.smoother, stop)
 
@@ -108,9 +113,8 @@ def tighten(now: Situation) -> Suggestion | None:
         return None
     return Suggestion(
         "Tighter tolerance",
-        f"Run the same again with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: the objective was "
-        "still falling.",
-        "objective",
+        f"Run the same again with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: it still gained.",
+        now.aim,
         now.smoother,
         replace(now.stop, tolerance=usual),
     )

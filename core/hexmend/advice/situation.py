@@ -65,7 +65,9 @@ class Situation:
 
     @property
     def aim(self) -> str:
-        """The figure that an optimiser betters: the objective, or, where locked hexes make that infinite, q_norm."""
+        """The figure that an optimiser betters: the objective with its p, or, where that is infinite, q_norm."""
+        if self.result.after.objective is not None and self.p != 2:
+            return "energy"
         return "objective" if self.result.after.objective is not None else "q_norm"
 
     @cached_property
@@ -76,6 +78,8 @@ class Situation:
         if not self.result.stages[-1].iterations:
             return False
         then, now = rows[-1 - quarter], rows[-1]
+        if self.aim == "energy":  # of which the history does not tell; a line search lowers it with every move
+            return now["largest_move"] > self.stop.tolerance
         if now["inverted"] != then["inverted"]:
             return now["inverted"] < then["inverted"]
         if now["objective"] is not None and then["objective"] is not None:

@@ -20,8 +20,9 @@ class Suggestion:
         A few words, as a button has them.
     text : str
         A sentence: what it does, and what it costs.
-    gain : {"inverted", "objective", "q_min", "q_norm"}
-        The figure of `Summary` that it betters, or at least keeps where `undo` is True.
+    gain : {"inverted", "objective", "q_min", "q_norm", "energy"}
+        The figure of `Summary` that it betters, or at least keeps where `undo` is True; "energy" is the sum of eta(H)^p
+        for the method's own p.
     smoother : Smoother
         The method to run, with its values.
     stop : Stop
