@@ -44,13 +44,13 @@ def _frame(window: Window, cut: str) -> float:
     shift *= start.mesh.free[:, None]
     states = [State.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]
     canvas = window.canvas
-    canvas.interactor.render()
+    canvas.interactor.repaint()
     times = []
     for k in range(_FRAMES):
         state = states[k % 3]
         began = perf_counter()
         canvas.set_points(state.mesh.points, state.figures)
-        canvas.interactor.render()
+        canvas.interactor.repaint()
         times.append(perf_counter() - began)
     return 1e3 * median(times)
 

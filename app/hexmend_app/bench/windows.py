@@ -33,6 +33,7 @@ def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) ->
         window.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
         turn(0.5)  # until the layout has settled
         rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, **row(window)})
+        window.document.commit("measured", window.document.now)  # or closing would ask for what is not saved
         window.document.saved(window.document.path)
         window.close()
         app.processEvents()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,6 +20,9 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.breakpoints import Breakpoints, Hit
 from hexmend_app.state.document import State
 from hexmend_app.state.measured import values
+
+#: How far the worker stands back behind the window, as `nice` counts.
+_NICE = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +118,7 @@ class Worker(QThread):
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
         try:
+            _give_way()
             # One core stays with the window; results do not depend on the number of threads.
             numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
             mesh, smoother, stop = self._order
@@ -161,3 +167,10 @@ class Worker(QThread):
         if change is not None and run.outcome is None and not ended:
             run.go_on_with(change.smoother, change.stop)  # which may have to compile: the window must not wait for it
         return run.outcome is None and not ended
+
+
+def _give_way() -> None:
+    """Let the window's threads go first where they want the same core: a frame that waits is seen, a step is not."""
+    if hasattr(os, "setpriority"):
+        with contextlib.suppress(OSError):  # where the system does not know priorities of threads
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)

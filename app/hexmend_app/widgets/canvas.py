@@ -24,6 +24,7 @@ from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import Look
 from hexmend_app.state.theme import BLUE, THEME
 from hexmend_app.widgets.colour_bar import ColourBar
+from hexmend_app.widgets.once_per_frame import OncePerFrame
 from hexmend_app.widgets.style import dress, explain
 from hexmend_app.widgets.view_keys import steer
 
@@ -73,9 +74,7 @@ class Canvas(QWidget):
         layout.setSpacing(_RING)
         layout.addWidget(self.interactor, 1)
         layout.addWidget(self.colour_bar)
-        self._frame = QTimer(self)  # several changes in one turn of the event loop are one frame
-        self._frame.setSingleShot(True)
-        self._frame.timeout.connect(self._draw)
+        self._once = OncePerFrame(self.interactor)
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.setInterval(_REST)
@@ -232,7 +231,6 @@ class Canvas(QWidget):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""
         self._closed = True
-        self._frame.stop()
         self._rest.stop()
         self._fly.stop()
         self.plane.close()
@@ -259,15 +257,11 @@ class Canvas(QWidget):
 
     def _draw_soon(self) -> None:
         self._rest.start()
-        if not self._frame.isActive():
-            self._frame.start(0)
+        self.interactor.update()
 
     def _turning(self) -> None:
         self._rest.stop()
         self.viewport.turning()
-
-    def _draw(self) -> None:
-        self.interactor.render()
 
     def rest(self) -> None:
         """Draw the fine frame soon: nothing moves for now."""
@@ -275,4 +269,4 @@ class Canvas(QWidget):
 
     def _draw_still(self) -> None:
         self.viewport.still()
-        self.interactor.render()
+        self.interactor.update()

@@ -17,7 +17,7 @@ class Bench:
             metavar="PART",
             action="append",
             default=[],
-            help="kernels, iterations, preconditioners, optima, tangled, scaling, sizes, viewer or filters; "
+            help="kernels, iterations, preconditioners, optima, tangled, scaling, sizes, viewer, filters or watching; "
             "may be repeated",
         )
         parser.add_argument("--json", metavar="FILE", help="write the figures")

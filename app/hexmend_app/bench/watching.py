@@ -1,0 +1,107 @@
+"""Frames a second while the timeline is scrubbed, what its iterations take, and how soon a run stops."""
+
+from __future__ import annotations
+
+from statistics import median
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hexmend.gallery import make
+from hexmend.study.section import Section
+from hexmend_app.bench.windows import measured, turn
+
+if TYPE_CHECKING:
+    from hexmend_app.window import Window
+
+_SCRUBBED, _ITERATIONS, _STOPS = 200, 500, 5
+
+
+def _measure() -> dict[str, Any]:
+    return measured((make("bridge-sharp"), make("five-side", size=110450)), _row)
+
+
+def _row(window: Window) -> dict[str, Any]:
+    from hexmend_app.state.history import LIMIT
+
+    stops = [_stop(window) for _ in range(_STOPS)]
+    for record in list(window.session.history.records):
+        window.session.timeline.forget(record)
+    window.session.history.limit = LIMIT
+    seconds = _run(window, _ITERATIONS)
+    history, record = window.session.history, window.session.timeline.record
+    numbers = history.kept(record)
+    scrubbed = numbers[np.linspace(0, len(numbers) - 1, _SCRUBBED).astype(int)]
+    return {
+        "scrub_ms": _scrub(window, scrubbed),
+        "jump_ms": _scrub(window, np.random.default_rng(0).permutation(scrubbed)),
+        "iterations": record.newest,
+        "kept": len(numbers) - 1,
+        "kept_mb": history.bytes / (1 << 20),
+        "limit_mb": history.limit / (1 << 20),
+        "iteration_mb": history.bytes / (1 << 20) / (len(numbers) - 1),
+        "run_s": seconds,
+        "stop_ms": median(late for late, _ in stops),
+        "stop_iteration_ms": median(iteration for _, iteration in stops),
+    }
+
+
+def _run(window: Window, iterations: int) -> float:
+    """Make iterations of the fastest method, which fills the history soonest; seconds."""
+    from hexmend.run import Stop
+    from hexmend.smoothers.laplacian import Laplacian
+
+    began = perf_counter()
+    window.smoothing.start(Laplacian(), Stop(tolerance=0, max_iterations=iterations))
+    while window.smoothing.busy:
+        turn(0.1)
+    return perf_counter() - began
+
+
+def _scrub(window: Window, numbers: np.ndarray) -> float:
+    """Median milliseconds from the wish to see an iteration to the finished picture and panels."""
+    timeline, times = window.session.timeline, []
+    for number in numbers:
+        began = perf_counter()
+        timeline.go(timeline.record, int(number))
+        window.canvas.interactor.repaint()
+        times.append(perf_counter() - began)
+    return 1e3 * median(times)
+
+
+def _stop(window: Window) -> tuple[float, float]:
+    """Milliseconds from the wish to stop local-sd to its end, and those of one iteration."""
+    from hexmend.run import Stop
+    from hexmend.smoothers.local_sd import LocalSteepestDescent
+
+    window.document.preview(window.document.start)
+    window.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
+    while window.smoothing.record.newest < 3:
+        turn(0.05)
+    ended: list[float] = []
+    window.smoothing.ended.connect(lambda result: ended.append(perf_counter()))
+    began = perf_counter()
+    window.smoothing.stop()
+    while not ended:
+        turn(0.02)
+    last = window.smoothing.record.rows[-1]
+    return 1e3 * (ended[0] - began), 1e3 * last["seconds"] / last["iteration"]
+
+
+def _lines(figures: dict[str, Any]) -> list[str]:
+    rows = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
+    for row in figures["meshes"]:
+        rows += [
+            f"{row['mesh']}, {row['hexes']:,} hexes",
+            f"  scrubbing {_SCRUBBED} iterations: {row['scrub_ms']:.1f} ms each ({1000 / row['scrub_ms']:.0f} a second), "
+            f"{row['jump_ms']:.1f} in any order",
+            f"  history of {row['iterations']} iterations: positions of {row['kept']} in {row['kept_mb']:.0f} MB "
+            f"({row['iteration_mb']:.2f} each), limit {row['limit_mb']:.0f} MB; the run took {row['run_s']:.1f} s",
+            f"  stop answered after {row['stop_ms']:.0f} ms; an iteration of local-sd takes "
+            f"{row['stop_iteration_ms']:.0f} ms",
+        ]
+    return rows
+
+
+watching = Section("watching", "Watching: the timeline, and how soon a run stops", _measure, _lines)
