@@ -48,10 +48,14 @@ class Advising:
         self._panel, self._dock, self._smoothing_panel = panel, dock, smoothing_panel
         self._go_to = go_to
         self._advice: WeakKeyDictionary[Record, Advice] = WeakKeyDictionary()
+        self._idle: tuple[Record | None, str, Advice] | None = (
+            None  # of a run without an iteration, which has no record
+        )
         self._shown: Advice | None = None
         session.smoothing.ended.connect(self._on_ended)
         session.timeline.grown.connect(self._show)
         session.smoothing.phase_changed.connect(self._show)
+        session.document.mesh_replaced.connect(self._on_another)
         for told in (session.opener.began, session.opener.ended, session.opener.cancelled, session.opener.failed):
             told.connect(self._enable)
         panel.chosen.connect(go_to)
@@ -60,16 +64,31 @@ class Advising:
         self._show()
 
     def _on_ended(self, result: Result) -> None:
-        record = self._session.smoothing.record
-        self._advice[record] = advise(result)
+        record, advice = self._session.smoothing.record, advise(result)
+        if record in self._session.history.records:
+            self._advice[record] = advice
+        else:
+            self._idle = (self._session.timeline.record, record.name, advice)
         self._show()
         self._dock.raise_()
 
-    def _show(self) -> None:
+    def _on_another(self) -> None:
+        self._idle = None
+        self._show()
+
+    def _explained(self) -> tuple[str, Advice | None]:
+        """The run that is gone through: its name, and what there is to say of its end."""
         record = self._session.timeline.record
-        advice = self._advice.get(record) if record is not None else None
+        if self._idle is not None and (self._session.smoothing.busy or record is not self._idle[0]):
+            self._idle = None
+        if self._idle is not None:
+            return self._idle[1:]
+        return ("", None) if record is None else (record.name, self._advice.get(record))
+
+    def _show(self) -> None:
+        name, advice = self._explained()
         if advice is not None and advice is not self._shown:
-            self._panel.show_advice(f"Why {record.name} stopped", advice)
+            self._panel.show_advice(f"Why {name} stopped", advice)
         elif advice is None and self._session.smoothing.busy:
             self._panel.show_none(_RUNNING)
         elif advice is None:
@@ -89,9 +108,10 @@ class Advising:
         """Go to where the suggestion begins, and choose its method; whatever it costs to run it is left to the user."""
         timeline = self._session.timeline
         record = timeline.record
-        number = 0 if suggestion.undo else record.result
-        if timeline.moment is None or (timeline.moment.record, timeline.moment.number) != (record, number):
-            timeline.go(record, number)
+        if self._idle is None:
+            number = 0 if suggestion.undo else record.result
+            if timeline.moment is None or (timeline.moment.record, timeline.moment.number) != (record, number):
+                timeline.go(record, number)
         if suggestion.unpin.size:
             self._commands.pin(suggestion.unpin, False)
         smoother = suggestion.smoother

@@ -10,6 +10,7 @@ from hexmend import gallery, io
 from hexmend.optimise import Stop
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, open_and_wait, phase
+from tests.core.grids import grid
 from tests.core.test_mend import with_locked_corner
 from tests.said import FIRST_RUN
 
@@ -142,6 +143,18 @@ def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_pa
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
     assert window.document.now.summary.inverted == 0
+
+
+def test_a_run_with_nothing_to_do_is_explained_too(window, qtbot, tmp_path):
+    run(window, qtbot, "laplacian", max_iterations=1)
+    io.write(tmp_path / "one.vtu", grid(1))
+    window.document.saved(tmp_path / "one.vtu")
+    open_and_wait(qtbot, window, tmp_path / "one.vtu")
+    run(window, qtbot, "mend")
+    qtbot.waitUntil(window.outcome_panel.isVisible)
+    assert "Why mend stopped Nothing to do: every node is fixed." in said(window)
+    run(window, qtbot, "laplacian")
+    assert "Why laplacian stopped" in said(window)
 
 
 def test_another_mesh_is_unexplained(window, qtbot, mesh_file):

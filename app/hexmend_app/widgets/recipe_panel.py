@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
@@ -65,7 +65,7 @@ class RecipePanel(QWidget):
         self._title.editingFinished.connect(self._on_title)
         self._shown_title = ""
         self._list = QListWidget()
-        self._list.setSpacing(1)
+        self._list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         explain(self._list, "Stages", "In the order in which they are run; Enter or a double-click shows one above.")
         self._list.itemActivated.connect(lambda item: self.shown_requested.emit(self._list.row(item)))
         self._list.currentRowChanged.connect(self._enable)
@@ -153,10 +153,11 @@ class RecipePanel(QWidget):
         for at, (words, help) in enumerate(stages, start=1):
             item = QListWidgetItem(f"{at}  {words}")
             item.setToolTip(f"<qt>{escape(help)}</qt>")
+            item.setSizeHint(QSize(1, self._list.fontMetrics().height() + 4))  # what is longer than the list ends in …
             self._list.addItem(item)
         self._list.setCurrentRow(min(row, len(stages) - 1))
         self._list.blockSignals(False)
-        height = self._list.sizeHintForRow(0) + 2 * self._list.spacing() if stages else 0
+        height = self._list.sizeHintForRow(0) if stages else 0
         self._list.setFixedHeight(height * min(len(stages), _SEEN) + 2 * self._list.frameWidth() + 2)
         self._list.setVisible(bool(stages))
         self._empty.setVisible(not stages)

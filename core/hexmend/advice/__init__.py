@@ -11,7 +11,7 @@ Converged: in the last of 34 iterations no node moved further than 0.0001 mean e
 ['Mend', 'Smart Laplacian from before the run']
 """
 
-from hexmend.advice.advise import Advice, advise
+from hexmend.advice.advice import Advice, advise
 from hexmend.advice.suggestion import Suggestion
 
 __all__ = ["Advice", "Suggestion", "advise"]
