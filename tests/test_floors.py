@@ -40,6 +40,7 @@ APP = [
     {
         "advising",
         "chaining",
+        "comparing",
         "counting",
         "docks",
         "inspecting",

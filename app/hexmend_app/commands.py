@@ -80,6 +80,15 @@ class Commands:
         self.smoothing.end_now()
         self.document.reset()
 
+    def take(self, title: str, state: State) -> None:
+        """Put the nodes to where they are in another state of the mesh, while the mesh may be changed.
+
+        What is pinned and tagged stays so.
+        """
+        if self._session.editable:
+            mesh = self.document.now.mesh.with_points(state.mesh.points)
+            self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
+
     def pin(self, nodes: int | np.ndarray, on: bool) -> None:
         """Keep a node or several where they are whatever smooths the mesh, or let them go, while it may be changed."""
         mesh = self.document.now.mesh

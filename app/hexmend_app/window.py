@@ -18,6 +18,7 @@ from hexmend_app.actions import ACTIONS
 from hexmend_app.advising import Advising
 from hexmend_app.chaining import Chaining
 from hexmend_app.commands import Commands, methods_offered
+from hexmend_app.comparing import TICKED, Comparing
 from hexmend_app.counting import Counting
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
 from hexmend_app.inspecting import Inspecting
@@ -37,6 +38,7 @@ from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
+from hexmend_app.widgets.compare_panel import ComparePanel
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
@@ -84,6 +86,7 @@ class Window(QMainWindow):
         self.element_panel = ElementPanel()
         self.tag_panel = TagPanel()
         self.outcome_panel = OutcomePanel()
+        self.compare_panel = ComparePanel(TICKED)
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
@@ -104,6 +107,7 @@ class Window(QMainWindow):
         self.tagging = Tagging(
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
         )
+        self.comparing = Comparing(session, self.commands, self.compare_panel, self.smoothing_panel, self.counting.kept)
         self.watching = Watching(session, self.commands, self.timeline_bar, self.smoothing_panel)
         self.chaining = Chaining(self, session, self.commands, self.smoothing_panel, self.messages)
         self.advising = Advising(
@@ -149,6 +153,7 @@ class Window(QMainWindow):
             ("element", "Element", self.element_panel),
             ("tags", "Tags", self.tag_panel),
             ("outcome", "Outcome", self.outcome_panel),
+            ("compare", "Compare", self.compare_panel),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs)
         self.statusBar().addWidget(self.counts, 1)
@@ -165,6 +170,7 @@ class Window(QMainWindow):
         self.setTabOrder(self.hint.close_button, self.canvas.interactor)
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
+        self.comparing.set_canvas(self.canvas)
         self.saving.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
         if self.document.is_open:
@@ -179,6 +185,10 @@ class Window(QMainWindow):
         for told in (self.opener.began, self.opener.ended, self.opener.cancelled, self.opener.failed):
             told.connect(self._enable)
         self.tag_panel.offer_changed.connect(self._enable)
+        self.compare_panel.save_requested.connect(lambda: self.saving.ask_comparison(self.session.comparison))
+        compared = self.session.comparison
+        for told in (compared.changed, self.session.views.changed, self.compare_panel.offer_changed):
+            told.connect(self._enable)
         self.session.timeline.runs_changed.connect(self._enable)
         self.chaining.chain.changed.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
@@ -221,6 +231,7 @@ class Window(QMainWindow):
             **self.looking.handlers(),
             **self.inspecting.handlers(),
             **self.tagging.handlers(),
+            **self.comparing.handlers(),
             **self.watching.handlers(),
             **self.chaining.handlers(),
         }
@@ -246,6 +257,7 @@ class Window(QMainWindow):
         self.statistics.set_summaries(start.summary, now.summary)
         self.inspecting.refresh()
         self.tagging.refresh()
+        self.comparing.move()
         self.looking.refresh()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
@@ -296,14 +308,17 @@ class Window(QMainWindow):
         for id in ("run", "step", "reset"):
             self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
-        parts = (self.inspecting, self.tagging, self.looking, self.watching, self.chaining)
+        self.comparing.enable()
+        parts = (self.inspecting, self.tagging, self.looking, self.watching, self.comparing, self.chaining)
         for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.
         self.busy.take_escape(self.opener.busy and self.messages.isHidden())
         if self.opener.busy or not self.messages.isHidden():
             self.actions_by_id["back"].setEnabled(False)
-        for id, on in (self.looking.checked() | {f"theme_{theming.chosen().value}": True}).items():
+        for id, on in (
+            self.looking.checked() | self.comparing.checked() | {f"theme_{theming.chosen().value}": True}
+        ).items():
             self.actions_by_id[id].setChecked(on)
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.timeline_bar.setVisible(self.document.is_open)
