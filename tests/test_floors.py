@@ -42,6 +42,7 @@ APP = [
         "chaining",
         "comparing",
         "counting",
+        "filming",
         "docks",
         "inspecting",
         "looking",

@@ -21,6 +21,7 @@ from hexmend_app.commands import Commands, methods_offered
 from hexmend_app.comparing import TICKED, Comparing
 from hexmend_app.counting import Counting
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
+from hexmend_app.filming import Filming
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
 from hexmend_app.menus import build_menus
@@ -118,6 +119,7 @@ class Window(QMainWindow):
             self.smoothing_panel,
             self.inspecting.go_to,
         )
+        self.filming = Filming(self, session, self.busy, self.messages)
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
@@ -149,7 +151,7 @@ class Window(QMainWindow):
         )
         tabs = [
             ("quality", "Quality", self.statistics),
-            ("worst", "Worst elements", self.worst_list),
+            ("worst", "Worst", self.worst_list),
             ("element", "Element", self.element_panel),
             ("tags", "Tags", self.tag_panel),
             ("outcome", "Outcome", self.outcome_panel),
@@ -171,7 +173,7 @@ class Window(QMainWindow):
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
         self.comparing.set_canvas(self.canvas)
-        self.saving.canvas = self.canvas
+        self.saving.canvas = self.filming.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
         if self.document.is_open:
             self._on_mesh_replaced()
@@ -234,6 +236,7 @@ class Window(QMainWindow):
             **self.comparing.handlers(),
             **self.watching.handlers(),
             **self.chaining.handlers(),
+            **self.filming.handlers(),
         }
 
     # What the state tells
@@ -309,7 +312,15 @@ class Window(QMainWindow):
             self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
         self.comparing.enable()
-        parts = (self.inspecting, self.tagging, self.looking, self.watching, self.comparing, self.chaining)
+        parts = (
+            self.inspecting,
+            self.tagging,
+            self.looking,
+            self.watching,
+            self.comparing,
+            self.chaining,
+            self.filming,
+        )
         for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.
@@ -397,6 +408,7 @@ class Window(QMainWindow):
         settings.setValue("geometry", self.saveGeometry())
         settings.setValue("layout", self.saveState(LAYOUT))
         self.hide()  # threads may take a while to end
+        self.filming.cancel()
         self.session.shut_down()
         if self.canvas is not None:
             self.canvas.close()
