@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtWidgets import QWidget
 
@@ -16,7 +17,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.commands import Commands
 from hexmend_app.resources import recipes
 from hexmend_app.state.chain import Chain
-from hexmend_app.state.run import Frame
+from hexmend_app.state.run import Frame, Phase
 from hexmend_app.state.session import Session
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.questions import ask_recipe, ask_recipe_target, remember_folder
@@ -46,7 +47,8 @@ class Chaining:
     ):
         self._parent, self._session, self._commands = parent, session, commands
         self._panel, self._list, self._messages = panel, panel.recipe_panel, messages
-        self._running: Recipe | None = None
+        self._running: list[Stage] = []  # as they are run: the one at work may be changed while the run is paused
+        self._at = 1  # number of the stage at work
         chain = self.chain = Chain(parent)
         chain.changed.connect(self._show)
         self._list.add_requested.connect(lambda: panel.request(lambda *order: self._add(_stage(*order))))
@@ -63,7 +65,8 @@ class Chaining:
         self._list.shipped_requested.connect(self.load)
         self._list.set_shipped([(read_recipe(path).title, path) for path in recipes()])
         session.smoothing.iterated.connect(self._on_iterated)
-        session.smoothing.phase_changed.connect(self._enable)
+        session.smoothing.phase_changed.connect(self._on_phase)
+        panel.change_requested.connect(self._on_changed)
         session.document.mesh_replaced.connect(self._enable)
         for told in (session.opener.began, session.opener.ended, session.opener.cancelled, session.opener.failed):
             told.connect(self._enable)
@@ -82,7 +85,7 @@ class Chaining:
         """Run the recipe on the mesh as it is shown."""
         recipe = self.chain.recipe
         if recipe is not None and self._session.editable:
-            self._running = recipe
+            self._running, self._at = list(recipe.stages), 1
             self._commands.run_recipe(recipe)
 
     def ask_load(self) -> None:
@@ -119,11 +122,11 @@ class Chaining:
 
     def at_work(self, frame: Frame) -> str:
         """Which stage an iteration is of, as a sentence; "" where one method runs alone."""
-        if self._running is None or not self._session.smoothing.busy:
+        if not self._running or not self._session.smoothing.busy:
             return ""
         notes = frame.iteration.notes
         title = METHODS[notes["method"]].title
-        return f"Stage {notes['stage']} of {len(self._running.stages)}: {title}."
+        return f"Stage {notes['stage']} of {len(self._running)}: {title}."
 
     def _add(self, stage: Stage) -> None:
         self.chain.add(stage)
@@ -135,8 +138,7 @@ class Chaining:
 
     def _show_above(self, at: int) -> None:
         if self._session.editable:
-            stage = self.chain.stages[at]
-            self._panel.choose(stage.smoother.name, stage.smoother.values(), stage.stop.values())
+            self._panel.choose(*_order(self.chain.stages[at]))
 
     def _show(self) -> None:
         chain = self.chain
@@ -146,16 +148,31 @@ class Chaining:
 
     def _enable(self) -> None:
         if not self._session.smoothing.busy:
-            self._running = None
+            self._running = []
             self._list.set_at_work(None)
         self._list.set_editable(self._session.editable)
 
     def _on_iterated(self, frame: Frame) -> None:
-        self._list.set_at_work(frame.iteration.notes["stage"] if self.at_work(frame) else None)
+        if self.at_work(frame):
+            self._at = frame.iteration.notes["stage"]
+            self._list.set_at_work(self._at)
+
+    def _on_phase(self) -> None:
+        self._enable()
+        if self._running and self._session.smoothing.phase is Phase.PAUSED:
+            self._panel.show_at_work(*_order(self._running[self._at - 1]))
+
+    def _on_changed(self, *order: Any) -> None:
+        if self._running:
+            self._running[self._at - 1] = _stage(*order)
 
 
 def _stage(name: str, values: dict, stop: dict) -> Stage:
     return Stage(METHODS[name](**values), Stop(**stop))
+
+
+def _order(stage: Stage) -> tuple[str, dict, dict]:
+    return stage.smoother.name, stage.smoother.values(), stage.stop.values()
 
 
 def _said(stage: Stage) -> tuple[str, str]:

@@ -11,6 +11,7 @@ from hexmend.optimise import Stop
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS
+from hexmend_app.state.breakpoints import Breakpoints
 from hexmend_app.state.chain import Chain
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, open_and_wait, phase
@@ -150,6 +151,35 @@ def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, q
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
     assert not any(shown.item(at).font().bold() for at in range(2))
     assert button(panel, "Add").isEnabled()
+
+
+def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel, qtbot):
+    add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
+    add(window, panel, "local-sd", stop=Stop(max_iterations=3, tolerance=0))
+    window.smoothing_panel.set_method("laplacian")
+    window.smoothing.break_at(Breakpoints(node=free_node(window), move=0.0))
+    press(panel, "Run recipe")
+    qtbot.waitUntil(lambda: paused_after(window, 1), timeout=FIRST_RUN)
+    assert window.smoothing_panel.method() == "local-sd"  # the stage at work, not what was shown before
+    for number in (2, 3):
+        click(window, "Resume")
+        qtbot.waitUntil(lambda number=number: paused_after(window, number))
+    window.smoothing_panel.form.set_values({"p": 4.0})
+    with qtbot.waitSignal(window.smoothing.ended) as ended:
+        window.smoothing.break_at(Breakpoints())
+        click(window, "Resume")
+    assert [(one.stage, one.parameters["p"], one.iterations) for one in ended.args[0].stages] == [
+        (1, 2, 2), (2, 2, 1), (2, 4, 2),
+    ]  # fmt: skip
+    assert [stage.smoother.p for stage in window.chaining.chain.stages] == [2, 2]  # the recipe itself is as it was
+
+
+def free_node(window):
+    return int(np.flatnonzero(window.document.now.mesh.free)[0])
+
+
+def paused_after(window, number):
+    return window.smoothing.phase is Phase.PAUSED and window.smoothing.record.newest == number
 
 
 def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatch):

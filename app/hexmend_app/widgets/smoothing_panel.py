@@ -151,6 +151,11 @@ class SmoothingPanel(QWidget):
         self.set_method(name, values)
         self.stop_form.set_values(stop_values)
 
+    def show_at_work(self, name: str, values: Mapping[str, Any], stop_values: Mapping[str, Any]) -> None:
+        """Show what the run is at: only what is set otherwise from now on is a change of it."""
+        self.choose(name, values, stop_values)
+        self._begun = self._order()
+
     def tell(self, sentence: str) -> None:
         """Say something below the buttons, beside how far the run is."""
         tint(self._sentence, MUTED)
