@@ -80,15 +80,17 @@ def add_docks(
         docks[name] = _dock(window, name, title, widget, areas.BottomDockWidgetArea)
         window.tabifyDockWidget(below, docks[name])
     below.raise_()
-    window.resizeDocks([below, first], [620, 360], Qt.Orientation.Horizontal)
+    window.resizeDocks([below, first], [560, 420], Qt.Orientation.Horizontal)
     window.resizeDocks([below], [270], Qt.Orientation.Vertical)
     return docks
 
 
 def name_tabs(window: QMainWindow) -> None:
-    """Name the tabs of docks, which Qt makes as the window is shown, for who cannot see them."""
+    """Name the tabs of docks, which Qt makes as the window is shown, and keep their words whole."""
     for tabs in window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly):
         tabs.setAccessibleName("Panels")
+        tabs.setElideMode(Qt.TextElideMode.ElideNone)
+        tabs.setUsesScrollButtons(True)
 
 
 def _dock(window: QMainWindow, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:

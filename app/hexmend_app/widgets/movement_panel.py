@@ -86,7 +86,7 @@ class MovementPanel(QWidget):
         self.factor.setKeyboardTracking(False)
         self.factor.setFont(tabular(self.factor.font()))
         explain(self.factor, "Length of arrows", _FACTOR)
-        self.show_newly = QPushButton("Show newly inverted")
+        self.show_newly = QPushButton("Show new")
         self._drawn = note()
         self._figures = {name: _figure() for name in _FIGURES}
         self._lay_out()
@@ -117,6 +117,7 @@ class MovementPanel(QWidget):
             grid.addWidget(part, row, 1)
         grid.addLayout(lengths, 3, 1)
         last = QHBoxLayout()
+        last.setSpacing(8)
         last.addWidget(self._figures["Inverted"], 1)
         last.addWidget(self.show_newly)
         for row, (text, label) in enumerate(self._figures.items(), start=4):
