@@ -17,6 +17,7 @@ from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.commands import Commands, methods_offered
 from hexmend_app.counting import Counting
+from hexmend_app.debugging import Debugging
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
@@ -40,6 +41,7 @@ from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.node_panel import NodePanel
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
 from hexmend_app.widgets.recent_menu import RecentMenu
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
@@ -79,6 +81,7 @@ class Window(QMainWindow):
         self.statistics = StatisticsTable()
         self.worst_list = WorstList()
         self.element_panel = ElementPanel()
+        self.node_panel = NodePanel()
         self.tag_panel = TagPanel()
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
@@ -95,7 +98,10 @@ class Window(QMainWindow):
         self._lay_out()
         self.looking = Looking(session, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel)
         self.counting = Counting(session, self.histogram)
-        self.inspecting = Inspecting(session, self.commands, self.worst_list, self.element_panel, self.docks["element"])
+        self.inspecting = Inspecting(
+            session, self.commands, self.worst_list, self.element_panel, self.docks["element"], self.docks["node"]
+        )
+        self.debugging = Debugging(session, self.node_panel, self.docks["node"], self.smoothing_panel, self.worst_list)
         self.opening = Opening(self.document, self.opener, self.recent, self.busy, self.messages)
         self.tagging = Tagging(
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
@@ -134,6 +140,7 @@ class Window(QMainWindow):
             ("quality", "Quality", self.statistics),
             ("worst", "Worst elements", self.worst_list),
             ("element", "Element", self.element_panel),
+            ("node", "Node", self.node_panel),
             ("tags", "Tags", self.tag_panel),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs)
@@ -151,6 +158,7 @@ class Window(QMainWindow):
         self.setTabOrder(self.hint.close_button, self.canvas.interactor)
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
+        self.debugging.set_canvas(self.canvas)
         self.saving.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
         if self.document.is_open:
@@ -165,6 +173,9 @@ class Window(QMainWindow):
         for told in (self.opener.began, self.opener.ended, self.opener.cancelled, self.opener.failed):
             told.connect(self._enable)
         self.tag_panel.offer_changed.connect(self._enable)
+        self.session.stepping.changed.connect(self._enable)
+        for told in (self.smoothing_panel.method_changed, self.smoothing_panel.form.changed):
+            told.connect(self._enable)
         self.session.timeline.runs_changed.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
@@ -205,6 +216,7 @@ class Window(QMainWindow):
             **self.saving.handlers(),
             **self.looking.handlers(),
             **self.inspecting.handlers(),
+            **self.debugging.handlers(),
             **self.tagging.handlers(),
             **self.watching.handlers(),
         }
@@ -229,6 +241,7 @@ class Window(QMainWindow):
         self.counting.refresh()
         self.statistics.set_summaries(start.summary, now.summary)
         self.inspecting.refresh()
+        self.debugging.refresh()
         self.tagging.refresh()
         self.looking.refresh()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
@@ -272,6 +285,7 @@ class Window(QMainWindow):
         for spec in ACTIONS:
             self.actions_by_id[spec.id].setEnabled(self.document.is_open or not spec.needs_mesh)
         undo, redo = (self.document.undo_title, self.document.redo_title) if self.document.is_open else (None, None)
+        undo = self.session.stepping.title or undo
         for id, title, word in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
             self.actions_by_id[id].setEnabled(title is not None and editable)
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
@@ -279,7 +293,7 @@ class Window(QMainWindow):
         for id in ("run", "step", "reset"):
             self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
-        parts = (self.inspecting, self.tagging, self.looking, self.watching)
+        parts = (self.inspecting, self.debugging, self.tagging, self.looking, self.watching)
         for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.
@@ -348,6 +362,7 @@ class Window(QMainWindow):
 
     def _may_leave(self) -> bool:
         """Whether what is unsaved was saved or may be lost."""
+        self.session.stepping.leave()
         if not self.document.modified and not self.smoothing.busy:
             return True
         answer = ask_unsaved(self, self.document.name)

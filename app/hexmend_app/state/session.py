@@ -5,11 +5,13 @@ from __future__ import annotations
 from PySide6.QtCore import QObject
 
 from hexmend_app.state.document import Document
+from hexmend_app.state.explainer import Explainer
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.history import History
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
+from hexmend_app.state.stepping import Stepping
 from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
 
@@ -27,6 +29,8 @@ class Session(QObject):
     timeline : Timeline
     opener : Opener
     finder : Finder
+    explainer : Explainer
+    stepping : Stepping
     """
 
     def __init__(self, parent: QObject | None = None):
@@ -39,6 +43,8 @@ class Session(QObject):
         self.timeline = Timeline(self.document, self.smoothing, self.history, self)
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
+        self.explainer = Explainer(self)
+        self.stepping = Stepping(self.document, self)
 
     @property
     def editable(self) -> bool:
@@ -50,3 +56,4 @@ class Session(QObject):
         self.smoothing.shut_down()
         self.opener.shut_down()
         self.finder.shut_down()
+        self.explainer.shut_down()

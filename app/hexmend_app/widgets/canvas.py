@@ -13,6 +13,7 @@ from pyvistaqt import QtInteractor
 
 from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
+from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.box_widget import BoxWidget
 from hexmend_app.scene.colours import INVERTED, Colouring
@@ -153,9 +154,15 @@ class Canvas(QWidget):
         self.viewport.select(h, corners, node)
         self._changed()
 
-    def fly_to(self, h: int) -> None:
-        """Bring an element before the camera."""
-        self._flight = self.viewport.flight_to(h)
+    def show_node_step(self, step: NodeStep | None) -> None:
+        """Draw a node's step; None draws none."""
+        if not self._closed:
+            self.viewport.show_node_step(step)
+            self._changed()
+
+    def fly_to(self, *hexes: int) -> None:
+        """Bring an element, or several together, before the camera."""
+        self._flight = self.viewport.flight_to(*hexes)
         self._flown.start()
         self._fly.start()
 
@@ -223,7 +230,14 @@ class Canvas(QWidget):
         """Write what is seen, without the plane, as PNG of any size."""
         seen = self.viewport
         image = picture(
-            seen.mesh, seen.figures, seen.look, size, filters=seen.filters, camera=seen.camera, transparent=transparent
+            seen.mesh,
+            seen.figures,
+            seen.look,
+            size,
+            filters=seen.filters,
+            node_step=seen.node_step,
+            camera=seen.camera,
+            transparent=transparent,
         )
         with replacing(path) as temporary:
             image.save(temporary, format="PNG")
