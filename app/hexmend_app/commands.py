@@ -80,6 +80,15 @@ class Commands:
         self.stepping.leave()
         self.document.reset()
 
+    def take(self, title: str, state: State) -> None:
+        """Put the nodes to where they are in another state of the mesh, while the mesh may be changed.
+
+        What is pinned and tagged stays so.
+        """
+        if self._session.editable:
+            mesh = self.document.now.mesh.with_points(state.mesh.points)
+            self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
+
     def pin(self, node: int, on: bool) -> None:
         """Keep a node where it is whatever smooths the mesh, or let it go, while the mesh may be changed."""
         mesh = self.document.now.mesh

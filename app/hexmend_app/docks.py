@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QScrollArea, QStyle, QTabBar, QVBoxLayout, QWidget
 
 #: Number of the layout: one that was saved with other docks is not restored.
-LAYOUT = 4
+LAYOUT = 5
 
 
 class _Column(QScrollArea):

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QWidget
 
 from hexmend.errors import HexmendError
+from hexmend.report import write_comparison
 from hexmend.report.documents import write_text
 from hexmend_app.commands import Commands
+from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.histogram_file import write_histogram
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
-from hexmend_app.widgets.questions import ask_histogram, ask_list, ask_target
+from hexmend_app.widgets.questions import ask_comparison, ask_histogram, ask_list, ask_target
 from hexmend_app.widgets.wording import counted
 from hexmend_app.widgets.worst_list import WorstList
 
@@ -122,6 +124,20 @@ class Saving:
             "The histogram was not saved",
             lambda: write_histogram(Path(path), self._histogram, self._document.name),
             f"Histogram saved to {path}",
+        )
+
+    def ask_comparison(self, comparison: Comparison) -> None:
+        """Ask where the table of methods goes and write it."""
+        path = ask_comparison(self._parent, self._stem)
+        if path:
+            self.comparison(path, comparison)
+
+    def comparison(self, path: str | Path, comparison: Comparison) -> bool:
+        """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix."""
+        return self._said(
+            "The table was not saved",
+            lambda: write_comparison(Path(path), comparison.record()),
+            f"Table of {counted(len(comparison.results), 'method')} saved to {path}",
         )
 
     @property

@@ -16,6 +16,7 @@ from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.commands import Commands, methods_offered
+from hexmend_app.comparing import TICKED, Comparing
 from hexmend_app.counting import Counting
 from hexmend_app.debugging import Debugging
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
@@ -36,6 +37,7 @@ from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
+from hexmend_app.widgets.compare_panel import ComparePanel
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
@@ -83,6 +85,7 @@ class Window(QMainWindow):
         self.element_panel = ElementPanel()
         self.node_panel = NodePanel()
         self.tag_panel = TagPanel()
+        self.compare_panel = ComparePanel(TICKED)
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
         self.smoothing_panel.set_method(DEFAULT_METHOD)
@@ -106,6 +109,7 @@ class Window(QMainWindow):
         self.tagging = Tagging(
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
         )
+        self.comparing = Comparing(session, self.commands, self.compare_panel, self.smoothing_panel, self.counting.kept)
         self.watching = Watching(session, self.commands, self.timeline_bar, self.smoothing_panel)
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
@@ -142,6 +146,7 @@ class Window(QMainWindow):
             ("element", "Element", self.element_panel),
             ("node", "Node", self.node_panel),
             ("tags", "Tags", self.tag_panel),
+            ("compare", "Compare", self.compare_panel),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs)
         self.statusBar().addWidget(self.counts, 1)
@@ -159,6 +164,7 @@ class Window(QMainWindow):
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
         self.debugging.set_canvas(self.canvas)
+        self.comparing.set_canvas(self.canvas)
         self.saving.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
         if self.document.is_open:
@@ -175,6 +181,10 @@ class Window(QMainWindow):
         self.tag_panel.offer_changed.connect(self._enable)
         self.session.stepping.changed.connect(self._enable)
         for told in (self.smoothing_panel.method_changed, self.smoothing_panel.form.changed):
+            told.connect(self._enable)
+        self.compare_panel.save_requested.connect(lambda: self.saving.ask_comparison(self.session.comparison))
+        compared = self.session.comparison
+        for told in (compared.changed, self.session.views.changed, self.compare_panel.offer_changed):
             told.connect(self._enable)
         self.session.timeline.runs_changed.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
@@ -218,6 +228,7 @@ class Window(QMainWindow):
             **self.inspecting.handlers(),
             **self.debugging.handlers(),
             **self.tagging.handlers(),
+            **self.comparing.handlers(),
             **self.watching.handlers(),
         }
 
@@ -243,6 +254,7 @@ class Window(QMainWindow):
         self.inspecting.refresh()
         self.debugging.refresh()
         self.tagging.refresh()
+        self.comparing.move()
         self.looking.refresh()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
@@ -293,14 +305,17 @@ class Window(QMainWindow):
         for id in ("run", "step", "reset"):
             self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
-        parts = (self.inspecting, self.debugging, self.tagging, self.looking, self.watching)
+        self.comparing.enable()
+        parts = (self.inspecting, self.debugging, self.tagging, self.looking, self.watching, self.comparing)
         for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.
         self.busy.take_escape(self.opener.busy and self.messages.isHidden())
         if self.opener.busy or not self.messages.isHidden():
             self.actions_by_id["back"].setEnabled(False)
-        for id, on in (self.looking.checked() | {f"theme_{theming.chosen().value}": True}).items():
+        for id, on in (
+            self.looking.checked() | self.comparing.checked() | {f"theme_{theming.chosen().value}": True}
+        ).items():
             self.actions_by_id[id].setChecked(on)
         self.actions_by_id["save"].setEnabled(self.document.is_open and phase is not Phase.RUNNING)
         self.timeline_bar.setVisible(self.document.is_open)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from hexmend.errors import FileError
 from hexmend.report import Table, comparison_table, latex, made_folder, markdown, table_of, write_csv, write_documents
 from hexmend.report.comparison import FIGURES
+from hexmend.report.documents import write_document
 from hexmend.report.tables import significant
 
 AWKWARD = "a_b & 50 % of #1 {x} ~ $y$ ^ \\ | <i>*[z]*</i> `c`"
@@ -123,6 +124,13 @@ def test_documents_hold_the_same_table(tmp_path):
     assert paths[1].read_text(encoding="utf-8") == markdown(TABLE)
     assert paths[2].read_text(encoding="utf-8") == latex(TABLE)
     assert json.loads(paths[3].read_text(encoding="utf-8")) == {"rows": rows}
+
+
+def test_a_document_of_another_suffix_is_refused(tmp_path):
+    for name in ("t.doc", "t"):
+        with pytest.raises(FileError, match=r"\.csv, \.md, \.tex or \.json"):
+            write_document(tmp_path / name, TABLE, [], {})
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_table_is_written_as_a_whole_or_not_at_all(tmp_path):

@@ -10,13 +10,12 @@ import numpy as np
 
 from hexmend.gallery import make
 from hexmend.study.section import Section, peak_mb
-from hexmend_app.bench.windows import measured, turn
+from hexmend_app.bench.windows import measured, turning_ms
 
 if TYPE_CHECKING:
     from hexmend_app.window import Window
 
 _CHANGES = 9
-_FRAMES = 40
 
 
 def _measure() -> dict[str, Any]:
@@ -25,22 +24,8 @@ def _measure() -> dict[str, Any]:
 
 
 def _row(window: Window) -> dict[str, Any]:
-    turning = _turning(window)
+    turning = turning_ms(window)
     return {"turning_ms": turning, "memory_mb": peak_mb(), "ms": _changes(window)}
-
-
-def _turning(window: Window) -> float:
-    """Median milliseconds of a frame while the camera moves around the whole mesh."""
-    canvas, times = window.canvas, []
-    turn(0.5)  # until the fine frame is drawn
-    for _ in range(_FRAMES):
-        canvas.viewport.turning()
-        canvas.viewport.camera.Azimuth(4)
-        canvas.viewport.reset_depth()
-        began = perf_counter()
-        canvas.interactor.repaint()
-        times.append(perf_counter() - began)
-    return 1e3 * median(times)
 
 
 def _changes(window: Window) -> dict[str, dict[str, float]]:

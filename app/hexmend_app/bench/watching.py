@@ -94,8 +94,8 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     for row in figures["meshes"]:
         rows += [
             f"{row['mesh']}, {row['hexes']:,} hexes",
-            f"  scrubbing {_SCRUBBED} iterations: {row['scrub_ms']:.1f} ms each ({1000 / row['scrub_ms']:.0f} a second), "
-            f"{row['jump_ms']:.1f} in any order",
+            f"  scrubbing {_SCRUBBED} iterations: {row['scrub_ms']:.1f} ms each "
+            f"({1000 / row['scrub_ms']:.0f} a second), {row['jump_ms']:.1f} in any order",
             f"  history of {row['iterations']} iterations: positions of {row['kept']} in {row['kept_mb']:.0f} MB "
             f"({row['iteration_mb']:.2f} each), limit {row['limit_mb']:.0f} MB; the run took {row['run_s']:.1f} s",
             f"  stop answered after {row['stop_ms']:.0f} ms; an iteration of local-sd takes "

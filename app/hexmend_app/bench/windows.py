@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from statistics import median
+from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
     from hexmend_app.window import Window
+
+_FRAMES = 40
 
 
 def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) -> dict[str, Any]:
@@ -38,6 +42,20 @@ def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) ->
         window.close()
         app.processEvents()
     return {"meshes": rows}
+
+
+def turning_ms(window: Window) -> float:
+    """Median milliseconds of a frame while the camera moves around the whole mesh."""
+    canvas, times = window.canvas, []
+    turn(0.5)  # until the fine frame is drawn
+    for _ in range(_FRAMES):
+        canvas.panes.turning()
+        canvas.viewport.camera.Azimuth(4)
+        canvas.panes.reset_depth()
+        began = perf_counter()
+        canvas.interactor.render()
+        times.append(perf_counter() - began)
+    return 1e3 * median(times)
 
 
 def turn(seconds: float) -> None:

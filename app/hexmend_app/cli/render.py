@@ -6,6 +6,7 @@ import argparse
 import re
 from dataclasses import fields
 from math import isfinite
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hexmend_app.cli import clip
@@ -18,15 +19,17 @@ if TYPE_CHECKING:
 
 
 class Render:
-    """A mesh as PNG."""
+    """A mesh, or several side by side, as PNG."""
 
     name = "render"
-    help = "Write a picture of a mesh; needs neither a window nor an X server."
+    help = "Write a picture of a mesh, or of several side by side; needs neither a window nor an X server."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         # argparse takes words that begin with a minus for options, numbers apart; -x and -1,0,0 are values here.
         parser._negative_number_matcher = re.compile(r"-(\d|\.\d|[xyz]$)")
-        parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+        parser.add_argument(
+            "mesh", metavar="MESH", nargs="+", help="the mesh file; two to four are drawn side by side, alike"
+        )
         parser.add_argument("-o", "--output", metavar="PNG", required=True, help="where to write the picture")
         clip.add_arguments(parser)
         parser.add_argument("--size", metavar="WxH", default="1600x1000", help="in pixels (default %(default)s)")
@@ -45,6 +48,7 @@ class Render:
             metavar="NAMES",
             help="draw irregular, boundary or sharp edges, fixed, free or locked nodes; several separated by commas",
         )
+        parser.add_argument("--captions", metavar="A,B,...", help="names of several meshes (default: of their files)")
         parser.add_argument("--no-edges", action="store_true", help="leave the elements' edges out")
         parser.add_argument("--no-bar", action="store_true", help="leave the colour bar out")
 
@@ -53,23 +57,42 @@ class Render:
         from hexmend.io.atomic import replacing
         from hexmend.quality import measure
 
-        size = _size(args.size)
-        mesh = read(args.mesh)
+        size, names = _size(args.size), _captions(args)
+        meshes = [read(path) for path in args.mesh]
+        mesh = meshes[0]
         figures = measure(mesh.points, mesh.hexes)
         look = _look(args, mesh, figures)
         view = args.view if args.view in _NAMED else direction(args.view, "--view")
         from hexmend_app.scene.graphics import prepare_off_screen
 
         prepare_off_screen()
+        from hexmend_app.scene.figure import Panel, figure
         from hexmend_app.scene.picture import picture
 
-        bar = not args.no_bar
-        image = picture(mesh, figures, look, size, view=view, transparent=args.transparent, bar=bar)
+        how = {"view": view, "transparent": args.transparent, "bar": not args.no_bar}
+        if len(meshes) == 1:
+            image = picture(mesh, figures, look, size, **how)
+        else:
+            others = (Panel(name, one, measure(one.points, one.hexes)) for name, one in zip(names, meshes, strict=True))
+            image = figure([*others], look, size, **how)
         with replacing(args.output) as temporary:
             image.save(temporary, format="PNG")
         print(f"{args.output}: {size[0]} × {size[1]} pixels")
         return 0
 
+
+def _captions(args: argparse.Namespace) -> list[str]:
+    """The names of the meshes, where there are as many as can be drawn."""
+    if len(args.mesh) > _MOST:
+        raise wrong("MESH", f"{len(args.mesh)} files", f"{_MOST} at most")
+    names = args.captions.split(",") if args.captions else [Path(path).stem for path in args.mesh]
+    if len(names) != len(args.mesh):
+        raise wrong("--captions", args.captions, f"{len(args.mesh)} names separated by commas, one a mesh")
+    return names
+
+
+#: Meshes that are drawn side by side at most.
+_MOST = 4
 
 _NAMED = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
 

@@ -83,7 +83,9 @@ class Colouring:
         return range_label(value, self.low, self.high)
 
 
-def resolve(scale: ColourScale, values: np.ndarray, inverted: np.ndarray) -> Colouring:
+def resolve(
+    scale: ColourScale, values: np.ndarray, inverted: np.ndarray, beside: tuple[float, float] | None = None
+) -> Colouring:
     """Find the ends of a scale's range: here alone, so that all that shows colours agrees.
 
     Parameters
@@ -93,20 +95,28 @@ def resolve(scale: ColourScale, values: np.ndarray, inverted: np.ndarray) -> Col
         Of all elements, hidden ones too, so that colours do not change as a cut is moved.
     inverted : (m,) bool
         They have a colour of their own, so no range is fitted to them unless there are no others.
+    beside : (low, high), optional
+        What a range that is fitted has to span too: the values of meshes that are to be compared by their colours.
     """
-    if scale.mode is RangeMode.PINNED:
-        ends = scale.pinned
-    elif scale.mode is RangeMode.FITTED:
-        ends = _fitted(values, inverted)
-    else:
-        ends = declared_range(scale.metric, scale.mode) or _fitted(values, inverted)
+    ends = declared_ends(scale)
+    if ends is None:
+        low, high = fitted(values, inverted)
+        ends = (low, high) if beside is None else (min(low, beside[0]), max(high, beside[1]))
     colours = table(scale.map)
     if scale.reverse != (better(scale.metric) < 0):
         colours = colours[::-1]
     return Colouring(METRICS[scale.metric].title, *ends, colours)
 
 
-def _fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:
+def declared_ends(scale: ColourScale) -> tuple[float, float] | None:
+    """The range where it does not depend on the values; None where it is fitted to them."""
+    if scale.mode is RangeMode.PINNED:
+        return scale.pinned
+    return None if scale.mode is RangeMode.FITTED else declared_range(scale.metric, scale.mode)
+
+
+def fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:
+    """The least and the greatest of values (m,), those of (m,) bool `inverted` elements left out, a little apart."""
     finite = np.isfinite(values)
     chosen = values[finite & ~inverted]
     if not chosen.size:

@@ -44,6 +44,11 @@ class Highlight:
         self._layer.AddObserver("StartEvent", self._fit_texts)
         self.hide()
 
+    @property
+    def layer(self) -> vtkRenderer:
+        """What draws before everything else."""
+        return self._layer
+
     def _lines(self, colour: str, width: int) -> vtkActor:
         actor = self._add(self._box, colour)
         actor.GetProperty().SetLineWidth(width)

@@ -27,7 +27,7 @@ class NodeStepMarks:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
+    plotter : pyvista.BasePlotter or Pane
 
     Attributes
     ----------
@@ -50,6 +50,11 @@ class NodeStepMarks:
             for name, role in (("pulls", PATCH), ("tried", TRIED), ("taken", TAKEN), ("node", PATCH))
         }
         self.hide()
+
+    @property
+    def layers(self) -> tuple[vtkRenderer, ...]:
+        """What draws before everything else."""
+        return self._behind, self._front
 
     def _add(self, layer: vtkRenderer, role: Role | None, width: float = 1, opacity: float = 1.0) -> vtkActor:
         actor = vtkActor()
@@ -88,7 +93,7 @@ class NodeStepMarks:
             Where all nodes are in the view.
         """
         self.step, self._hexes = step, hexes
-        for layer in (self._behind, self._front):
+        for layer in self.layers:
             layer.DrawOn()
         self.move(points)
 
@@ -155,7 +160,7 @@ class NodeStepMarks:
     def hide(self) -> None:
         """Draw none."""
         self.step = None
-        for layer in (self._behind, self._front):
+        for layer in self.layers:
             layer.DrawOff()
 
 

@@ -16,7 +16,7 @@ from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
 
-_INK = (31, 38, 48)
+INK = (31, 38, 48)
 
 #: Width and height in pixels below which there is no room for the colour bar.
 _SMALLEST_WITH_BAR = (320, 160)
@@ -60,8 +60,7 @@ def picture(
         Draw the colour bar below; a picture too small for it has none.
     """
     width, height = size
-    bar = bar and width >= _SMALLEST_WITH_BAR[0] and height >= _SMALLEST_WITH_BAR[1]
-    strip = max(30, round(0.075 * min(height, width * 5 / 8))) if bar else 0
+    strip = strip_height(size) if bar else 0
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
     try:
         viewport = Viewport(plotter)
@@ -71,7 +70,7 @@ def picture(
         viewport.view(view)
         if camera is not None:
             plotter.camera.DeepCopy(camera)
-            plotter.camera_set = True
+            plotter.camera.SetWindowCenter(0, 0)
             plotter.renderer.ResetCameraClippingRange()
         plotter.camera_set = True
         viewport.still()
@@ -80,40 +79,64 @@ def picture(
     finally:
         plotter.close()
     image = Image.fromarray(np.asarray(pixels))
-    if not bar:
+    if not strip:
         return image
-    whole = Image.new(image.mode, size, (255, 255, 255, 0) if transparent else (255, 255, 255))
+    whole = paper(size, image.mode)
     whole.paste(image, (0, 0))
     whole.paste(colour_bar(viewport.colouring, figures.n_inverted, (width, strip), image.mode), (0, height - strip))
     return whole
 
 
-def colour_bar(colouring: Colouring, inverted: int, size: tuple[int, int], mode: str = "RGB") -> Image.Image:
-    """The colours from the lowest value to the highest, ticks, the swatch of inverted elements; `size` in pixels."""
+def paper(size: tuple[int, int], mode: str) -> Image.Image:
+    """Nothing, in a picture of so many pixels: white, or transparent in the mode RGBA."""
+    return Image.new(mode, size, (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
+
+
+def strip_height(size: tuple[int, int]) -> int:
+    """How high the colour bar is in a picture of so many pixels; 0 where there is no room for it."""
     width, height = size
-    image = Image.new(mode, size, (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
+    room = width >= _SMALLEST_WITH_BAR[0] and height >= _SMALLEST_WITH_BAR[1]
+    return max(30, round(0.075 * min(height, width * 5 / 8))) if room else 0
+
+
+def colour_bar(colouring: Colouring, inverted: int | None, size: tuple[int, int], mode: str = "RGB") -> Image.Image:
+    """The colours from the lowest value to the highest, ticks, the swatch of inverted elements.
+
+    Parameters
+    ----------
+    colouring : Colouring
+    inverted : int or None
+        How many are inverted; None leaves that out.
+    size : (width, height)
+        In pixels.
+    mode : str
+        Of the picture: RGB or RGBA.
+    """
+    width, height = size
+    image = paper(size, mode)
     draw = ImageDraw.Draw(image)
     unit = height / 30
-    font = ImageFont.truetype(_font(), max(8, round(11 * unit)))
+    font = letters(11 * unit)
     low, high, title = colouring.low, colouring.high, colouring.title
     left, right = round(20 * unit + font.getlength(title)), width - round(150 * unit)
     top, bottom = round(3 * unit), round(14 * unit)
     gradient = Image.fromarray(np.ascontiguousarray(colouring.table[None])).resize((max(1, right - left), bottom - top))
     image.paste(gradient, (left, top))
-    draw.text((round(8 * unit), (top + bottom) / 2), title, _INK, font, anchor="lm")
+    draw.text((round(8 * unit), (top + bottom) / 2), title, INK, font, anchor="lm")
     for k in range(6):
         x, value = left + (right - left) * k / 5, low + (high - low) * k / 5
-        draw.line((x, bottom, x, bottom + 2 * unit), _INK, max(1, round(unit)))
-        draw.text((x, bottom + 3 * unit), colouring.label(value), _INK, font, anchor="mt")
+        draw.line((x, bottom, x, bottom + 2 * unit), INK, max(1, round(unit)))
+        draw.text((x, bottom + 3 * unit), colouring.label(value), INK, font, anchor="mt")
     swatch = right + round(24 * unit)
     draw.rectangle((swatch, top, swatch + round(11 * unit), bottom), INVERTED)
-    count = f"inverted ({inverted:,})"
-    draw.text((swatch + round(17 * unit), (top + bottom) / 2), count, _INK, font, anchor="lm")
+    count = "inverted" if inverted is None else f"inverted ({inverted:,})"
+    draw.text((swatch + round(17 * unit), (top + bottom) / 2), count, INK, font, anchor="lm")
     return image
 
 
-def _font() -> str:
-    """A font file that comes with matplotlib, so that pictures look the same everywhere."""
+def letters(size: float, bold: bool = False) -> ImageFont.FreeTypeFont:
+    """A font of so many pixels that comes with matplotlib, so that pictures look the same everywhere."""
     import matplotlib as mpl
 
-    return str(Path(mpl.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")
+    name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
+    return ImageFont.truetype(str(Path(mpl.get_data_path()) / "fonts/ttf" / name), max(8, round(size)))

@@ -63,6 +63,11 @@ class StructureLayers:
         self._inside.DrawOff()
         front.AddObserver("StartEvent", self._fit)
 
+    @property
+    def layer(self) -> vtkRenderer:
+        """What draws inside the mesh."""
+        return self._inside
+
     def set_mesh(self, mesh: Mesh) -> None:
         """Take another mesh; its structure is found when first wanted."""
         self._mesh, self._found = mesh, None

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkCellPicker
+from vtkmodules.vtkRenderingCore import vtkCellPicker, vtkRenderer
 
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node, corner_qualities
 from hexmend_app.scene import cut
 from hexmend_app.scene.coarse import MANY, coarse
-from hexmend_app.scene.colours import Colouring, resolve
+from hexmend_app.scene.colours import Colouring, fitted, resolve
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.fitting import fit
 from hexmend_app.scene.flight import PATCH_FAR, Flight
 from hexmend_app.scene.halo import Halo
 from hexmend_app.scene.highlight import Highlight
 from hexmend_app.scene.node_step import NodeStepMarks
+from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
 from hexmend_app.scene.structure import StructureLayers
@@ -30,6 +31,9 @@ _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 
 #: Inverted elements that are outlined in every frame.
 _MANY = 1000
+
+#: Where the axes are, x low, y low, x high, y high as shares of a window that is one view.
+_AXES = (0.0, 0.0, 0.13, 0.18)
 
 #: Directions to look from: the place of the camera, and what is up.
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
@@ -50,10 +54,13 @@ class Viewport:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
+    plotter : pyvista.BasePlotter or Pane
+        What draws: a window of its own, or a part of one.
+    axes : bool
+        Draw the axes in a corner.
     """
 
-    def __init__(self, plotter: pv.BasePlotter):
+    def __init__(self, plotter: pv.BasePlotter | Pane, axes: bool = True):
         self._plotter = plotter
         self._mesh: Mesh | None = None
         self._look = Look()
@@ -80,14 +87,15 @@ class Viewport:
         self._picker.PickFromListOn()
         for surface in (self._skin_surface, self._section_surface):
             self._picker.AddPickList(surface.actor)
-        self._axes = plotter.add_axes(line_width=2, labels_off=False, viewport=(0, 0, 0.13, 0.18))
+        self._axes = plotter.add_axes(line_width=2, labels_off=False, viewport=_AXES) if axes else None
+        self._beside: tuple[float, float] | None = None
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
         """Draw on the dark theme's ground, or on the light one's, as pictures for reports are."""
         self._dark = dark
         self._plotter.set_background(BACKGROUND.of(dark))
-        for letter in "XYZ":
+        for letter in "XYZ" if self._axes is not None else "":
             label = getattr(self._axes, f"Get{letter}AxisCaptionActor2D")()
             label.GetCaptionTextProperty().SetColor(*pv.Color(AXES.of(dark)).float_rgb)
         self._node_step.set_dark(dark)
@@ -96,8 +104,19 @@ class Viewport:
 
     # What is drawn
 
-    def set_mesh(self, mesh: Mesh, figures: ElementQuality, filters: Filters | None = None) -> None:
-        """Draw another mesh, seen whole from a corner; with the `filters` of another view of it, the elements there."""
+    def set_mesh(self, mesh: Mesh, figures: ElementQuality, filters: Filters | None = None, fly: bool = True) -> None:
+        """Draw another mesh.
+
+        Parameters
+        ----------
+        mesh : Mesh
+        figures : ElementQuality
+            Of the mesh.
+        filters : Filters, optional
+            Those of another view of it, whose elements are then shown.
+        fly : bool
+            Bring the camera to where the mesh is seen whole from a corner.
+        """
         self._mesh, self._figures, self._points = mesh, figures, mesh.points
         self._skin = Skin(mesh)
         self._filters = filters or Filters(mesh)
@@ -109,7 +128,8 @@ class Viewport:
         self._cull()
         self._measure()
         self._rebuild(self.kept())
-        self.view("iso")
+        if fly:
+            self.view("iso")
 
     def set_points(self, points: np.ndarray, figures: ElementQuality) -> None:
         """Draw the same mesh with its nodes elsewhere.
@@ -238,7 +258,21 @@ class Viewport:
         """The values that the colours show, and the range that they span."""
         figures, scale = self._figures, self._look.scale
         self._values = values(scale.metric, self._points, self._mesh.hexes, figures)
-        self._colouring = resolve(scale, self._values, figures.inverted)
+        self._colouring = resolve(scale, self._values, figures.inverted, self._beside)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The least and the greatest value drawn here, as `fitted` has them."""
+        return fitted(self._values, self._figures.inverted)
+
+    def span(self, beside: tuple[float, float] | None) -> None:
+        """Let a range of colours that is fitted span these values too, which are drawn in a view beside this."""
+        if beside == self._beside:
+            return
+        before, self._beside = self._colouring, beside
+        self._measure()
+        if (before.low, before.high) != (self._colouring.low, self._colouring.high):
+            self._move(self._keep)
 
     def kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
@@ -312,6 +346,25 @@ class Viewport:
     def _colours(self, hexes: np.ndarray | slice) -> np.ndarray:
         return self._colouring.colours(self._values[hexes], self._figures.inverted[hexes])
 
+    @property
+    def layers(self) -> tuple[vtkRenderer, ...]:
+        """What draws this view, one layer over the other."""
+        return self._plotter.renderer, self._structure.layer, self._highlight.layer, *self._node_step.layers
+
+    def fit_axes(self) -> None:
+        """Draw the axes in this view's corner, as large as in a window of one view: its place is another."""
+        left, low, right, high = self._plotter.renderer.GetViewport()
+        across, up = _AXES[2] / (right - left), _AXES[3] / (high - low)
+        self._plotter.renderer.axes_widget.SetViewport(0, 0, min(across, 1), min(up, 1))
+
+    def close(self) -> None:
+        """Draw no more, and leave the part of the window to another view."""
+        for layer in self.layers:
+            layer.RemoveObservers("StartEvent")
+            self._plotter.render_window.RemoveRenderer(layer)
+        self._plotter.renderer.clear_actors()
+        self._plotter.remove_all_lights()
+
     # Camera and frames
 
     def reset_camera(self) -> None:
@@ -343,10 +396,10 @@ class Viewport:
         self._plotter.render_window.SetMultiSamples(0)
         self._set_fast(True)
 
-    def turning(self) -> None:
-        """Prepare for fast frames in which nothing but the camera moves."""
+    def turning(self, views: int = 1) -> None:
+        """Prepare for fast frames in which nothing but the camera moves; they are of so many views like this."""
         self.moving()
-        if self._steady and self._skin_surface.poly is self._whole and len(self._faces.quads) > MANY:
+        if self._steady and self._skin_surface.poly is self._whole and len(self._faces.quads) * views > MANY:
             if self._coarse is None:
                 self._coarse = coarse(self._whole)
             self._skin_surface.stand_in(self._coarse)

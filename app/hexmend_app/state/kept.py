@@ -55,6 +55,10 @@ class KeptMoments(QObject):
         """Whether no further one can be kept."""
         return len(self.all) == MOST
 
+    def of(self, state: State) -> Kept | None:
+        """What is kept of a state; None where it is not."""
+        return next((one for one in self.all if one.points is state.mesh.points), None)
+
     def keep(self, name: str, state: State) -> None:
         """Keep a moment, unless there are as many as can be; a name that one has already gets a number."""
         if not self.full:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject
 
+from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
 from hexmend_app.state.explainer import Explainer
 from hexmend_app.state.finder import Finder
@@ -14,6 +15,7 @@ from hexmend_app.state.selection import Selection
 from hexmend_app.state.stepping import Stepping
 from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
+from hexmend_app.state.views import Views
 
 
 class Session(QObject):
@@ -31,6 +33,8 @@ class Session(QObject):
     finder : Finder
     explainer : Explainer
     stepping : Stepping
+    comparison : Comparison
+    views : Views
     """
 
     def __init__(self, parent: QObject | None = None):
@@ -45,6 +49,8 @@ class Session(QObject):
         self.finder = Finder(self.document, self)
         self.explainer = Explainer(self)
         self.stepping = Stepping(self.document, self)
+        self.comparison = Comparison(self.document, self)
+        self.views = Views(self.document, self)
 
     @property
     def editable(self) -> bool:
@@ -57,3 +63,4 @@ class Session(QObject):
         self.opener.shut_down()
         self.finder.shut_down()
         self.explainer.shut_down()
+        self.comparison.shut_down()

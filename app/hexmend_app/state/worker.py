@@ -118,7 +118,7 @@ class Worker(QThread):
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
         try:
-            _give_way()
+            give_way()
             # One core stays with the window; results do not depend on the number of threads.
             numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
             mesh, smoother, stop = self._order
@@ -169,7 +169,7 @@ class Worker(QThread):
         return run.outcome is None and not ended
 
 
-def _give_way() -> None:
+def give_way() -> None:
     """Let the window's threads go first where they want the same core: a frame that waits is seen, a step is not."""
     if hasattr(os, "setpriority"):
         with contextlib.suppress(OSError):  # where the system does not know priorities of threads

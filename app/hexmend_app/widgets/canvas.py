@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -17,16 +18,19 @@ from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.box_widget import BoxWidget
 from hexmend_app.scene.colours import INVERTED, Colouring
+from hexmend_app.scene.figure import Panel, figure
 from hexmend_app.scene.flight import Flight
+from hexmend_app.scene.panes import ROOM, Panes
 from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
-from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.state.clip import BoxClip, Clip, PlaneClip
 from hexmend_app.state.look import Look
 from hexmend_app.state.theme import BLUE, THEME
+from hexmend_app.state.views import Wipe
 from hexmend_app.widgets.colour_bar import ColourBar
 from hexmend_app.widgets.once_per_frame import OncePerFrame
 from hexmend_app.widgets.style import dress, explain
+from hexmend_app.widgets.view_frame import ViewFrame
 from hexmend_app.widgets.view_keys import steer
 
 #: Milliseconds of rest after which the fine still frame is drawn.
@@ -65,15 +69,17 @@ class Canvas(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.interactor = QtInteractor(self, auto_update=False)
-        self.viewport = Viewport(self.interactor)
+        self.interactor = QtInteractor(self, auto_update=False, shape=(1, ROOM), border=False)
+        self.panes = Panes(self.interactor)
+        self.viewport = self.panes.first
         self.plane = PlaneWidget(self.interactor, self.plane_dragged.emit)
         self.box = BoxWidget(self.interactor, self.box_dragged.emit)
         self.colour_bar = ColourBar()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(_RING, _RING, _RING, 0)
         layout.setSpacing(_RING)
-        layout.addWidget(self.interactor, 1)
+        self.frame = ViewFrame(self.interactor)
+        layout.addLayout(self.frame, 1)
         layout.addWidget(self.colour_bar)
         self._once = OncePerFrame(self.interactor)
         self._rest = QTimer(self)
@@ -82,6 +88,7 @@ class Canvas(QWidget):
         self._rest.timeout.connect(self._draw_still)
         self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._turning())
         self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
+        self._handled: tuple[Clip | None, bool, int] = (None, False, 0)
         self._pressed: QPointF | None = None
         self.interactor.installEventFilter(self)
         explain(self.interactor, "3D view", "")
@@ -100,14 +107,14 @@ class Canvas(QWidget):
     def _wear_theme(self) -> None:
         if self._closed:
             return
-        self.viewport.set_dark(THEME.dark)
+        self.panes.set_dark(THEME.dark)
         self.plane.set_dark(THEME.dark)
         self.box.set_dark(THEME.dark)
         self._changed()
 
     def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
         """Draw another mesh."""
-        self.viewport.set_mesh(mesh, figures)
+        self.panes.set_mesh(mesh, figures)
         for handles in (self.plane, self.box):
             handles.set_bounds(self.viewport.bounds)
         self._show_colours()
@@ -116,6 +123,7 @@ class Canvas(QWidget):
     def set_points(self, points: np.ndarray, figures: ElementQuality, live: bool = False) -> None:
         """Draw the same mesh with its nodes elsewhere; `live` where more is to come, so that no fine frame is due."""
         self.viewport.set_points(points, figures)
+        self.panes.level()
         self._show_colours()
         self._changed()
         if live:
@@ -127,21 +135,27 @@ class Canvas(QWidget):
 
     def set_look(self, look: Look, handles: bool, at: int = 0) -> None:
         """Draw it differently, with handles at the box, or at one of the planes, or without."""
-        self.viewport.set_look(look)
-        clip = look.clip
-        self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) else None, handles)
-        self.box.set(clip if isinstance(clip, BoxClip) else None, handles)
+        self.panes.set_look(look)
+        self._handled = look.clip, handles, at
+        self._show_handles()
         self._show_colours()
         self._changed()
 
+    def _show_handles(self) -> None:
+        """Put the handles into the first view; where a wipe leaves it out, there are none."""
+        clip, handles, at = self._handled
+        shown = handles and self.viewport in self.panes.seen
+        self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) else None, shown)
+        self.box.set(clip if isinstance(clip, BoxClip) else None, shown)
+
     def fit(self) -> None:
         """Show the whole mesh."""
-        self.viewport.reset_camera()
+        self.panes.fit()
         self._changed()
 
     def look_along(self, direction: str) -> None:
         """Look along an axis: +x, -x, ..., iso."""
-        self.viewport.view(direction)
+        self.panes.look_along(direction)
         self._changed()
 
     def set_parallel(self, on: bool) -> None:
@@ -152,6 +166,8 @@ class Canvas(QWidget):
     def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
         """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
         self.viewport.select(h, corners, node)
+        for view in self.panes.all[1:]:
+            view.select(h, corners)
         self._changed()
 
     def show_node_step(self, step: NodeStep | None) -> None:
@@ -159,6 +175,28 @@ class Canvas(QWidget):
         if not self._closed:
             self.viewport.show_node_step(step)
             self._changed()
+
+    def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
+        """Show other places of the same mesh's nodes in views beside the first, or two views over one another.
+
+        Parameters
+        ----------
+        others : sequence of (Mesh, ElementQuality)
+        wipe : Wipe, optional
+            None shows all side by side.
+        """
+        self.panes.show(others, wipe)
+        self._show_handles()
+        self.frame.set_wipe(wipe)
+        self._show_colours()
+        self._changed()
+
+    def move_wipe(self, wipe: Wipe) -> None:
+        """Bring the edge between two views elsewhere."""
+        self.frame.set_wipe(wipe)
+        self.panes.move_wipe(wipe)
+        self._turning()
+        self._draw_soon()
 
     def fly_to(self, *hexes: int) -> None:
         """Bring an element, or several together, before the camera."""
@@ -169,7 +207,7 @@ class Canvas(QWidget):
     def _fly_on(self) -> None:
         share = min(self._flown.elapsed() / _FLIGHT, 1.0)
         self._flight.at(share)
-        self.viewport.reset_depth()
+        self.panes.reset_depth()
         self._turning()
         self._draw_soon()
         if share == 1.0:
@@ -181,13 +219,15 @@ class Canvas(QWidget):
         if kind == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             if steer(self.viewport.camera, event):
                 self._fly.stop()
-                self.viewport.reset_depth()
+                self.panes.reset_depth()
                 self._changed()
             return True  # VTK has keys of its own, which would draw wires or end it
         if kind in (QEvent.Type.FocusIn, QEvent.Type.FocusOut):
             # Marked where keys brought it here: who clicks knows where.
             self._ring = kind == QEvent.Type.FocusIn and event.reason() in _BY_KEYS
             self.update()
+        if kind == QEvent.Type.Resize:
+            self.frame.fit()
         if kind == QEvent.Type.MouseButtonPress:
             self._fly.stop()
             self._pressed = event.position() if event.button() == Qt.MouseButton.LeftButton else None
@@ -220,25 +260,24 @@ class Canvas(QWidget):
     def _click(self, at: QPointF, dig: bool) -> None:
         ratio = self.devicePixelRatioF()
         x, y = at.x() * ratio, (self.interactor.height() - 1 - at.y()) * ratio
-        hit = self.viewport.pick(x, y)
+        hit = self.panes.pick(x, y)
         if not dig:
             self.clicked.emit(hit)
         elif hit is not None:
             self.dug.emit(hit[0])
 
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
-        """Write what is seen, without the plane, as PNG of any size."""
+        """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
         seen = self.viewport
-        image = picture(
-            seen.mesh,
-            seen.figures,
-            seen.look,
-            size,
-            filters=seen.filters,
-            node_step=seen.node_step,
-            camera=seen.camera,
-            transparent=transparent,
-        )
+        how = {"filters": seen.filters, "camera": seen.camera, "transparent": transparent}
+        if len(self.panes.all) == 1:
+            image = picture(seen.mesh, seen.figures, seen.look, size, node_step=seen.node_step, **how)
+        else:
+            panels = [
+                Panel(caption.name, view.mesh, view.figures)
+                for caption, view in zip(self.frame.captions, self.panes.all, strict=True)
+            ]
+            image = figure(panels, seen.look, size, wipe=self.panes.wipe, **how)
         with replacing(path) as temporary:
             image.save(temporary, format="PNG")
 
@@ -263,10 +302,11 @@ class Canvas(QWidget):
             self.colour_bar.set_label(colouring.title)
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)
-            self.colour_bar.set_inverted(self.viewport.figures.n_inverted, INVERTED)
+            alone = len(self.panes.all) == 1  # of several, the captions say how many
+            self.colour_bar.set_inverted(self.viewport.figures.n_inverted if alone else 0, INVERTED)
 
     def _changed(self) -> None:
-        self.viewport.moving()
+        self.panes.moving()
         self._draw_soon()
 
     def _draw_soon(self) -> None:
@@ -275,12 +315,12 @@ class Canvas(QWidget):
 
     def _turning(self) -> None:
         self._rest.stop()
-        self.viewport.turning()
+        self.panes.turning()
 
     def rest(self) -> None:
         """Draw the fine frame soon: nothing moves for now."""
         self._rest.start()
 
     def _draw_still(self) -> None:
-        self.viewport.still()
+        self.panes.still()
         self.interactor.update()

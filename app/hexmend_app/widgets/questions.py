@@ -46,6 +46,13 @@ def ask_histogram(parent: QWidget, stem: str) -> str:
     return QFileDialog.getSaveFileName(parent, "Save the histogram as", proposal, kinds)[0]
 
 
+def ask_comparison(parent: QWidget, stem: str) -> str:
+    """Where to save the table of methods, "" for nowhere."""
+    proposal = str(Path(_folder()) / f"{stem}-comparison.csv")
+    kinds = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;Everything, for programs (*.json)"
+    return QFileDialog.getSaveFileName(parent, "Save the table as", proposal, kinds)[0]
+
+
 def remember_folder(path: Path) -> None:
     """Begin the next dialog where this file lies."""
     QSettings().setValue("folder", str(path.resolve().parent))

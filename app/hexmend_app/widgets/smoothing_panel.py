@@ -147,6 +147,10 @@ class SmoothingPanel(QWidget):
         """Name of the method shown, "" where none is."""
         return self._name
 
+    def values_of(self, method: str) -> dict[str, Any]:
+        """What was last set for a method; empty where nothing was."""
+        return self.form.values() if method == self._name else dict(self._edited.get(method, {}))
+
     def set_state(self, state: str) -> None:
         """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
         if state == "preparing" and state != self._state:

@@ -40,7 +40,7 @@ class Compare:
         from hexmend.cli.command.printed import print_table
         from hexmend.cli.command.progress import Progress
         from hexmend.io import read, write, writer_for
-        from hexmend.report import made_folder, table_of, write_documents
+        from hexmend.report import comparison_rows, made_folder, table_of, write_documents
         from hexmend.smoothers import METHODS
         from hexmend.study.chosen import chosen
         from hexmend.study.compare import compare
@@ -56,8 +56,7 @@ class Compare:
             comparison = compare(mesh, smoothers, stop, watch=progress.show)
         record = comparison.record()
         table = table_of(record)
-        rows = [{"method": "initial"} | record["initial"], *record["rows"]]
-        paths = write_documents(folder, "comparison", table, rows, record)
+        paths = write_documents(folder, "comparison", table, comparison_rows(record), record)
         for row in comparison.rows if args.write_meshes else ():
             if row.mesh is not None:
                 paths.append(folder / f"{mesh.name}-{re.sub(r'[^A-Za-z0-9]+', '-', row.method)}{suffix}")

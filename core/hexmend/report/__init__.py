@@ -1,6 +1,6 @@
 """Reports: records for programs; tables and figures for people."""
 
-from hexmend.report.comparison import comparison_table, table_of
+from hexmend.report.comparison import comparison_rows, comparison_table, table_of, write_comparison
 from hexmend.report.documents import made_folder, write_csv, write_documents, write_text
 from hexmend.report.latex import latex
 from hexmend.report.markdown import markdown
@@ -11,6 +11,7 @@ from hexmend.report.thesis import write_experiment, write_study
 __all__ = [
     "HISTORY",
     "Table",
+    "comparison_rows",
     "comparison_table",
     "latex",
     "made_folder",
@@ -18,6 +19,7 @@ __all__ = [
     "record",
     "table_of",
     "to_json",
+    "write_comparison",
     "write_csv",
     "write_documents",
     "write_experiment",

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
+from hexmend.report.documents import write_document
 from hexmend.report.tables import Figure, Table, count, micro, milli, objective, of, quality, significant
 
 #: How a run ended, where the record's own word is not the clearest.
@@ -74,6 +76,22 @@ def table_of(comparison: Mapping[str, Any]) -> Table:
     if comparison["interrupted"]:
         notes.append("The comparison was interrupted: the last method is incomplete, and those after it are missing.")
     return comparison_table(title, columns, notes=notes)
+
+
+def comparison_rows(comparison: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """The rows for spreadsheets: the initial mesh's and the methods'."""
+    return [{"method": "initial"} | comparison["initial"], *comparison["rows"]]
+
+
+def write_comparison(path: Path, comparison: Mapping[str, Any]) -> None:
+    """Write the record of a comparison as CSV, Markdown, LaTeX or JSON, by the path's suffix.
+
+    Raises
+    ------
+    FileError
+        For another suffix, or where the file cannot be written; the one that was there stays.
+    """
+    write_document(path, table_of(comparison), comparison_rows(comparison), comparison)
 
 
 def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -14,6 +14,10 @@ from hexmend.report.markdown import markdown
 from hexmend.report.records import write_json
 from hexmend.report.tables import Table
 
+#: What a table can be written as: for spreadsheets, to be read, to be typeset, for programs.
+SUFFIXES = (".csv", ".md", ".tex", ".json")
+_KNOWN = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+
 
 def made_folder(path: str | Path) -> Path:
     """The folder, made where it is missing, with those above it.
@@ -53,12 +57,31 @@ def write_documents(
     list of Path
         CSV, Markdown, LaTeX, JSON.
     """
-    paths = [folder / f"{stem}.{suffix}" for suffix in ("csv", "md", "tex", "json")]
-    write_csv(paths[0], rows)
-    write_text(paths[1], markdown(table))
-    write_text(paths[2], latex(table))
-    write_json(paths[3], data)
+    paths = [folder / f"{stem}{suffix}" for suffix in SUFFIXES]
+    for path in paths:
+        write_document(path, table, rows, data)
     return paths
+
+
+def write_document(path: Path, table: Table, rows: Sequence[Mapping[str, Any]], data: Mapping[str, Any]) -> None:
+    """Write one of the four, by the path's suffix; see `write_documents`.
+
+    Raises
+    ------
+    FileError
+        For another suffix, or where the file cannot be written; the one that was there stays.
+    """
+    suffix = path.suffix.lower()
+    if suffix == ".csv":
+        write_csv(path, rows)
+    elif suffix == ".md":
+        write_text(path, markdown(table))
+    elif suffix == ".tex":
+        write_text(path, latex(table))
+    elif suffix == ".json":
+        write_json(path, data)
+    else:
+        raise FileError(path, f"a table cannot be written as {suffix or 'a file without a suffix'}", f"Use {_KNOWN}.")
 
 
 def write_text(path: Path, text: str) -> None:

@@ -16,6 +16,7 @@ from hexmend.quality import METRICS, measure
 from hexmend_app.cli.clip import clip_of, plane
 from hexmend_app.cli.render import _look, command
 from hexmend_app.scene.colours import INVERTED, resolve
+from hexmend_app.scene.figure import Panel, figure
 from hexmend_app.scene.picture import picture
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.look import Look
@@ -124,6 +125,35 @@ def test_wrong_words_are_said(words, message, tmp_path, capsys):
     write(tmp_path / "mesh.vtu", grid(2))
     assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "out.png"), *words]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
+    from hexmend.cli.main import main
+
+    paths = [str(tmp_path / f"{name}.vtu") for name in ("plain", "tangled")]
+    write(paths[0], grid(5))
+    write(paths[1], scrambled(grid(5), 0.7))
+    out = tmp_path / "out.png"
+    assert main(["render", *paths, "-o", str(out), "--size", "640x320", "--clip", "z:0.5", "--smooth"]) == 0
+    drawn = np.asarray(Image.open(out).convert("RGB")).astype(int)
+    assert drawn.shape == (320, 640, 3)
+    assert min(ink(drawn[:, :320]), ink(drawn[:, 320:])) > 0.1
+    magenta = (np.abs(drawn[:280] - INVERTED).sum(axis=2) < 90).sum(axis=0)
+    assert magenta[:320].sum() == 0
+    assert magenta[320:].sum() > 50
+    for words, message in (
+        ([paths[0]] * 5, "4 at most"),
+        ([*paths, "--captions", "a,b,c"], "2 names separated by commas"),
+    ):
+        assert main(["render", *words, "-o", str(tmp_path / "none.png")]) == 2
+        assert message in capsys.readouterr().err
+        assert not (tmp_path / "none.png").exists()
+
+
+@pytest.mark.parametrize("size", [(64, 64), (200, 600), (640, 400)])
+def test_a_figure_has_the_size_asked_for(size):
+    panels = [Panel("one", mesh, measure(mesh.points, mesh.hexes)) for mesh in (grid(2), grid(3))]
+    assert figure(panels, Look(), size).size == size
 
 
 def test_words_that_begin_with_a_minus_are_values():

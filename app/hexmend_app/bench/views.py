@@ -1,0 +1,70 @@
+"""Milliseconds a frame in which several views turn, and to open a view."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hexmend.gallery import make
+from hexmend.study.section import Section
+from hexmend_app.bench.windows import measured, turn, turning_ms
+
+if TYPE_CHECKING:
+    from hexmend_app.state.document import State
+    from hexmend_app.window import Window
+
+_SIZES = (("bridge-sharp", {}), ("five-side", {"size": 110450}))
+
+
+def _measure() -> dict[str, Any]:
+    return measured((make(name, **size) for name, size in _SIZES), _row)
+
+
+def _row(window: Window) -> dict[str, Any]:
+    """Frames of one view, two, four and a wipe; the milliseconds that the second view takes to open, drawn."""
+    turning = {"1 view": turning_ms(window)}
+    states = _others(window)
+    began = perf_counter()
+    window.session.views.show("0", states[0])
+    window.canvas.interactor.render()
+    opening = 1e3 * (perf_counter() - began)
+    turning["2 views"] = turning_ms(window)
+    for k in (1, 2):
+        window.session.views.show(str(k), states[k])
+    turning["4 views"] = turning_ms(window)
+    window.session.views.set_wiping(True)
+    turning["wipe"] = turning_ms(window)
+    wiping = []
+    for at in np.linspace(0.2, 0.8, 20):
+        began = perf_counter()
+        window.session.views.move_wipe(float(at))
+        window.canvas.interactor.render()
+        wiping.append(1e3 * (perf_counter() - began))
+    turn(0.1)
+    view = [window.canvas.interactor.width(), window.canvas.interactor.height()]
+    return {"view": view, "turning_ms": turning, "opening_ms": opening, "wiping_ms": float(np.median(wiping))}
+
+
+def _others(window: Window) -> list[State]:
+    from hexmend_app.state.document import State
+
+    mesh = window.document.now.mesh
+    shift = mesh.mean_edge_length * 0.005 * np.random.default_rng(0).normal(size=(3, *mesh.points.shape))
+    return [State.of(mesh.with_points(mesh.points + one * mesh.free[:, None])) for one in shift]
+
+
+def _lines(figures: dict[str, Any]) -> list[str]:
+    rows = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
+    for row in figures["meshes"]:
+        rows.append(f"{row['mesh']}, {row['hexes']:,} hexes, {row['view'][0]} × {row['view'][1]} pixels in all")
+        for name, ms in row["turning_ms"].items():
+            rows.append(f"  turning, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} a second)")
+        rows.append(
+            f"  dragging the wipe  {row['wiping_ms']:6.1f} ms; another view opens in {row['opening_ms']:.0f} ms"
+        )
+    return rows
+
+
+views = Section("views", "The viewer: several views side by side (medians)", _measure, _lines)

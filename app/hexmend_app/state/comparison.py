@@ -1,0 +1,194 @@
+"""Several methods on the open mesh, one after another and beside the window, for one table of results."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numba
+from PySide6.QtCore import QObject, QThread, QTimer, Signal
+
+from hexmend import compiling
+from hexmend.quality import measure
+from hexmend.run import Run, Stop
+from hexmend.smoothers import Smoother
+from hexmend.study import compare
+from hexmend.study.row import Row, run_one
+from hexmend_app.state.document import Document, State
+from hexmend_app.state.worker import give_way
+
+#: Milliseconds between two looks at how far the methods are.
+_PERIOD = 100
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """What one method made of the mesh.
+
+    Parameters
+    ----------
+    row : Row
+        Of the core's table: figures, time, outcome.
+    state : State or None
+        The mesh as the method left it; None where it failed.
+    """
+
+    row: Row
+    state: State | None
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a comparison is: the method at work, its place among how many, iterations made, seconds they took."""
+
+    method: str
+    at: int
+    of: int
+    iteration: int = 0
+    seconds: float = 0.0
+
+
+class _Worker(QThread):
+    """Runs methods one after another on one mesh; what is done is in `done`, in their order."""
+
+    def __init__(self, state: State, smoothers: Sequence[Smoother], stop: Stop):
+        super().__init__()
+        self.setObjectName("smoother comparison")
+        self.done: list[Compared] = []
+        self.progress = Progress(smoothers[0].name, 0, len(smoothers))
+        self.ended = threading.Event()
+        self._order = (state, smoothers, stop)
+
+    def run(self) -> None:
+        """What the thread does; a method that fails has its row, and the others go on."""
+        give_way()
+        numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))  # one core stays with the window
+        state, smoothers, stop = self._order
+        for at, smoother in enumerate(smoothers):
+            if self.ended.is_set():
+                break
+            self.progress = Progress(smoother.name, at, len(smoothers))
+            row, _ = run_one(state.mesh, smoother, stop, self._watch)
+            self.done.append(_compared(row))
+
+    def _watch(self, run: Run) -> bool:
+        was, last = self.progress, run.last
+        self.progress = Progress(was.method, was.at, was.of, last.number, last.seconds)
+        return not self.ended.is_set()
+
+
+def _compared(row: Row) -> Compared:
+    if row.mesh is None:
+        return Compared(row, None)
+    return Compared(row, State(row.mesh, measure(row.mesh.points, row.mesh.hexes), row.after))
+
+
+class Comparison(QObject):
+    """Runs methods on the mesh as it is, which itself stays as it is.
+
+    Signals
+    -------
+    changed
+        There are other results, or the work has begun or ended.
+    progressed
+        The method at work is further.
+    """
+
+    changed = Signal()
+    progressed = Signal()
+
+    def __init__(self, document: Document, parent: QObject | None = None):
+        super().__init__(parent)
+        self._document = document
+        self._worker: _Worker | None = None
+        self._stop = Stop()
+        self._asked = self._compiled = 0
+        self.initial: State | None = None
+        self.results: tuple[Compared, ...] = ()
+        self._timer = QTimer(self)
+        self._timer.setInterval(_PERIOD)
+        self._timer.timeout.connect(self._look)
+        document.mesh_replaced.connect(self._empty)
+
+    @property
+    def busy(self) -> bool:
+        """Whether methods are at work."""
+        return self._worker is not None
+
+    @property
+    def progress(self) -> Progress | None:
+        """How far the work is; None where there is none."""
+        return self._worker and self._worker.progress
+
+    @property
+    def ending(self) -> bool:
+        """Whether the work ends with the iteration at hand."""
+        return self._worker is not None and self._worker.ended.is_set()
+
+    @property
+    def compiling(self) -> bool:
+        """Whether kernels had to be compiled since the work began."""
+        return compiling.begun > self._compiled
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the user ended the work before the last method was done."""
+        return not self.busy and (
+            len(self.results) < self._asked or any(one.row.outcome == "stopped" for one in self.results)
+        )
+
+    def start(self, smoothers: Sequence[Smoother], stop: Stop) -> None:
+        """Run these on the document's mesh as it is now, one after another; what was compared before is forgotten."""
+        if self.busy or not self._document.is_open or not smoothers:
+            return
+        self.initial, self.results = self._document.now, ()
+        self._stop, self._asked, self._compiled = stop, len(smoothers), compiling.begun
+        self._worker = _Worker(self.initial, tuple(smoothers), stop)
+        self._worker.start()
+        self._timer.start()
+        self.changed.emit()
+
+    def cancel(self) -> None:
+        """End the work after the iteration at hand; what the method reached is its result, and the others have none."""
+        if self._worker is not None:
+            self._worker.ended.set()
+            self.progressed.emit()
+
+    def of(self, method: str) -> Compared | None:
+        """The result of a method; None where there is none yet."""
+        return next((one for one in self.results if one.row.method == method), None)
+
+    def record(self) -> dict[str, Any]:
+        """The table of what is done, for `hexmend.report`, as `hexmend compare` writes it."""
+        rows = tuple(one.row for one in self.results)
+        initial = self.initial
+        return compare.Comparison(initial.mesh, initial.summary, self._stop, rows, self.interrupted).record()
+
+    def shut_down(self) -> None:
+        """End the work and wait until its thread is gone; nothing is emitted any more."""
+        self._timer.stop()
+        if self._worker is not None:
+            self._worker.ended.set()
+            self._worker.wait()
+            self._worker = None
+
+    def _empty(self) -> None:
+        self.shut_down()
+        self.initial, self.results = None, ()
+        self.changed.emit()
+
+    def _look(self) -> None:
+        worker = self._worker
+        over = worker.isFinished()
+        done = tuple(worker.done)
+        if over:
+            self._timer.stop()
+            worker.wait()
+            self._worker = None
+        if over or len(done) != len(self.results):
+            self.results = done
+            self.changed.emit()
+        else:
+            self.progressed.emit()

@@ -1,0 +1,189 @@
+"""Several views in one window, off screen: what is where, seen in the pixels."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from hexmend.quality import measure
+from hexmend_app.scene.figure import Panel, figure
+from hexmend_app.scene.panes import ROOM, Panes, columns, grid
+from hexmend_app.scene.picture import picture
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.look import ColourScale, Look, RangeMode
+from hexmend_app.state.views import Wipe
+from tests.core.grids import grid as hexes
+from tests.core.grids import scrambled
+
+MESH = hexes(4)
+OTHERS = [scrambled(MESH, amount) for amount in (0.2, 0.4, 0.7)]
+SIZE = (240, 160)
+
+
+def shown(mesh):
+    return mesh, measure(mesh.points, mesh.hexes)
+
+
+@pytest.fixture
+def panes():
+    plotter = pv.Plotter(off_screen=True, shape=(1, ROOM), border=False, window_size=SIZE)
+    panes = Panes(plotter)
+    panes.set_mesh(*shown(MESH))
+    plotter.camera_set = True
+    yield panes
+    plotter.close()
+
+
+def pixels(panes):
+    plotter = panes._plotter
+    panes.still()
+    plotter.show(auto_close=False, interactive=False)
+    plotter.render()
+    return np.asarray(plotter.screenshot(return_img=True)).astype(int)
+
+
+@pytest.mark.parametrize("views", [1, 2, 3, 4])
+def test_views_side_by_side_fill_the_window_and_do_not_overlap(views):
+    places = grid(views)
+    assert len(places) == views
+    assert sum((right - left) * (high - low) for left, low, right, high in places) == pytest.approx(1)
+    assert len({high for *_, high in places}) == views // columns(views)
+    assert places[0][0] == 0
+    assert places[0][3] == 1  # reading order: from the upper left
+
+
+def test_each_view_shows_its_mesh_as_it_would_alone(panes):
+    panes.show([shown(OTHERS[2])])
+    panes._plotter.renderers[0].axes_widget.EnabledOff()
+    both = pixels(panes)
+    left, right = both[:, :119], both[:, 121:239]
+    assert np.abs(left[:, :118] - right).max() > 100
+    panes.show([shown(MESH)])
+    both = pixels(panes)
+    assert np.abs(both[:, 5:115] - both[:, 125:235]).max() < 16  # the same mesh, so the same picture, but for rounding
+
+
+def test_one_camera_leads_all_views(panes):
+    panes.show([shown(mesh) for mesh in OTHERS])
+    assert all(view.camera is panes.first.camera for view in panes.all)
+    before = pixels(panes)
+    panes.first.camera.Azimuth(40)
+    panes.reset_depth()
+    after = pixels(panes)
+    for left, low, right, high in grid(4):
+        part = np.s_[round((1 - high) * 160) : round((1 - low) * 160), round(left * 240) : round(right * 240)]
+        assert np.abs(after[part] - before[part]).max() > 50
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("at", [0.25, 0.5, 0.8])
+def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel):
+    panes.first.set_parallel(parallel)
+    panes.fit()
+    panes._plotter.renderers[0].axes_widget.EnabledOff()
+    whole = pixels(panes)
+    panes.show([shown(MESH)], Wipe(0, 1, at))
+    wiped = pixels(panes)
+    edge = round(at * 240)
+    far = np.abs(np.arange(240) - edge) > 2  # lines end at the edge
+    assert (np.abs(wiped - whole).max(axis=2)[:, far] > 60).mean() < 0.002
+    panes.show([], None)
+    assert np.abs(pixels(panes) - whole).max() <= 1
+
+
+def test_a_wipe_shows_one_mesh_on_either_side(panes):
+    panes._plotter.renderers[0].axes_widget.EnabledOff()
+    whole = pixels(panes)
+    panes.show([shown(mesh) for mesh in OTHERS], Wipe(0, 3, 0.5))
+    wiped = pixels(panes)
+    different = np.abs(wiped - whole).max(axis=2) > 60
+    assert different[:, :118].mean() < 0.002
+    assert different[:, 122:].mean() > 0.05
+    panes.show([shown(mesh) for mesh in OTHERS], Wipe(3, 0, 0.5))
+    swapped = np.abs(pixels(panes) - whole).max(axis=2) > 60
+    assert swapped[:, :118].mean() > 0.05
+    assert swapped[:, 122:].mean() < 0.002
+
+
+def test_a_fitted_range_of_colours_spans_all_views_and_shrinks_again(panes):
+    scale = ColourScale(mode=RangeMode.FITTED)
+    panes.set_look(Look(scale=scale))
+    alone = panes.first.colouring.low, panes.first.colouring.high
+    panes.show([shown(mesh) for mesh in OTHERS[:2]])
+    ranges = {(view.colouring.low, view.colouring.high) for view in panes.all}
+    assert len(ranges) == 1
+    (low, high), q = ranges.pop(), [shown(mesh)[1] for mesh in OTHERS[:2]]
+    assert low == pytest.approx(min(one.q[~one.inverted].min() for one in q))
+    assert high >= 1 - 1e-6
+    panes.set_look(Look(scale=ColourScale(mode=RangeMode.PINNED, pinned=(0.2, 0.3))))
+    assert {(view.colouring.low, view.colouring.high) for view in panes.all} == {(0.2, 0.3)}
+    panes.set_look(Look(scale=scale))
+    panes.show([])
+    assert (panes.first.colouring.low, panes.first.colouring.high) == alone
+
+
+def test_a_cut_leaves_the_same_elements_in_all_views(panes):
+    panes.show([shown(mesh) for mesh in OTHERS])
+    panes.set_look(Look(clip=PlaneClip.at((1, 0, 0), (2, 2, 2))))
+    first, *others = (view.kept() for view in panes.all)
+    assert 0 < first.sum() < first.size
+    for kept in others:
+        np.testing.assert_array_equal(kept, first)
+
+
+def test_what_is_under_the_mouse_is_picked_in_the_view_there(panes):
+    panes.show([shown(OTHERS[0])])
+    pixels(panes)
+    assert panes.at(60, 80) is panes.first
+    assert panes.at(180, 80) is panes.all[1]
+    left, right = panes.pick(60, 80), panes.pick(180, 80)
+    assert left[0] == right[0]
+    panes.show([shown(MESH)], Wipe(0, 1, 0.5))
+    pixels(panes)
+    assert [panes.pick(x, 80) for x in (100, 140)] == [_alone(panes, x) for x in (100, 140)]
+
+
+def _alone(panes, x):
+    panes.show([])
+    pixels(panes)
+    return panes.pick(x, 80)
+
+
+def test_meshes_with_other_hexes_are_shown_too(panes):
+    small = hexes(2)
+    panes.show([shown(small)])
+    panes.set_look(Look(clip=PlaneClip.at((1, 0, 0), (1, 0, 0))))
+    assert [view.kept().size for view in panes.all] == [MESH.n_hexes, small.n_hexes]
+
+
+def test_a_closed_view_leaves_nothing_behind(panes):
+    panes._plotter.renderers[0].axes_widget.EnabledOff()
+    before, renderers = pixels(panes), panes._window.GetRenderers().GetNumberOfItems()
+    for _ in range(3):
+        panes.show([shown(mesh) for mesh in OTHERS])
+        pixels(panes)
+        panes.show([])
+    assert panes._window.GetRenderers().GetNumberOfItems() == renderers
+    np.testing.assert_array_equal(pixels(panes), before)
+
+
+def test_the_camera_fits_the_views_unless_the_user_has_moved_it(panes):
+    wide = np.array(panes.first.camera.GetPosition())
+    panes.show([shown(OTHERS[0])])
+    assert np.linalg.norm(panes.first.camera.GetPosition()) > np.linalg.norm(wide)
+    panes.first.camera.Dolly(2)
+    near = panes.first.camera.GetPosition()
+    panes.show([])
+    assert panes.first.camera.GetPosition() == near
+
+
+def test_a_figure_holds_all_meshes_with_captions():
+    panels = [Panel(name, *shown(mesh)) for name, mesh in zip("abcd", [MESH, *OTHERS], strict=True)]
+    four = np.asarray(figure(panels, Look(), (640, 480)).convert("RGB")).astype(int)
+    assert four.shape == (480, 640, 3)
+    assert (four[:25].max(axis=2) < 90).any(axis=0)[:160].any()  # what is written above the first
+    alone = np.asarray(picture(*shown(MESH), Look(), (320, 200), bar=False)).astype(int)
+    assert alone.shape == (200, 320, 3)
+    colourful = four.max(axis=2) - four.min(axis=2) > 60
+    for rows in (slice(40, 220), slice(240, 420)):
+        for across in (slice(0, 320), slice(320, 640)):
+            assert colourful[rows, across].mean() > 0.1
