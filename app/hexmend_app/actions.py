@@ -78,7 +78,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "F11",
         help="Let a local method move one node, and look at its step.",
     ),
-    ActionSpec("ten_nodes", "&Ten nodes of a sweep", "&Smooth", "Shift+F11", help="Let a local method move ten nodes."),
+    ActionSpec("ten_nodes", "Ten nodes of a s&weep", "&Smooth", "Shift+F11", help="Let a local method move ten nodes."),
     ActionSpec(
         "finish_sweep",
         "&Finish the sweep",

@@ -86,6 +86,7 @@ class Commands:
         What is pinned and tagged stays so.
         """
         if self._session.editable:
+            self.stepping.leave()
             mesh = self.document.now.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
 
