@@ -142,7 +142,7 @@ class Window(QMainWindow):
         )
         tabs = [
             ("quality", "Quality", self.statistics),
-            ("worst", "Worst elements", self.worst_list),
+            ("worst", "Worst", self.worst_list),
             ("element", "Element", self.element_panel),
             ("node", "Node", self.node_panel),
             ("tags", "Tags", self.tag_panel),
