@@ -42,6 +42,7 @@ APP = [
         "counting",
         "debugging",
         "docks",
+        "filming",
         "inspecting",
         "looking",
         "menus",

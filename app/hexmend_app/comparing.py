@@ -82,6 +82,7 @@ class Comparing:
         return {
             "compare": self._panel.run,
             "cancel_comparison": self._comparison.cancel,
+            "iteration_beside": self._show_this_beside,
             "wipe": self._views.set_wiping,
             "wipe_left": lambda: self._move_wipe(-1),
             "wipe_right": lambda: self._move_wipe(1),
@@ -94,6 +95,7 @@ class Comparing:
         return {
             "compare": self._panel.can_run,
             "cancel_comparison": self._comparison.busy and not self._comparison.ending,
+            "iteration_beside": not self._views.full,
             "wipe": several,
             "wipe_left": wiping,
             "wipe_right": wiping,
@@ -118,6 +120,10 @@ class Comparing:
             if self._kept.of(state) is None:
                 self._kept.keep(name, state)
             self._views.show(name, state)
+
+    def _show_this_beside(self) -> None:
+        moment = self._session.timeline.moment
+        self.show("the mesh as it was" if moment is None else moment.name, self._session.document.now)
 
     def _close(self, number: int) -> None:
         self._forget(self._views.all[number - 1].state)

@@ -20,6 +20,7 @@ from hexmend_app.comparing import TICKED, Comparing
 from hexmend_app.counting import Counting
 from hexmend_app.debugging import Debugging
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
+from hexmend_app.filming import Filming
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
 from hexmend_app.menus import build_menus
@@ -111,6 +112,7 @@ class Window(QMainWindow):
         )
         self.comparing = Comparing(session, self.commands, self.compare_panel, self.smoothing_panel, self.counting.kept)
         self.watching = Watching(session, self.commands, self.timeline_bar, self.smoothing_panel)
+        self.filming = Filming(self, session, self.busy, self.messages)
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
@@ -165,7 +167,7 @@ class Window(QMainWindow):
         self.inspecting.set_canvas(self.canvas)
         self.debugging.set_canvas(self.canvas)
         self.comparing.set_canvas(self.canvas)
-        self.saving.canvas = self.canvas
+        self.saving.canvas = self.filming.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
         if self.document.is_open:
             self._on_mesh_replaced()
@@ -230,6 +232,7 @@ class Window(QMainWindow):
             **self.tagging.handlers(),
             **self.comparing.handlers(),
             **self.watching.handlers(),
+            **self.filming.handlers(),
         }
 
     # What the state tells
@@ -306,7 +309,15 @@ class Window(QMainWindow):
             self.actions_by_id[id].setEnabled(self.document.is_open and not self.opener.busy)
         self.actions_by_id["stop"].setEnabled(busy and phase is not Phase.STOPPING)
         self.comparing.enable()
-        parts = (self.inspecting, self.debugging, self.tagging, self.looking, self.watching, self.comparing)
+        parts = (
+            self.inspecting,
+            self.debugging,
+            self.tagging,
+            self.looking,
+            self.watching,
+            self.comparing,
+            self.filming,
+        )
         for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():
             self.actions_by_id[id].setEnabled(on and self.document.is_open)
         # Esc is for a message first, then for what is being opened.
@@ -395,6 +406,7 @@ class Window(QMainWindow):
         settings.setValue("geometry", self.saveGeometry())
         settings.setValue("layout", self.saveState(LAYOUT))
         self.hide()  # threads may take a while to end
+        self.filming.cancel()
         self.session.shut_down()
         if self.canvas is not None:
             self.canvas.close()

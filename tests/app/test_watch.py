@@ -1,13 +1,16 @@
 """Watching a run in the window, by mouse and keys: scrubbing, playing, branching, break-points."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QSpinBox
+from PySide6.QtWidgets import QCheckBox, QPushButton, QSpinBox
 
+from hexmend_app.filming import WIDTH
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, drag, open_and_wait, phase, pixels
 from tests.said import FIRST_RUN
@@ -227,3 +230,61 @@ def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot)
         click(window, "Step")
         qtbot.waitUntil(at(window, 6), timeout=5000)
     assert {row["method"] for row in record.rows} == {"local-nr"}
+
+
+@pytest.mark.parametrize("suffix", [".gif", ".png", ".webp"])
+def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkeypatch, suffix):
+    record = stepped(window, qtbot, 5)
+    window.canvas.look_along("+x")
+    path = tmp_path / f"run{suffix}"
+    monkeypatch.setattr("hexmend_app.filming.ask_film", lambda parent, stem: str(path))
+    shown = window.session.timeline.moment
+    window.actions_by_id["film"].trigger()
+    assert "Drawing frame 1 of 6" in window.busy.text()
+    qtbot.waitUntil(lambda: not window.filming.going_on, timeout=60_000)
+    assert "6 frames" in " ".join(window.messages.messages()[-1])
+    with Image.open(path) as film:
+        assert (film.n_frames, film.width) == (record.newest + 1, WIDTH)
+        frames = []
+        for k in range(film.n_frames):
+            film.seek(k)
+            frames.append(np.asarray(film.convert("RGB")).astype(int))
+    middle = slice(frames[0].shape[0] // 4, -frames[0].shape[0] // 4)
+    assert all((a[middle] != b[middle]).any() for a, b in pairwise(frames))
+    assert window.session.timeline.moment == shown
+    assert window.busy.isHidden()
+
+
+def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path, monkeypatch):
+    stepped(window, qtbot, 5)
+    path = tmp_path / "run.gif"
+    monkeypatch.setattr("hexmend_app.filming.ask_film", lambda parent, stem: str(path))
+    window.actions_by_id["film"].trigger()
+    cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
+    QTest.mouseClick(cancel, LEFT)
+    assert not window.filming.going_on
+    qtbot.wait(100)
+    assert list(tmp_path.glob("*.gif")) == []
+    path = tmp_path / "run.avi"
+    window.actions_by_id["film"].trigger()
+    assert not window.filming.going_on
+    assert ".gif, .png, .webp" in " ".join(window.messages.messages()[-1])
+
+
+def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(window, qtbot):
+    stepped(window, qtbot, 6)
+    QTest.mouseClick(window.timeline_bar._slider, LEFT, pos=slider_place(window, 2))
+    qtbot.waitUntil(at(window, 2), timeout=2000)
+    kept = window.document.now
+    key(window, Qt.Key.Key_V)
+    key(window, Qt.Key.Key_V)
+    key(window, Qt.Key.Key_Period)
+    (shown,) = window.session.views.all
+    assert (shown.name, shown.state) == ("local-sd 2", kept)
+    assert window.document.now is not kept
+    for _ in range(2):
+        assert window.actions_by_id["iteration_beside"].isEnabled()
+        key(window, Qt.Key.Key_V)
+        key(window, Qt.Key.Key_Period)
+    assert [one.name for one in window.session.views.all] == ["local-sd 2", "local-sd 3", "local-sd 4"]
+    assert not window.actions_by_id["iteration_beside"].isEnabled()

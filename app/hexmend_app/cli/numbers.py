@@ -33,6 +33,13 @@ def numbers(text: str, count: int, option: str) -> tuple[float, ...]:
     return found
 
 
+def whole(text: str, option: str, low: int, high: int) -> int:
+    """A whole number from `low` to `high`."""
+    if not (text.isdecimal() and low <= int(text) <= high):
+        raise wrong(option, text, f"a whole number from {low} to {high}")
+    return int(text)
+
+
 def wrong(option: str, text: str, expected: str) -> ParameterError:
     """What is said of a word that cannot be used."""
     return ParameterError(f"{option} {text!r} cannot be used: expected {expected}")

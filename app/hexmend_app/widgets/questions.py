@@ -46,6 +46,13 @@ def ask_histogram(parent: QWidget, stem: str) -> str:
     return QFileDialog.getSaveFileName(parent, "Save the histogram as", proposal, kinds)[0]
 
 
+def ask_film(parent: QWidget, stem: str) -> str:
+    """Where to save a film of a run, "" for nowhere."""
+    proposal = str(Path(_folder()) / f"{stem}.gif")
+    kinds = "GIF animation (*.gif);;WebP animation, smaller and finer (*.webp);;PNG animation, exact (*.png)"
+    return QFileDialog.getSaveFileName(parent, "Save the film as", proposal, kinds)[0]
+
+
 def ask_comparison(parent: QWidget, stem: str) -> str:
     """Where to save the table of methods, "" for nowhere."""
     proposal = str(Path(_folder()) / f"{stem}-comparison.csv")

@@ -149,3 +149,12 @@ def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing,
     smoothing.step()
     qtbot.waitUntil(lambda: len(frames) == 2, timeout=FIRST_RUN)
     assert set(measured._known[frames[1].state.figures]) == {"taper", "q"}
+
+
+def test_stop_is_answered_within_one_iteration(document, smoothing, qtbot):
+    smoothing.start(LocalSteepestDescent(), SLOW)
+    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 3, timeout=FIRST_RUN)
+    with qtbot.waitSignal(smoothing.ended, timeout=5000):
+        smoothing.stop()
+        begun = smoothing.record.newest
+    assert smoothing.record.newest <= begun + 1

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
+    from hexmend.optimise import Iteration
     from hexmend.run import Run
 
 #: Seconds between plain lines, and of iterations before the first of them: a short run says nothing.
@@ -35,12 +37,16 @@ class Progress:
         self._display.show(run)
 
 
-def follow(run: Run) -> None:
-    """Go through a run to its end and show where it is; Ctrl-C ends it with what was reached so far."""
+def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: None) -> None:
+    """Go through a run to its end and show where it is; Ctrl-C ends it with what was reached so far.
+
+    `watch` is called with every iteration.
+    """
     interrupted = False
     with Progress() as progress:
         try:
-            for _ in run:
+            for iteration in run:
+                watch(iteration)
                 progress.show(run)
         except KeyboardInterrupt:
             run.close()

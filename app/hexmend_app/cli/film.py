@@ -1,0 +1,59 @@
+"""`hexmend film`: a moving picture of a run, without a window and without an X server."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from hexmend_app.cli import looks
+from hexmend_app.cli.numbers import whole
+
+
+class Film:
+    """A run as an animation."""
+
+    name = "film"
+    help = "Run a method and write an animation of its iterations: GIF, PNG or WebP, by the suffix."
+
+    def arguments(self, parser: argparse.ArgumentParser) -> None:
+        from hexmend.cli.command.method import add_method
+
+        looks.prepare(parser)
+        parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+        parser.add_argument("-o", "--output", metavar="FILE.gif", required=True, help="where to write the animation")
+        add_method(parser)
+        parser.add_argument("--frames", metavar="N", default="40", help="most frames (default %(default)s)")
+        parser.add_argument("--rate", metavar="N", default="10", help="frames a second (default %(default)s)")
+        looks.add_arguments(parser, "800x500")
+
+    def run(self, args: argparse.Namespace) -> int:
+        from hexmend.cli.command.method import chosen
+        from hexmend.cli.command.progress import follow
+        from hexmend.io import read
+        from hexmend.run import iterate
+        from hexmend_app.scene.graphics import prepare_off_screen
+
+        size, view, path = looks.size_of(args), looks.view_of(args), Path(args.output)
+        frames, rate = whole(args.frames, "--frames", 2, 1000), whole(args.rate, "--rate", 1, 50)
+        what, stop = chosen(args)
+        mesh = read(args.mesh)
+        look = looks.look_of(args, mesh)
+        prepare_off_screen()
+        from hexmend_app.scene.film import format_of, pictures, write_film
+        from hexmend_app.state.document import State
+        from hexmend_app.state.history import History
+        from hexmend_app.state.shots import chosen as shown
+        from hexmend_app.state.shots import shots
+
+        format_of(path)  # an unknown suffix is said before the work, not after
+        run, history = iterate(mesh, what, stop), History()
+        record = history.begin(what.name, what.title, State.of(mesh))
+        history.add(record, run.start)
+        follow(run, lambda iteration: history.add(record, iteration))
+        numbers = shown(history, record, frames)
+        write_film(path, [*pictures(shots(history, record, mesh, numbers), look, size, view=view)], rate)
+        print(f"{run.message}\n{path}: {len(numbers)} frames of {size[0]} × {size[1]} pixels")
+        return 0
+
+
+command = Film()
