@@ -30,9 +30,6 @@ _BUTTONS = {
     "ten": ("fast-forward-10", "10 nodes", "Move the next ten nodes of the sweep (Shift+F11)."),
     "finish": ("page-last", "Finish", "Move all nodes that are left of the sweep (Ctrl+F11)."),
 }
-#: Width in pixels that plot and figures need beside each other.
-_WIDTH = 440
-
 _LEGEND = (
     ("gradient", UPHILL, "The gradient of the energy by this node: uphill. Its length in the view means nothing."),
     ("direction", SEARCH, "Where the method looks for the step; its length in the view means nothing."),
@@ -99,7 +96,6 @@ class NodePanel(QWidget):
         tint(self._progress, MUTED)
         self._legend = self._make_legend()
         self._lay_out()
-        self.setMinimumWidth(_WIDTH)
         dress(self, self._paint_links)
         self.set_stepping("")
         self.show_message("")
