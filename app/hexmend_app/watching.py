@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
 from PySide6.QtCore import QSettings
 
 from hexmend_app.commands import Commands
@@ -95,9 +94,11 @@ class Watching:
     def _on_hit(self, frame: Frame) -> None:
         iteration, hit = frame.iteration, frame.hit
         self._panel.set_status(iteration.number, iteration.seconds, f"Paused at a break-point: {hit.sentence}.")
-        hexes = hit.hexes or np.flatnonzero((self._document.now.mesh.hexes == hit.nodes[:1]).any(axis=1))[:1]
-        if len(hexes):
-            self._session.selection.choose(int(hexes[0]), *hit.nodes[:1])
+        if hit.hexes:
+            self._session.selection.choose(hit.hexes[0])
+        elif hit.nodes:
+            around = (self._document.now.mesh.hexes == hit.nodes[0]).any(axis=1)
+            self._session.selection.choose(int(around.argmax()), hit.nodes[0])
 
     def _on_another(self) -> None:
         mesh = self._document.now.mesh

@@ -154,6 +154,26 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     assert frame.hit.sentence in window.timeline_bar._slider.toolTip()
 
 
+@pytest.mark.parametrize(
+    ("text", "method", "chooses"), [("Node", "laplacian", True), ("Line search cuts more than", "global-sd", False)]
+)
+def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
+    window.smoothing_panel._sections[2].expand()
+    mesh = window.document.now.mesh
+    node = int(np.flatnonzero(mesh.free)[100])
+    window.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
+    check(window, text)  # a node is taken from the selection
+    form = window.smoothing_panel.breakpoint_form
+    form._move.setValue(0.001)
+    form._cuts.setValue(0)
+    window.selection.choose(None)
+    window.smoothing_panel.set_method(method)
+    with qtbot.waitSignal(window.smoothing.hit, timeout=FIRST_RUN) as hit:
+        click(window, "Run")
+    assert hit.args[0].hit.sentence in window.smoothing_panel._sentence.text()
+    assert window.selection.node == (node if chooses else None)
+
+
 def test_what_is_saved_is_the_iteration_shown(window, qtbot, tmp_path):
     from hexmend import io
 
