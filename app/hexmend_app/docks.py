@@ -74,7 +74,7 @@ def add_docks(
     for before, after in zip([first, *others], others, strict=False):
         window.tabifyDockWidget(before, after)
     first.raise_()
-    window.resizeDocks([below, first], [620, 360], Qt.Orientation.Horizontal)
+    window.resizeDocks([below, first], [540, 460], Qt.Orientation.Horizontal)
     window.resizeDocks([below], [270], Qt.Orientation.Vertical)
     return docks
 

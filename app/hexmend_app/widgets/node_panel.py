@@ -180,7 +180,7 @@ class NodePanel(QWidget):
             return
         links = (f"<b>{i:,}</b>" if i == chosen else f'<a href="{i}">{i:,}</a>' for i in nodes)
         # Nothing, and yet before the first link: from one at the very beginning Shift+Tab does not get away.
-        self._nodes.setText(f"&#8203;Free nodes: {' &nbsp;'.join(links) or 'none'}")
+        self._nodes.setText(f"&#8203;Free nodes: {' '.join(links) or 'none'}")
 
     def set_stepping(self, reason: str, done: int = 0, total: int = 0) -> None:
         """Offer to go through a sweep, or say for what `reason` not; how far one under way is."""
