@@ -9,6 +9,7 @@ import pyvista as pv
 from PIL import Image, ImageDraw, ImageFont
 
 from hexmend.mesh import Mesh
+from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.colours import INVERTED, Colouring
 from hexmend_app.scene.filters import Filters
@@ -28,6 +29,7 @@ def picture(
     size: tuple[int, int],
     *,
     filters: Filters | None = None,
+    node_step: NodeStep | None = None,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
     transparent: bool = False,
@@ -46,6 +48,8 @@ def picture(
     filters : Filters, optional
         Those of a view of the mesh, whose elements are drawn: a cut by whole elements is made where the nodes are as a
         plane comes, not where they are now.
+    node_step : NodeStep, optional
+        A node's step that is drawn too.
     view : str or vector
         The direction to look from, where no camera is given.
     camera : pyvista.Camera, optional
@@ -62,6 +66,7 @@ def picture(
         viewport = Viewport(plotter)
         viewport.set_look(look)
         viewport.set_mesh(mesh, figures, filters)
+        viewport.show_node_step(node_step)
         viewport.view(view)
         if camera is not None:
             plotter.camera.DeepCopy(camera)

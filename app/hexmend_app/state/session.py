@@ -6,11 +6,13 @@ from PySide6.QtCore import QObject
 
 from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
+from hexmend_app.state.explainer import Explainer
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.history import History
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
+from hexmend_app.state.stepping import Stepping
 from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
@@ -29,6 +31,8 @@ class Session(QObject):
     timeline : Timeline
     opener : Opener
     finder : Finder
+    explainer : Explainer
+    stepping : Stepping
     comparison : Comparison
     views : Views
     """
@@ -43,6 +47,8 @@ class Session(QObject):
         self.timeline = Timeline(self.document, self.smoothing, self.history, self)
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
+        self.explainer = Explainer(self)
+        self.stepping = Stepping(self.document, self)
         self.comparison = Comparison(self.document, self)
         self.views = Views(self.document, self)
 
@@ -56,4 +62,5 @@ class Session(QObject):
         self.smoothing.shut_down()
         self.opener.shut_down()
         self.finder.shut_down()
+        self.explainer.shut_down()
         self.comparison.shut_down()
