@@ -71,6 +71,21 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("redo", "&Redo", "&Edit", "Ctrl+Shift+Z", "redo", "Do again what was taken back.", "Redo"),
     ActionSpec("run", "&Run or pause", "&Smooth", "F5", "play", "Run the chosen method, pause it, or go on."),
     ActionSpec("step", "One &step", "&Smooth", "F10", "step-forward", "Make one iteration and hold."),
+    ActionSpec(
+        "next_node",
+        "Next &node of a sweep",
+        "&Smooth",
+        "F11",
+        help="Let a local method move one node, and look at its step.",
+    ),
+    ActionSpec("ten_nodes", "Ten nodes of a s&weep", "&Smooth", "Shift+F11", help="Let a local method move ten nodes."),
+    ActionSpec(
+        "finish_sweep",
+        "&Finish the sweep",
+        "&Smooth",
+        "Ctrl+F11",
+        help="Let a local method move all nodes that are left.",
+    ),
     ActionSpec("stop", "S&top", "&Smooth", "Shift+F5", "stop", "End the run and keep what has been reached."),
     ActionSpec("reset", "R&eset", "&Smooth", "Ctrl+R", "restore", "Put all nodes back to where they were when opened."),
     ActionSpec(
@@ -233,6 +248,13 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "T",
         "tag-outline",
         "Give the chosen element the tag that the tags' panel names, or take it away; tags are saved with the mesh.",
+    ),
+    ActionSpec(
+        "explain_node",
+        "&Explain a node's step",
+        "&Inspect",
+        "D",
+        help="Show what the chosen method does to the chosen node, or to one of the worst element, and why.",
     ),
     ActionSpec(
         "back",

@@ -29,6 +29,7 @@ class Commands:
     def __init__(self, session: Session):
         self._session = session
         self.document, self.smoothing, self.opener = session.document, session.smoothing, session.opener
+        self.stepping = session.stepping
 
     def open(self, path: str | Path) -> None:
         """Open a mesh; a run under way ends first. What is open stays where the file cannot be read."""
@@ -42,6 +43,7 @@ class Commands:
         HexmendError
             Where it cannot be written; the file that was there stays.
         """
+        self.stepping.leave()
         moment = self._session.timeline.moment
         if self.document.previews and self._session.editable:
             self.document.commit("go back" if moment is None else f"go to {moment.name}", self.document.now)
@@ -52,6 +54,7 @@ class Commands:
     def run(self, method: str, values: dict, stop: dict) -> None:
         """Run a method on the mesh as it is now, unless another is being read."""
         if not self.opener.busy:
+            self.stepping.leave()
             self.smoothing.start(METHODS[method](**values), Stop(**stop))
 
     def step(self, method: str, values: dict, stop: dict, iterations: int) -> None:
@@ -59,6 +62,7 @@ class Commands:
         if self.smoothing.busy:
             self.smoothing.step(iterations)
         elif not self.opener.busy:
+            self.stepping.leave()
             self.smoothing.start(METHODS[method](**values), Stop(**stop), iterations)
 
     def run_recipe(self, recipe: Recipe) -> None:
@@ -78,6 +82,7 @@ class Commands:
     def reset(self) -> None:
         """End a run and put the nodes back to where they were when the mesh was opened."""
         self.smoothing.end_now()
+        self.stepping.leave()
         self.document.reset()
 
     def take(self, title: str, state: State) -> None:
@@ -86,6 +91,7 @@ class Commands:
         What is pinned and tagged stays so.
         """
         if self._session.editable:
+            self.stepping.leave()
             mesh = self.document.now.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
 
@@ -121,6 +127,7 @@ class Commands:
     def _amend(self, title: str, **changes: object) -> None:
         """Change what the mesh carries beside its nodes' places."""
         if self._session.editable:
+            self.stepping.leave()
             now = self.document.now
             mesh = now.mesh.replace(**changes)
             summary = summarise(mesh, now.figures) if "pinned" in changes else now.summary
@@ -129,11 +136,13 @@ class Commands:
     def undo(self) -> None:
         """Take back the last change, unless the mesh may not be changed."""
         if self._session.editable:
+            self.stepping.leave()
             self.document.undo()
 
     def redo(self) -> None:
         """Do again what was taken back, unless the mesh may not be changed."""
         if self._session.editable:
+            self.stepping.leave()
             self.document.redo()
 
 

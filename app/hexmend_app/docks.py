@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QScrollArea, QStyle, QTabBar, QVBoxLayout, QWidget
 
 #: Number of the layout: one that was saved with other docks is not restored.
-LAYOUT = 4
+LAYOUT = 5
 
 
 class _Column(QScrollArea):
@@ -80,7 +80,7 @@ def add_docks(
         docks[name] = _dock(window, name, title, widget, areas.BottomDockWidgetArea)
         window.tabifyDockWidget(below, docks[name])
     below.raise_()
-    window.resizeDocks([below, first], [560, 420], Qt.Orientation.Horizontal)
+    window.resizeDocks([below, first], [540, 460], Qt.Orientation.Horizontal)
     window.resizeDocks([below], [270], Qt.Orientation.Vertical)
     return docks
 

@@ -29,6 +29,8 @@ class Inspecting:
         Its widgets.
     element_dock : QDockWidget
         Comes to the front when an element is chosen in the view.
+    node_dock : QDockWidget
+        Stays in front then, if it is: it shows what is chosen too.
     """
 
     def __init__(
@@ -38,12 +40,13 @@ class Inspecting:
         worst_list: WorstList,
         element_panel: ElementPanel,
         element_dock: QDockWidget,
+        node_dock: QDockWidget,
     ):
         selection = self._selection = session.selection
         self._session, self._document, self._view = session, session.document, session.view
         self._worst_list = worst_list
         self._element_panel = element_panel
-        self._element_dock = element_dock
+        self._element_dock, self._node_dock = element_dock, node_dock
         self._canvas: Canvas | None = None
         selection.changed.connect(self._show_selected)
         worst_list.chosen.connect(self._go_to_worst)
@@ -104,7 +107,7 @@ class Inspecting:
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))
-        if hit is not None:
+        if hit is not None and not self._node_dock.widget().isVisible():
             self._element_dock.raise_()
 
     def go_to(self, h: int) -> None:

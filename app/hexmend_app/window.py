@@ -21,6 +21,7 @@ from hexmend_app.commands import Commands, methods_offered
 from hexmend_app.comparing import TICKED, Comparing
 from hexmend_app.converging import Converging
 from hexmend_app.counting import Counting
+from hexmend_app.debugging import Debugging
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
 from hexmend_app.filming import Filming
 from hexmend_app.inspecting import Inspecting
@@ -49,6 +50,7 @@ from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.movement_panel import MovementPanel
+from hexmend_app.widgets.node_panel import NodePanel
 from hexmend_app.widgets.outcome_panel import OutcomePanel
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
 from hexmend_app.widgets.recent_menu import RecentMenu
@@ -89,6 +91,7 @@ class Window(QMainWindow):
         self.statistics = StatisticsTable()
         self.worst_list = WorstList()
         self.element_panel = ElementPanel()
+        self.node_panel = NodePanel()
         self.tag_panel = TagPanel()
         self.outcome_panel = OutcomePanel()
         self.compare_panel = ComparePanel(TICKED)
@@ -110,7 +113,10 @@ class Window(QMainWindow):
         self.looking = Looking(session, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel)
         self.moving = Moving(session, self.movement_panel, self.colour_panel)
         self.counting = Counting(session, self.histogram)
-        self.inspecting = Inspecting(session, self.commands, self.worst_list, self.element_panel, self.docks["element"])
+        self.inspecting = Inspecting(
+            session, self.commands, self.worst_list, self.element_panel, self.docks["element"], self.docks["node"]
+        )
+        self.debugging = Debugging(session, self.node_panel, self.docks["node"], self.smoothing_panel, self.worst_list)
         self.opening = Opening(self.document, self.opener, self.recent, self.busy, self.messages)
         self.tagging = Tagging(
             session, self.commands, self.tag_panel, self.worst_list, lambda: self.canvas.viewport.left()
@@ -161,6 +167,7 @@ class Window(QMainWindow):
             ("quality", "Quality", self.statistics),
             ("worst", "Worst", self.worst_list),
             ("element", "Element", self.element_panel),
+            ("node", "Node", self.node_panel),
             ("tags", "Tags", self.tag_panel),
             ("outcome", "Outcome", self.outcome_panel),
             ("compare", "Compare", self.compare_panel),
@@ -184,6 +191,7 @@ class Window(QMainWindow):
         self.setTabOrder(self.hint.close_button, self.canvas.interactor)
         self.looking.set_canvas(self.canvas)
         self.inspecting.set_canvas(self.canvas)
+        self.debugging.set_canvas(self.canvas)
         self.comparing.set_canvas(self.canvas)
         self.saving.canvas = self.filming.canvas = self.moving.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
@@ -199,6 +207,9 @@ class Window(QMainWindow):
         for told in (self.opener.began, self.opener.ended, self.opener.cancelled, self.opener.failed):
             told.connect(self._enable)
         self.tag_panel.offer_changed.connect(self._enable)
+        self.session.stepping.changed.connect(self._enable)
+        for told in (self.smoothing_panel.method_changed, self.smoothing_panel.form.changed):
+            told.connect(self._enable)
         self.compare_panel.save_requested.connect(lambda: self.saving.ask_comparison(self.session.comparison))
         compared = self.session.comparison
         for told in (compared.changed, self.session.views.changed, self.compare_panel.offer_changed):
@@ -244,6 +255,7 @@ class Window(QMainWindow):
             **self.saving.handlers(),
             **self.looking.handlers(),
             **self.inspecting.handlers(),
+            **self.debugging.handlers(),
             **self.tagging.handlers(),
             **self.comparing.handlers(),
             **self.watching.handlers(),
@@ -271,6 +283,7 @@ class Window(QMainWindow):
         self.counting.refresh()
         self.statistics.set_summaries(start.summary, now.summary)
         self.inspecting.refresh()
+        self.debugging.refresh()
         self.tagging.refresh()
         self.comparing.move()
         self.looking.refresh()
@@ -317,6 +330,7 @@ class Window(QMainWindow):
         for spec in ACTIONS:
             self.actions_by_id[spec.id].setEnabled(self.document.is_open or not spec.needs_mesh)
         undo, redo = (self.document.undo_title, self.document.redo_title) if self.document.is_open else (None, None)
+        undo = self.session.stepping.title or undo
         for id, title, word in (("undo", undo, "&Undo"), ("redo", redo, "&Redo")):
             self.actions_by_id[id].setEnabled(title is not None and editable)
             self.actions_by_id[id].setText(f"{word} {title}" if title else word)
@@ -327,6 +341,7 @@ class Window(QMainWindow):
         self.comparing.enable()
         parts = (
             self.inspecting,
+            self.debugging,
             self.tagging,
             self.looking,
             self.watching,
@@ -405,6 +420,7 @@ class Window(QMainWindow):
 
     def _may_leave(self) -> bool:
         """Whether what is unsaved was saved or may be lost."""
+        self.session.stepping.leave()
         if not self.document.modified and not self.smoothing.busy:
             return True
         answer = ask_unsaved(self, self.document.name)

@@ -6,7 +6,8 @@ import numpy as np
 import pyvista as pv
 
 #: From how far an element is looked at, in radii of the sphere around it: near enough to see it among its neighbours.
-_FAR = 9.0
+#: And a patch of elements, of which the inside is to be seen.
+_FAR, PATCH_FAR = 9.0, 5.0
 
 
 class Flight:
@@ -17,13 +18,15 @@ class Flight:
     camera : pyvista.Camera
     centre : (3,) float64
     radius : float
+    away : float
+        From how far it is to be looked at, in radii.
     """
 
-    def __init__(self, camera: pv.Camera, centre: np.ndarray, radius: float):
+    def __init__(self, camera: pv.Camera, centre: np.ndarray, radius: float, away: float = _FAR):
         self._camera = camera
         ahead = np.array(camera.GetDirectionOfProjection())
         focus, place = np.array(camera.GetFocalPoint()), np.array(camera.GetPosition())
-        far = _FAR * radius if radius > 0 else float(np.linalg.norm(focus - place))
+        far = away * radius if radius > 0 else float(np.linalg.norm(focus - place))
         tangent = np.tan(np.radians(camera.GetViewAngle()) / 2)
         self._focus = focus, centre
         self._far = float(np.linalg.norm(focus - place)), far

@@ -10,6 +10,7 @@ import pyvista as pv
 from PIL import Image, ImageDraw, ImageFont
 
 from hexmend.mesh import Mesh
+from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.filters import Filters
@@ -31,6 +32,7 @@ def picture(
     *,
     filters: Filters | None = None,
     movement: Movement | None = None,
+    node_step: NodeStep | None = None,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
     transparent: bool = False,
@@ -51,6 +53,8 @@ def picture(
         plane comes, not where they are now.
     movement : Movement, optional
         What colours and arrows of a movement show.
+    node_step : NodeStep, optional
+        A node's step that is drawn too.
     view : str or vector
         The direction to look from, where no camera is given.
     camera : pyvista.Camera, optional
@@ -68,6 +72,7 @@ def picture(
         viewport.set_movement(movement)
         viewport.set_look(look)
         viewport.set_mesh(mesh, figures, filters)
+        viewport.show_node_step(node_step)
         viewport.view(view)
         if camera is not None:
             plotter.camera.DeepCopy(camera)

@@ -7,6 +7,7 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkCellPicker, vtkRenderer
 
 from hexmend.mesh import Mesh
+from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node, corner_qualities
 from hexmend_app.scene import cut
 from hexmend_app.scene.arrows import ArrowLayer
@@ -14,9 +15,10 @@ from hexmend_app.scene.coarse import MANY, coarse
 from hexmend_app.scene.colours import Colouring, fitted, resolve
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.fitting import fit
-from hexmend_app.scene.flight import Flight
+from hexmend_app.scene.flight import PATCH_FAR, Flight
 from hexmend_app.scene.halo import Halo
 from hexmend_app.scene.highlight import Highlight
+from hexmend_app.scene.node_step import NodeStepMarks
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
@@ -87,6 +89,7 @@ class Viewport:
         self._arrows = ArrowLayer(plotter)
         self._movement: Movement | None = None
         self._highlight = Highlight(plotter)
+        self._node_step = NodeStepMarks(plotter)
         self._selected: int | None = None
         self._picker = vtkCellPicker()
         self._picker.PickFromListOn()
@@ -103,6 +106,7 @@ class Viewport:
         for letter in "XYZ" if self._axes is not None else "":
             label = getattr(self._axes, f"Get{letter}AxisCaptionActor2D")()
             label.GetCaptionTextProperty().SetColor(*pv.Color(AXES.of(dark)).float_rgb)
+        self._node_step.set_dark(dark)
         if self._outline is not None:
             self._outline.set_dark(dark)
 
@@ -127,6 +131,7 @@ class Viewport:
         self._outline = Silhouette(self._plotter, mesh)
         self._outline.set_dark(self._dark)
         self._structure.set_mesh(mesh)
+        self.show_node_step(None)
         self.select(None)
         self._cull()
         self._measure()
@@ -146,6 +151,7 @@ class Viewport:
         self._points, self._figures = points, figures
         self._cull()
         self._show_selected()
+        self._node_step.move(points)
         self._measure()
         keep = self.kept()
         if _same(keep, self._keep):
@@ -225,19 +231,30 @@ class Viewport:
         goes = node.kind == "free" and steepness > 0
         self._highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
 
+    def show_node_step(self, step: NodeStep | None) -> None:
+        """Draw a node's step, in the place of the marks of the hex that is selected; None draws none."""
+        if step is None:
+            self._node_step.hide()
+        else:
+            self._node_step.show(step, self._mesh.hexes[step.hexes], self._points)
+        self._show_selected()
+
     def _show_selected(self) -> None:
-        if self._selected is None:
+        if self._selected is None or self._node_step.step is not None:
             self._highlight.hide()
             return
         nodes = self._mesh.hexes[self._selected]
         values = corner_qualities(self._points, nodes[None])[0] if self._with_corners else None
         self._highlight.show(self._points[nodes], values)
 
-    def flight_to(self, h: int) -> Flight:
-        """The camera's way to a hex."""
-        corners = self._points[self._mesh.hexes[h]]
+    def flight_to(self, *hexes: int) -> Flight:
+        """The camera's way to a hex, or to a patch of several."""
+        corners = self._points[self._mesh.hexes[list(hexes)].ravel()]
         centre = corners.mean(axis=0)
-        return Flight(self.camera, centre, float(np.sqrt(np.square(corners - centre).sum(axis=1).max())))
+        radius = float(np.sqrt(np.square(corners - centre).sum(axis=1).max()))
+        return (
+            Flight(self.camera, centre, radius) if len(hexes) == 1 else Flight(self.camera, centre, radius, PATCH_FAR)
+        )
 
     def reset_depth(self) -> None:
         """Fit what is near and far enough to be drawn to where the camera is."""
@@ -391,7 +408,8 @@ class Viewport:
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """What draws this view, one layer over the other."""
-        return self._plotter.renderer, self._structure.layer, self._arrows.layer, self._highlight.layer
+        inside = (self._structure.layer, self._arrows.layer)
+        return self._plotter.renderer, *inside, self._highlight.layer, *self._node_step.layers
 
     def fit_axes(self) -> None:
         """Draw the axes in this view's corner, as large as in a window of one view, and so that they can be read."""
@@ -462,6 +480,11 @@ class Viewport:
                 self._rebuild(self.kept())
             elif self._mesh is not None:
                 self._outline_inverted()
+
+    @property
+    def node_step(self) -> NodeStep | None:
+        """The node's step that is drawn."""
+        return self._node_step.step
 
     @property
     def look(self) -> Look:

@@ -6,12 +6,14 @@ from PySide6.QtCore import QObject
 
 from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
+from hexmend_app.state.explainer import Explainer
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.history import History
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.reference import References
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
+from hexmend_app.state.stepping import Stepping
 from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
@@ -31,6 +33,8 @@ class Session(QObject):
     references : References
     opener : Opener
     finder : Finder
+    explainer : Explainer
+    stepping : Stepping
     comparison : Comparison
     views : Views
     """
@@ -46,6 +50,8 @@ class Session(QObject):
         self.references = References(self.document, self.history)
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
+        self.explainer = Explainer(self)
+        self.stepping = Stepping(self.document, self)
         self.comparison = Comparison(self.document, self)
         self.views = Views(self.document, self)
 
@@ -59,4 +65,5 @@ class Session(QObject):
         self.smoothing.shut_down()
         self.opener.shut_down()
         self.finder.shut_down()
+        self.explainer.shut_down()
         self.comparison.shut_down()

@@ -116,3 +116,11 @@ SHADE = Role("#d9dfe8", "#3e4651")  # a little apart from the background
 PLANE_EDGE = Role("#4d5c73", "#b4c0d0")
 PLANE = Role("#5c7394", "#9fb2cc")
 PLANE_HELD = Role("#0072b2", "#6cb9f0")
+
+# A node's step, in the view, in its plot and in its legend: Okabe and Ito's colours too
+UPHILL = Role("#e69f00", "#f0b53c")
+SEARCH = Role("#3d9bd8", "#6cb9f0")
+TAKEN = Role("#00b883", "#2ee6ac")
+TRIED = Role("#d55e00", "#ff8a4a")
+PATCH = Role("#ffffff", "#ffffff")
+OTHERWISE = Role("#9a80f0", "#b3a0ff")  # where the patch would be, or was

@@ -14,6 +14,7 @@ from pyvistaqt import QtInteractor
 
 from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
+from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.box_widget import BoxWidget
 from hexmend_app.scene.colours import Colouring
@@ -182,6 +183,12 @@ class Canvas(QWidget):
         for view in self.panes.all[1:]:
             view.select(*self._chosen)
 
+    def show_node_step(self, step: NodeStep | None) -> None:
+        """Draw a node's step; None draws none."""
+        if not self._closed:
+            self.viewport.show_node_step(step)
+            self._changed()
+
     def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
         """Show other places of the same mesh's nodes in views beside the first, or two views over one another.
 
@@ -205,9 +212,9 @@ class Canvas(QWidget):
         self._turning()
         self._draw_soon()
 
-    def fly_to(self, h: int) -> None:
-        """Bring an element before the camera."""
-        self._flight = self.viewport.flight_to(h)
+    def fly_to(self, *hexes: int) -> None:
+        """Bring an element, or several together, before the camera."""
+        self._flight = self.viewport.flight_to(*hexes)
         self._flown.start()
         self._fly.start()
 
@@ -283,7 +290,7 @@ class Canvas(QWidget):
             "transparent": transparent,
         }
         if len(self.panes.all) == 1:
-            image = picture(seen.mesh, seen.figures, seen.look, size, **how)
+            image = picture(seen.mesh, seen.figures, seen.look, size, node_step=seen.node_step, **how)
         else:
             panels = [
                 Panel(caption.name, view.mesh, view.figures)

@@ -52,7 +52,7 @@ class GETMe(Smoother):
         while idle < self.patience:
             element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
             moved = points.copy()
-            kernels.weighted_means(places, self._weights(figures.q), attached.start, attached.items, nodes, moved)
+            kernels.weighted_means(places, self.weigh(figures.q), attached.start, attached.items, nodes, moved)
             points, figures, relaxed = _without_harm(mesh, points, figures, moved)
             now = standing(figures)
             idle = 0 if np.any(now > best + RISE) else idle + 1
@@ -60,8 +60,8 @@ class GETMe(Smoother):
             yield Step(points, {"relaxed nodes": relaxed}, figures=figures)
         return Outcome.NO_IMPROVEMENT
 
-    def _weights(self, q: np.ndarray) -> np.ndarray:
-        """Weight of every hex; the worse, the heavier, and never infinite or zero."""
+    def weigh(self, q: np.ndarray) -> np.ndarray:
+        """Weight of every hex of these q(H), (m,); the worse, the heavier, and never infinite or zero."""
         if self.weights == "quality":
             return 1 / np.sqrt(np.maximum(q, 0.01))
         if self.weights == "paper":

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from hexmend.energy import POLICIES
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
@@ -42,14 +44,17 @@ class LocalDescent(Smoother):
     c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
     max_cuts: int = parameter(100, low=1, high=200, help="Cuts of a step after which the node is left where it is.")
 
+    def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
+        """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""
+        return POLICIES[self.delta_policy](self.delta).at(measure(points, mesh.hexes), mesh.mean_edge_length or 1.0)
+
     def steps(self, mesh: Mesh) -> Steps:
-        policy, unit = POLICIES[self.delta_policy](self.delta), mesh.mean_edge_length or 1.0
         corners = mesh.topology.node_corners
         colours = mesh.topology.colouring(mesh.free)
         points = mesh.points
         yield Step(points)
         while True:
-            delta = policy.at(measure(points, mesh.hexes), unit)  # zero in the feasible region, 3.2.4
+            delta = self.delta_at(mesh, points)
             points = points.copy()
             local.sweep(
                 points,

@@ -1,0 +1,100 @@
+"""A sweep of a local method that the user makes node by node, as one change of the document."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, Signal
+
+from hexmend.node_step import NodeStep, Sweep
+from hexmend.smoothers.local_descent import LocalDescent
+from hexmend_app.state.document import Document, State
+
+
+class Stepping(QObject):
+    """Steps through the nodes of a sweep.
+
+    The document shows where the nodes are on the way; that is recorded when the sweep is over or left, which whatever
+    else changes the mesh has to see to first.
+
+    Signals
+    -------
+    changed
+        A node was visited, or the sweep was left.
+
+    Attributes
+    ----------
+    sweep : Sweep or None
+        The one under way.
+    last : NodeStep or None
+        The step that was made last.
+    """
+
+    changed = Signal()
+
+    def __init__(self, document: Document, parent: QObject | None = None):
+        super().__init__(parent)
+        self._document = document
+        self.sweep: Sweep | None = None
+        self.last: NodeStep | None = None
+        self._smoother: LocalDescent | None = None
+        self._state: State | None = None  # that the last step led to
+        document.mesh_replaced.connect(self._forget)
+        document.points_moved.connect(self._on_moved)
+
+    def made_by(self, smoother: LocalDescent) -> NodeStep | None:
+        """The step of this method that led to the mesh as it is now; None where something else did."""
+        if self._state is None or self._document.now is not self._state or smoother != self._smoother:
+            return None
+        return self.last
+
+    @property
+    def title(self) -> str | None:
+        """What undo would take back; None while no sweep is under way."""
+        if self.sweep is None:
+            return None
+        count = self.sweep.done
+        return f"sweep of {self.sweep.smoother.name}, {count:,} node{'s' * (count != 1)}"
+
+    def advance(self, smoother: LocalDescent, count: int = 1) -> None:
+        """Visit that many more nodes of the sweep under way, or of a new one."""
+        sweep = self._begun(smoother)
+        for _, step in zip(range(count), sweep, strict=False):
+            self.last = step
+        self._show()
+
+    def finish(self, smoother: LocalDescent) -> None:
+        """Visit all nodes that are left; the step of the last is told."""
+        self.last = self._begun(smoother).finish()
+        self._show()
+
+    def leave(self) -> None:
+        """End the sweep where it is, as one change that undo takes back; nothing happens where none is under way."""
+        self._record(show=True)
+
+    def _begun(self, smoother: LocalDescent) -> Sweep:
+        if self.sweep is not None and self.sweep.smoother != smoother:
+            self.leave()
+        if self.sweep is None:
+            self.sweep, self._smoother = Sweep(self._document.now.mesh, smoother), smoother
+        return self.sweep
+
+    def _show(self) -> None:
+        self._state = State.of(self._document.now.mesh.with_points(self.sweep.points))
+        if self.sweep.over:
+            self.leave()
+        else:
+            self._document.preview(self._state)
+            self.changed.emit()
+
+    def _on_moved(self) -> None:
+        """Leave the sweep where something else is shown, which stays in view."""
+        if self._document.now is not self._state:
+            self._record(show=False)
+
+    def _record(self, show: bool) -> None:
+        title, self.sweep = self.title, None
+        if title is not None:
+            self._document.commit(title, self._state, show=show)
+            self.changed.emit()
+
+    def _forget(self) -> None:
+        self.sweep = self.last = self._state = None

@@ -1,0 +1,38 @@
+"""A node's step by Laplacian smoothing, smart or not: to the mean of its edge neighbours."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.kernels import laplacian as kernels
+from hexmend.mesh import Mesh
+from hexmend.node_step.explain import explained
+from hexmend.node_step.record import NodeStep, Pull
+from hexmend.node_step.straight import straight_step
+from hexmend.smoothers.laplacian import Laplacian
+from hexmend.smoothers.smart_laplacian import SmartLaplacian
+
+
+@explained.register
+def _(smoother: Laplacian, mesh: Mesh, node: int) -> NodeStep:
+    target, pulls = _mean(mesh, node)
+    return straight_step(smoother, mesh, node, target, target, pulls)
+
+
+@explained.register
+def _(smoother: SmartLaplacian, mesh: Mesh, node: int) -> NodeStep:
+    target, pulls = _mean(mesh, node)
+    corners, ring, points = mesh.topology.node_corners, mesh.topology.rings, mesh.points.copy()
+    kernels.guarded(
+        points, mesh.hexes, corners.start, corners.items, ring.start, ring.items,
+        np.array([node], np.int32), smoother.guard == "quality",
+    )  # fmt: skip
+    return straight_step(smoother, mesh, node, points[node], target, pulls)
+
+
+def _mean(mesh: Mesh, node: int) -> tuple[np.ndarray, tuple[Pull, ...]]:
+    """The mean of the edge neighbours, (3,), and what it is made of."""
+    ring, points = mesh.topology.rings, mesh.points.copy()
+    kernels.in_place(points, ring.start, ring.items, np.array([node], np.int32))
+    neighbours = ring[node].tolist()
+    return points[node], tuple(Pull("node", i, mesh.points[i], 1 / len(neighbours)) for i in neighbours)
