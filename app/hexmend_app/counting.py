@@ -8,6 +8,7 @@ from hexmend.quality import measure
 from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept, KeptMoments
 from hexmend_app.state.measured import values
+from hexmend_app.state.movement import MOVEMENTS
 from hexmend_app.state.session import Session
 from hexmend_app.widgets.histogram import QualityHistogram
 
@@ -43,8 +44,13 @@ class Counting:
 
     @property
     def metric(self) -> str:
-        """What is counted."""
-        return self._own or self._view.look.scale.metric
+        """What is counted; q where the colours show a movement, which is none of one moment."""
+        shown = self._view.look.scale.metric
+        return self._own or ("q" if shown in MOVEMENTS else shown)
+
+    @property
+    def _follows(self) -> bool:
+        return self._own is None and self.metric == self._view.look.scale.metric
 
     def show_another(self) -> None:
         """Take another mesh, of which nothing is kept."""
@@ -57,7 +63,7 @@ class Counting:
         start, now = self._document.start, self._document.now
         if self._counted != (self.metric, start):
             self._counted = (self.metric, start)
-            self._histogram.set_metric(self.metric, self._own is None)
+            self._histogram.set_metric(self.metric, self._follows)
             self._histogram.set_initial(self._values(start), start.figures.inverted)
             self._show_kept()
         self._histogram.set_current(self._values(now), now.figures.inverted)
@@ -80,10 +86,10 @@ class Counting:
 
     def _show_metric(self) -> None:
         look = self._view.look
-        self._smoothing.want({look.scale.metric, self.metric})
+        self._smoothing.want({look.scale.metric, self.metric} - MOVEMENTS.keys())
         if self._counted is not None and self._counted[0] != self.metric:
             self.refresh()
-        self._histogram.set_metric(self.metric, self._own is None)
+        self._histogram.set_metric(self.metric, self._follows)
         self._histogram.set_range(look.quality_range)
 
     # What is kept

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QScrollArea, QStyle, QTabBar, QVBoxLayout, QWidget
 
 #: Number of the layout: one that was saved with other docks is not restored.
-LAYOUT = 5
+LAYOUT = 6
 
 
 class _Column(QScrollArea):
@@ -45,15 +45,19 @@ def column(*parts: QWidget) -> QScrollArea:
 
 
 def add_docks(
-    window: QMainWindow, tools: QWidget, histogram: QWidget, tabs: list[tuple[str, str, QWidget]]
+    window: QMainWindow,
+    tools: QWidget,
+    histogram: QWidget,
+    tabs: list[tuple[str, str, QWidget]],
+    behind: list[tuple[str, str, QWidget]],
 ) -> dict[str, QDockWidget]:
-    """Put tools at the right, a histogram below, and beside it tabs, of which the first is in front.
+    """Put tools at the right, a histogram below with others behind it, and beside it tabs, the first in front.
 
     Parameters
     ----------
     window : QMainWindow
     tools, histogram : QWidget
-    tabs : list of (name, title, widget)
+    tabs, behind : list of (name, title, widget)
 
     Returns
     -------
@@ -64,9 +68,7 @@ def add_docks(
     window.setDockNestingEnabled(True)
     window.setCorner(Qt.Corner.BottomRightCorner, areas.RightDockWidgetArea)
     docks = {"tools": _dock(window, "tools", "Smooth, cut and colour", tools, areas.RightDockWidgetArea)}
-    below = docks["histogram"] = _dock(
-        window, "histogram", "Distribution of quality", histogram, areas.BottomDockWidgetArea
-    )
+    below = docks["histogram"] = _dock(window, "histogram", "Distribution", histogram, areas.BottomDockWidgetArea)
     for name, title, widget in tabs:
         docks[name] = _dock(window, name, title, widget, areas.BottomDockWidgetArea)
     first, *others = (docks[name] for name, _, _ in tabs)
@@ -74,6 +76,10 @@ def add_docks(
     for before, after in zip([first, *others], others, strict=False):
         window.tabifyDockWidget(before, after)
     first.raise_()
+    for name, title, widget in behind:
+        docks[name] = _dock(window, name, title, widget, areas.BottomDockWidgetArea)
+        window.tabifyDockWidget(below, docks[name])
+    below.raise_()
     window.resizeDocks([below, first], [540, 460], Qt.Orientation.Horizontal)
     window.resizeDocks([below], [270], Qt.Orientation.Vertical)
     return docks

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend_app.state.look import Look
+from hexmend_app.state.document import State
+from hexmend_app.state.look import Arrows, Look
+from hexmend_app.state.movement import MOVEMENTS
 from hexmend_app.state.session import Session
 from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
@@ -45,6 +47,8 @@ class Looking:
         self._inside = inside_panel
         self._structure = structure_panel
         self._canvas: Canvas | None = None
+        self._references = session.references
+        self._drawn: State | None = None  # the document's start, of the mesh that the view has
         view.look_changed.connect(self._on_look_changed)
         colour_panel.scale_changed.connect(lambda scale: view.change(scale=scale))
         clip_panel.clip_changed.connect(view.set_clip)
@@ -102,6 +106,8 @@ class Looking:
         if self._canvas is not None:
             self._canvas.show()
             self._draw()
+            self._drawn = self._document.start
+            self._compare()
             self._canvas.set_mesh(now.mesh, now.figures)
 
     def move(self, live: bool) -> None:
@@ -109,6 +115,7 @@ class Looking:
         if self._canvas is not None:
             now = self._document.now
             self._canvas.set_pinned(now.mesh.pinned)
+            self._compare()
             self._canvas.set_points(now.mesh.points, now.figures, live)
 
     def refresh(self) -> None:
@@ -136,7 +143,15 @@ class Looking:
 
     def _draw(self) -> None:
         if self._canvas is not None:
+            if self._document.is_open and self._drawn is self._document.start:
+                self._compare()
             self._canvas.set_look(self._drawable(), self._view.handles, self._view.plane_at)
+
+    def _compare(self) -> None:
+        """Bring the view what it shows of a movement, if anything."""
+        look = self._view.look
+        wanted = look.scale.metric in MOVEMENTS or look.traces.arrows is not Arrows.NONE
+        self._canvas.set_movement(self._references.movement(look.traces.since) if wanted else None)
 
     def _on_found(self) -> None:
         self._structure.set_found(self._finder.structure)

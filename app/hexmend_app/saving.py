@@ -18,7 +18,13 @@ from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.histogram_file import write_histogram
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.picture_dialog import PictureDialog
-from hexmend_app.widgets.questions import ask_comparison, ask_histogram, ask_list, ask_target
+from hexmend_app.widgets.questions import (
+    ask_comparison,
+    ask_convergence,
+    ask_histogram,
+    ask_list,
+    ask_target,
+)
 from hexmend_app.widgets.wording import counted
 from hexmend_app.widgets.worst_list import WorstList
 
@@ -125,6 +131,16 @@ class Saving:
             lambda: write_histogram(Path(path), self._histogram, self._document.name),
             f"Histogram saved to {path}",
         )
+
+    def ask_convergence(self, write: Callable[[Path], object]) -> None:
+        """Ask where the charts of convergence go and have them written."""
+        path = ask_convergence(self._parent, self._stem)
+        if path:
+            self.convergence(path, write)
+
+    def convergence(self, path: str | Path, write: Callable[[Path], object]) -> bool:
+        """Have the charts of convergence written, as figure or CSV by the suffix."""
+        return self._said("The charts were not saved", lambda: write(Path(path)), f"Convergence saved to {path}")
 
     def ask_comparison(self, comparison: Comparison) -> None:
         """Ask where the table of methods goes and write it."""

@@ -19,6 +19,7 @@ from hexmend_app.advising import Advising
 from hexmend_app.chaining import Chaining
 from hexmend_app.commands import Commands, methods_offered
 from hexmend_app.comparing import TICKED, Comparing
+from hexmend_app.converging import Converging
 from hexmend_app.counting import Counting
 from hexmend_app.debugging import Debugging
 from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
@@ -26,6 +27,7 @@ from hexmend_app.filming import Filming
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
 from hexmend_app.menus import build_menus
+from hexmend_app.moving import Moving
 from hexmend_app.opening import Opening
 from hexmend_app.resources import demo_mesh
 from hexmend_app.saving import Saving
@@ -41,11 +43,13 @@ from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
 from hexmend_app.widgets.compare_panel import ComparePanel
+from hexmend_app.widgets.convergence_panel import ConvergencePanel
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.movement_panel import MovementPanel
 from hexmend_app.widgets.node_panel import NodePanel
 from hexmend_app.widgets.outcome_panel import OutcomePanel
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
@@ -98,6 +102,8 @@ class Window(QMainWindow):
         self.inside_panel = InsidePanel()
         self.structure_panel = StructurePanel()
         self.colour_panel = ColourPanel()
+        self.convergence_panel = ConvergencePanel()
+        self.movement_panel = MovementPanel()
         self.timeline_bar = TimelineBar()
         self.busy = Busy()
         self.hint = Hint()
@@ -105,6 +111,7 @@ class Window(QMainWindow):
 
         self._lay_out()
         self.looking = Looking(session, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel)
+        self.moving = Moving(session, self.movement_panel, self.colour_panel)
         self.counting = Counting(session, self.histogram)
         self.inspecting = Inspecting(
             session, self.commands, self.worst_list, self.element_panel, self.docks["element"], self.docks["node"]
@@ -127,6 +134,7 @@ class Window(QMainWindow):
         )
         self.filming = Filming(self, session, self.busy, self.messages)
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
+        self.converging = Converging(session, self.convergence_panel, self.saving)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
         self.smoothing_panel.set_shortcuts(
             {id: self.actions_by_id[id].shortcut().toString() for id in ("run", "step", "stop", "reset")}
@@ -159,12 +167,16 @@ class Window(QMainWindow):
             ("quality", "Quality", self.statistics),
             ("worst", "Worst", self.worst_list),
             ("element", "Element", self.element_panel),
-            ("node", "Node", self.node_panel),
             ("tags", "Tags", self.tag_panel),
             ("outcome", "Outcome", self.outcome_panel),
             ("compare", "Compare", self.compare_panel),
         ]
-        self.docks = add_docks(self, tools, self.histogram, tabs)
+        behind = [
+            ("convergence", "Convergence", self.convergence_panel),
+            ("movement", "Movement", column(self.movement_panel)),
+            ("node", "Node", self.node_panel),
+        ]
+        self.docks = add_docks(self, tools, self.histogram, tabs, behind)
         self.statusBar().addWidget(self.counts, 1)
         self.statusBar().addPermanentWidget(self.busy)
         self.busy.done()
@@ -181,7 +193,7 @@ class Window(QMainWindow):
         self.inspecting.set_canvas(self.canvas)
         self.debugging.set_canvas(self.canvas)
         self.comparing.set_canvas(self.canvas)
-        self.saving.canvas = self.filming.canvas = self.canvas
+        self.saving.canvas = self.filming.canvas = self.moving.canvas = self.canvas
         self.canvas.setVisible(self.document.is_open)
         if self.document.is_open:
             self._on_mesh_replaced()
@@ -275,6 +287,7 @@ class Window(QMainWindow):
         self.tagging.refresh()
         self.comparing.move()
         self.looking.refresh()
+        self.moving.refresh()
         inverted = f"{now.summary.inverted:,} inverted" if now.summary.inverted else "none inverted"
         self.counts.setText(f"{now.summary.hexes:,} hexes, {inverted}")
 
@@ -352,6 +365,7 @@ class Window(QMainWindow):
         self.looking.set_enabled(self.document.is_open)
         self.tag_panel.setEnabled(self.document.is_open)
         self.histogram.setEnabled(self.document.is_open)
+        self.movement_panel.setEnabled(self.document.is_open)
         self.setWindowTitle(f"{self.document.name}[*] – Hexmend" if self.document.is_open else "Hexmend")
         self.setWindowModified(self.document.modified)
 

@@ -15,6 +15,9 @@ from hexmend.run import Stop
 from hexmend_app.commands import methods_offered
 from hexmend_app.scene.picture import picture
 from hexmend_app.state import theme
+from hexmend_app.state.convergence import Columns, Curve
+from hexmend_app.state.document import State
+from hexmend_app.state.history import Record
 from hexmend_app.state.look import Look, ValueRange
 from hexmend_app.state.recent import Recent
 from hexmend_app.state.theme import THEME, Choice, Role
@@ -23,12 +26,12 @@ from hexmend_app.widgets.clip_panel import ClipPanel
 from hexmend_app.widgets.colour_bar import ColourBar
 from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
+from hexmend_app.widgets.convergence_panel import ConvergencePanel
 from hexmend_app.widgets.element_panel import ElementPanel
 from hexmend_app.widgets.hint import Hint
 from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
-from hexmend_app.widgets.progress_chart import ProgressChart
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
 from hexmend_app.widgets.statistics import StatisticsTable
 from hexmend_app.widgets.style import apply_style
@@ -124,11 +127,17 @@ def told():
     return bar
 
 
-def chart():
-    widget = ProgressChart()
-    for k in range(4):
-        widget.add(k, 0.1 * k, 0.5 + 0.1 * k, 5 - k)
-    return widget
+def convergence():
+    panel = ConvergencePanel()
+    record = Record("getme", "GETMe", State.of(MESH), None)
+    record.rows = [
+        {"iteration": k, "seconds": 0.1 * k, "objective": 9.0 - k, "q_min": 0.1 * k, "q_mean": 0.5, "inverted": 5 - k}
+        for k in range(4)
+    ]
+    columns = Columns(record)
+    columns.grow()
+    panel.set_curves([Curve(columns, 0, (0.0, 0.0), True, True, False, record.numbers)])
+    return panel
 
 
 def colours():
@@ -154,7 +163,7 @@ BUILT = {
     "error": lambda: messages("error"),
     "warning": lambda: messages("warning"),
     "info": told,
-    "chart": chart,
+    "convergence": convergence,
     "colour bar": ColourBar,
     "welcome": lambda: Welcome(Recent()),
     "hint": Hint,

@@ -8,16 +8,33 @@ from functools import cache
 
 import numpy as np
 
-from hexmend.quality import METRICS
 from hexmend_app.scene.values import better, declared_range
 from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.state.movement import MOVEMENTS, NOTHING, named
 
 #: The maps on offer, each perceptually uniform; the first is the default. None diverges: that would need a value in the
 #: middle that means something, and the one there might be, zero, parts off the inverted, which have their own colour.
 MAPS = ("viridis", "cividis", "plasma", "inferno")
 
-#: Colour of inverted elements, in no map of ours: magenta.
+#: The map of changes, in whose middle is none: from brown for worse to teal for better.
+DIVERGING = "BrBG"
+
+#: Colour of inverted elements, in no map of ours: magenta. In colours of changes it is that of the newly inverted; what
+#: was so before is duller, and what no longer is is yellow.
 INVERTED = (0xE6, 0x19, 0x8A)
+_STILL, _MENDED = (0x8E, 0x4B, 0x76), (0xF0, 0xE4, 0x42)
+
+
+@dataclass(frozen=True)
+class Apart:
+    """Elements that have a colour of their own, whatever their value."""
+
+    name: str
+    colour: tuple[int, int, int]
+
+
+_INVERTED = (Apart("inverted", INVERTED),)
+_CHANGED = (Apart("newly inverted", INVERTED), Apart("still inverted", _STILL), Apart("mended", _MENDED))
 
 # A fitted range is at least this wide, relative to its values: less is rounding.
 _NARROWEST = 1e-6
@@ -32,7 +49,7 @@ def table(name: str) -> np.ndarray:
     KeyError
         For a map that is not among `MAPS`.
     """
-    if name not in MAPS:
+    if name not in (*MAPS, DIVERGING):
         raise KeyError(f"there is no colour map {name!r}: known are {', '.join(MAPS)}")
     from matplotlib import colormaps
 
@@ -53,29 +70,32 @@ class Colouring:
         What the first and the last colour stand for.
     table : (256, 3) uint8
         The colours, that of the lowest value first.
+    apart : tuple of Apart
     """
 
     title: str
     low: float
     high: float
     table: np.ndarray
+    apart: tuple[Apart, ...] = _INVERTED
 
-    def colours(self, values: np.ndarray, inverted: np.ndarray) -> np.ndarray:
+    def colours(self, values: np.ndarray, kinds: np.ndarray) -> np.ndarray:
         """Colour of each element, (k, 3) uint8.
 
         Parameters
         ----------
         values : (k,) float64
             Values beyond the ends of the range have the ends' colours.
-        inverted : (k,) bool
-            These have the colour `INVERTED`, whatever their value.
+        kinds : (k,) bool or uint8
+            1 for what has the first colour of `apart` whatever its value, 2 for the second...; 0 for the others.
         """
         with np.errstate(over="ignore", invalid="ignore"):  # far beyond an end is beyond it
             place = (np.asarray(values) - self.low) * (255.999 / (self.high - self.low))
         np.clip(place, 0, 255, out=place)
         # What has no value (nan) is inverted, or else drawn as the lowest.
         answer = self.table[np.nan_to_num(place, copy=False, nan=0.0).astype(np.uint8)]
-        answer[inverted] = INVERTED
+        for kind, one in enumerate(self.apart, start=1):
+            answer[kinds == kind] = one.colour
         return answer
 
     def label(self, value: float) -> str:
@@ -84,7 +104,11 @@ class Colouring:
 
 
 def resolve(
-    scale: ColourScale, values: np.ndarray, inverted: np.ndarray, beside: tuple[float, float] | None = None
+    scale: ColourScale,
+    values: np.ndarray,
+    inverted: np.ndarray,
+    beside: tuple[float, float] | None = None,
+    title: str = "",
 ) -> Colouring:
     """Find the ends of a scale's range: here alone, so that all that shows colours agrees.
 
@@ -97,15 +121,21 @@ def resolve(
         They have a colour of their own, so no range is fitted to them unless there are no others.
     beside : (low, high), optional
         What a range that is fitted has to span too: the values of meshes that are to be compared by their colours.
+    title : str
+        Of what the colours show, where it is not the metric's.
     """
-    ends = declared_ends(scale)
+    ends, change = declared_ends(scale), scale.metric == "q-change"
     if ends is None:
         low, high = fitted(values, inverted)
         ends = (low, high) if beside is None else (min(low, beside[0]), max(high, beside[1]))
-    colours = table(scale.map)
+        if scale.metric in MOVEMENTS:
+            most = max(abs(end) for end in ends)
+            most = most if most > NOTHING else 1.0
+            ends = (-most if change else 0.0, most)
+    colours = table(DIVERGING if change else scale.map)
     if scale.reverse != (better(scale.metric) < 0):
         colours = colours[::-1]
-    return Colouring(METRICS[scale.metric].title, *ends, colours)
+    return Colouring(title or named(scale.metric).title, *ends, colours, _CHANGED if change else _INVERTED)
 
 
 def declared_ends(scale: ColourScale) -> tuple[float, float] | None:

@@ -15,6 +15,7 @@ from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.panes import ROOM, Panes, columns
 from hexmend_app.scene.picture import INK, colour_bar, letters, paper, strip_height
 from hexmend_app.state.look import Look
+from hexmend_app.state.movement import Movement
 from hexmend_app.state.views import Wipe
 
 #: Height of a row of captions, by that of the colour bar.
@@ -51,6 +52,7 @@ def figure(
     size: tuple[int, int],
     *,
     filters: Filters | None = None,
+    movement: Movement | None = None,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
     wipe: Wipe | None = None,
@@ -63,7 +65,7 @@ def figure(
     ----------
     panels : sequence of Panel
         Two to four.
-    look, size, filters, view, camera, transparent, bar
+    look, size, filters, movement, view, camera, transparent, bar
         As for `hexmend_app.scene.picture.picture`.
     wipe : Wipe, optional
         Lays two of them over one another; None shows all side by side.
@@ -77,6 +79,7 @@ def figure(
     )
     try:
         panes = Panes(plotter)
+        panes.set_movement(movement)
         panes.set_look(look)
         first, *others = panels
         panes.first.set_mesh(first.mesh, first.figures, filters)
@@ -89,7 +92,7 @@ def figure(
         panes.still()
         plotter.show(auto_close=False, interactive=False)
         pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
-        colouring = panes.first.colouring
+        colouring, apart = panes.first.colouring, [(name, None, colour) for name, _, colour in panes.first.apart]
     finally:
         plotter.close()
     image = Image.fromarray(np.asarray(pixels))
@@ -98,7 +101,7 @@ def figure(
     if line:
         _write(whole, panels, wipe, line, line + image.height)
     if strip:
-        whole.paste(colour_bar(colouring, None, (width, strip), image.mode), (0, height - strip))
+        whole.paste(colour_bar(colouring, apart, (width, strip), image.mode), (0, height - strip))
     return whole
 
 

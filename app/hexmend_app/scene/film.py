@@ -13,7 +13,8 @@ from hexmend.errors import HexmendError
 from hexmend.io.atomic import replacing
 from hexmend_app.scene.picture import INK, colour_bar, letters, paper, strip_height
 from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.look import Look
+from hexmend_app.state.look import Look, Since
+from hexmend_app.state.movement import Moment, Movement
 from hexmend_app.state.shots import Shot
 
 #: What can be written, by suffix: all are shown by browsers.
@@ -33,6 +34,7 @@ def pictures(
     *,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
+    movement: Movement | None = None,
 ) -> Iterator[Image.Image]:
     """Draw frames one after another, off screen, with one camera.
 
@@ -46,6 +48,9 @@ def pictures(
         The direction to look from, where no camera is given.
     camera : pyvista.Camera, optional
         To be looked through.
+    movement : Movement, optional
+        Of the moment that every picture is compared with, where the look shows a movement; one since the iteration
+        before is since the picture before.
     """
     width, height = size
     strip = strip_height(size)
@@ -53,8 +58,15 @@ def pictures(
     try:
         viewport = Viewport(plotter)
         viewport.set_look(look)
+        seen_last: Moment | None = None
         for shot in shots:
             mesh, figures = shot.state.mesh, shot.state.figures
+            if movement is not None:
+                before = seen_last if look.traces.since is Since.ITERATION else movement.before
+                now = Moment(mesh.points, figures, "the picture before")
+                movement = Movement(movement.mesh, before or now, mesh.points, figures)
+                viewport.set_movement(movement)
+                seen_last = now
             if viewport.colouring is None:
                 viewport.set_mesh(mesh, figures)
                 _place(plotter, viewport, view, camera)
@@ -87,7 +99,7 @@ def _framed(seen: Image.Image, shot: Shot, viewport: Viewport, size: tuple[int, 
     if strip:
         at = (round(0.3 * strip), strip / 2)
         ImageDraw.Draw(whole).text(at, shot.caption, INK, letters(0.42 * strip), anchor="lm")
-        bar = colour_bar(viewport.colouring, shot.state.figures.n_inverted, (size[0], strip), seen.mode)
+        bar = colour_bar(viewport.colouring, viewport.apart, (size[0], strip), seen.mode)
         whole.paste(bar, (0, size[1] - strip))
     return whole
 

@@ -15,6 +15,7 @@ from hexmend_app.scene.colours import declared_ends
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
+from hexmend_app.state.movement import Movement
 from hexmend_app.state.theme import LINE
 from hexmend_app.state.views import MOST, Wipe
 
@@ -63,6 +64,7 @@ class Panes:
         self._dark = False
         self._others: dict[int, tuple[Mesh, Viewport]] = {}  # by renderer
         self._order: list[int] = []
+        self._movement: Movement | None = None
         self.wipe: Wipe | None = None  # None where all stand side by side
         self._centres: dict[Viewport, float] = {}  # of the wipe's halves
         self._borders: list[tuple[pv.Renderer, vtkActor2D]] = []
@@ -116,6 +118,8 @@ class Panes:
         same = np.array_equal(mesh.hexes, self.first.mesh.hexes)
         view.set_mesh(mesh, figures, self.first.filters if same else None, fly=False)
         self._others[at] = mesh, view
+        self._compare(view)
+        view.catch_up()
         self._watch(view)
         return at
 
@@ -134,6 +138,26 @@ class Panes:
         for view in self.all:
             view.set_look(look)
         self.level()
+
+    def set_movement(self, movement: Movement | None) -> None:
+        """Take what colours and arrows of a movement show; views beside the first compare with the same moment."""
+        self._movement = movement
+        self.first.set_movement(movement)
+        for _, view in self._others.values():
+            self._compare(view)
+
+    def _compare(self, view: Viewport) -> None:
+        movement = self._movement
+        known = view.movement
+        if movement is None or not np.array_equal(movement.mesh.hexes, view.mesh.hexes):
+            view.set_movement(None)
+        elif known is None or known.before.points is not movement.before.points:
+            view.set_movement(movement.until(view.mesh.points, view.figures))
+
+    def catch_up(self) -> None:
+        """Draw what has been taken by views whose nodes stay."""
+        for _, view in self._others.values():
+            view.catch_up()
 
     def set_dark(self, dark: bool) -> None:
         """Draw on the dark theme's ground, or on the light one's."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +12,11 @@ from PIL import Image, ImageDraw, ImageFont
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality
-from hexmend_app.scene.colours import INVERTED, Colouring
+from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
+from hexmend_app.state.movement import Movement
 
 INK = (31, 38, 48)
 
@@ -30,6 +32,7 @@ def picture(
     *,
     filters: Filters | None = None,
     node_step: NodeStep | None = None,
+    movement: Movement | None = None,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
     transparent: bool = False,
@@ -50,6 +53,8 @@ def picture(
         plane comes, not where they are now.
     node_step : NodeStep, optional
         A node's step that is drawn too.
+    movement : Movement, optional
+        What colours and arrows of a movement show.
     view : str or vector
         The direction to look from, where no camera is given.
     camera : pyvista.Camera, optional
@@ -64,6 +69,7 @@ def picture(
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
     try:
         viewport = Viewport(plotter)
+        viewport.set_movement(movement)
         viewport.set_look(look)
         viewport.set_mesh(mesh, figures, filters)
         viewport.show_node_step(node_step)
@@ -83,7 +89,7 @@ def picture(
         return image
     whole = paper(size, image.mode)
     whole.paste(image, (0, 0))
-    whole.paste(colour_bar(viewport.colouring, figures.n_inverted, (width, strip), image.mode), (0, height - strip))
+    whole.paste(colour_bar(viewport.colouring, viewport.apart, (width, strip), image.mode), (0, height - strip))
     return whole
 
 
@@ -99,14 +105,16 @@ def strip_height(size: tuple[int, int]) -> int:
     return max(30, round(0.075 * min(height, width * 5 / 8))) if room else 0
 
 
-def colour_bar(colouring: Colouring, inverted: int | None, size: tuple[int, int], mode: str = "RGB") -> Image.Image:
-    """The colours from the lowest value to the highest, ticks, the swatch of inverted elements.
+def colour_bar(
+    colouring: Colouring, apart: Sequence[tuple[str, int | None, tuple]], size: tuple[int, int], mode: str = "RGB"
+) -> Image.Image:
+    """The colours from the lowest value to the highest, ticks, the swatches of what is set apart.
 
     Parameters
     ----------
     colouring : Colouring
-    inverted : int or None
-        How many are inverted; None leaves that out.
+    apart : sequence of (name, number of elements or None, colour)
+        None leaves the number out.
     size : (width, height)
         In pixels.
     mode : str
@@ -127,10 +135,13 @@ def colour_bar(colouring: Colouring, inverted: int | None, size: tuple[int, int]
         x, value = left + (right - left) * k / 5, low + (high - low) * k / 5
         draw.line((x, bottom, x, bottom + 2 * unit), INK, max(1, round(unit)))
         draw.text((x, bottom + 3 * unit), colouring.label(value), INK, font, anchor="mt")
-    swatch = right + round(24 * unit)
-    draw.rectangle((swatch, top, swatch + round(11 * unit), bottom), INVERTED)
-    count = "inverted" if inverted is None else f"inverted ({inverted:,})"
-    draw.text((swatch + round(17 * unit), (top + bottom) / 2), count, INK, font, anchor="lm")
+    swatch, side = right + round(24 * unit), (11 if len(apart) == 1 else 7) * unit
+    small = font if len(apart) == 1 else letters(8 * unit)
+    for row, (name, count, colour) in enumerate(apart):
+        above = top + round(9 * unit) * row
+        draw.rectangle((swatch, above, swatch + round(side), above + round(side)), colour)
+        text = name if count is None else f"{name} ({count:,})"
+        draw.text((swatch + round(17 * unit), above + side / 2), text, INK, small, anchor="lm")
     return image
 
 

@@ -150,7 +150,7 @@ class StructureLayers:
         answer = np.ones(len(edges), bool)
         if self._keep is not None:
             answer = _edges_kept(self._mesh.hexes, rows.start, rows.items, edges, self._keep)
-        return answer & _uncut(self._look, points[edges].mean(axis=1))
+        return answer & uncut(self._look, points[edges].mean(axis=1))
 
     def _choose_nodes(self, points: np.ndarray, figures: ElementQuality) -> None:
         wanted = self._look.structure
@@ -160,7 +160,7 @@ class StructureLayers:
             return
         places = self._faces.places(points)
         kinds = node_kinds(self._mesh, points, figures, wanted)[self._faces.nodes]
-        chosen = (kinds > 0) & _uncut(self._look, places)
+        chosen = (kinds > 0) & uncut(self._look, places)
         for marks, these in ((self._nodes, chosen & (kinds < 4)), (self._locked, chosen & (kinds == 4))):
             marks.show(np.flatnonzero(these)[:, None], _KINDS[kinds[these]], places)
 
@@ -197,7 +197,7 @@ def node_kinds(mesh: Mesh, points: np.ndarray, figures: ElementQuality, wanted: 
     return kinds
 
 
-def _uncut(look: Look, points: np.ndarray) -> np.ndarray | bool:
+def uncut(look: Look, points: np.ndarray) -> np.ndarray | bool:
     """True for points, (k, 3), that a cut through elements leaves; such a cut alone goes by points."""
     clip = look.clip
     if clip is None or clip.crinkle:

@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.quality import METRICS
 from hexmend_app.state.look import RangeMode, ValueRange
+from hexmend_app.state.movement import named
 
 
 def within(values: np.ndarray, chosen: ValueRange) -> np.ndarray:
@@ -21,10 +22,10 @@ def within(values: np.ndarray, chosen: ValueRange) -> np.ndarray:
 
 def better(metric: str) -> int:
     """1 for a metric of which more is better, -1 where less is, 0 where neither is."""
-    return METRICS[metric].better
+    return named(metric).better
 
 
 def declared_range(metric: str, mode: RangeMode) -> tuple[float, float] | None:
     """The range that a metric itself declares for the mode FULL or ACCEPTABLE; None where an end of it is infinite."""
-    declared = METRICS[metric].full_range if mode is RangeMode.FULL else METRICS[metric].acceptable
+    declared = named(metric).full_range if mode is RangeMode.FULL else named(metric).acceptable
     return tuple(map(float, declared)) if np.isfinite(declared).all() else None

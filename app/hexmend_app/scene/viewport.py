@@ -10,6 +10,7 @@ from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node, corner_qualities
 from hexmend_app.scene import cut
+from hexmend_app.scene.arrows import ArrowLayer
 from hexmend_app.scene.coarse import MANY, coarse
 from hexmend_app.scene.colours import Colouring, fitted, resolve
 from hexmend_app.scene.filters import Filters
@@ -21,10 +22,11 @@ from hexmend_app.scene.node_step import NodeStepMarks
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
-from hexmend_app.scene.structure import StructureLayers
-from hexmend_app.scene.surface import Surface, hex_of, quads, set_colours, set_points
-from hexmend_app.state.look import Look
+from hexmend_app.scene.structure import StructureLayers, uncut
+from hexmend_app.scene.surface import Surface, hex_of, hexes_of, quads, set_colours, set_points
+from hexmend_app.state.look import Arrows, Look
 from hexmend_app.state.measured import values
+from hexmend_app.state.movement import MOVEMENTS, Movement
 from hexmend_app.state.theme import AXES, BACKGROUND
 
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
@@ -68,6 +70,7 @@ class Viewport:
         self._mesh: Mesh | None = None
         self._look = Look()
         self._fast = False
+        self._measured = False
         self._coarse: pv.PolyData | None = None  # of the skin, drawn while the camera moves
         self._steady = False  # nothing but the camera has moved since the last fine frame
         self._colouring: Colouring | None = None
@@ -83,6 +86,8 @@ class Viewport:
         ]
         self._outline: Silhouette | None = None
         self._structure = StructureLayers(plotter)
+        self._arrows = ArrowLayer(plotter)
+        self._movement: Movement | None = None
         self._highlight = Highlight(plotter)
         self._node_step = NodeStepMarks(plotter)
         self._selected: int | None = None
@@ -160,13 +165,24 @@ class Viewport:
             self._mesh = self._mesh.replace(pinned=pinned)
             self._structure.set_pins(self._mesh)
 
+    def set_movement(self, movement: Movement | None) -> None:
+        """Take what colours and arrows of a movement show; drawn with the next mesh, points or look."""
+        if movement is not self._movement:
+            self._movement, self._measured = movement, False
+
+    def catch_up(self) -> None:
+        """Draw another movement though neither the nodes nor the look have changed."""
+        if not self._measured:
+            self._measure()
+            self._move(self._keep)
+
     def set_look(self, look: Look) -> None:
         """Draw it differently."""
         before, self._look = self._look, look
         for surface in (self._skin_surface, self._section_surface):
             surface.show_edges(look.edges)
         if self._mesh is not None and look != before:
-            if look.scale != before.scale:
+            if look.scale != before.scale or not self._measured:
                 self._measure()
             self._rebuild(self.kept())
 
@@ -259,9 +275,17 @@ class Viewport:
 
     def _measure(self) -> None:
         """The values that the colours show, and the range that they span."""
-        figures, scale = self._figures, self._look.scale
-        self._values = values(scale.metric, self._points, self._mesh.hexes, figures)
-        self._colouring = resolve(scale, self._values, figures.inverted, self._beside)
+        figures, scale, movement = self._figures, self._look.scale, self._movement
+        self._kinds, self._measured, title = figures.inverted, True, ""
+        if scale.metric not in MOVEMENTS:
+            self._values = values(scale.metric, self._points, self._mesh.hexes, figures)
+        elif movement is None:
+            self._values = np.zeros(self._mesh.n_hexes)
+        else:
+            self._values = movement.values(scale.metric)
+            self._kinds = movement.kinds if scale.metric == "q-change" else figures.inverted
+            title = movement.title(scale.metric)
+        self._colouring = resolve(scale, self._values, figures.inverted, self._beside, title)
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -318,6 +342,38 @@ class Viewport:
         self._skin_surface.stand_in(None)
         self._replace(keep)
         self._outline_inverted()
+        self._draw_arrows(keep)
+
+    def _draw_arrows(self, keep: np.ndarray | None) -> None:
+        traces, movement = self._look.traces, self._movement
+        if traces.arrows is Arrows.NONE or movement is None:
+            self._arrows.hide()
+            return
+        through, hexes = traces.arrows is Arrows.ALL, self._mesh.hexes
+        nodes = np.zeros(self._mesh.n_nodes, bool)
+        if through:
+            nodes[hexes if keep is None else hexes[keep]] = True
+        else:
+            nodes[self._faces.nodes] = True
+            if self._section_surface.shown:
+                nodes[hexes[hexes_of(self._section_surface.poly)]] = True
+        self._arrows.show(movement, nodes & uncut(self._look, self._points), traces.factor, through)
+
+    @property
+    def arrows(self) -> tuple[int, int]:
+        """How many arrows are drawn, and how many nodes could have one."""
+        return self._arrows.drawn, self._arrows.moved
+
+    @property
+    def movement(self) -> Movement | None:
+        """What colours and arrows of a movement show."""
+        return self._movement
+
+    @property
+    def apart(self) -> list[tuple[str, int, tuple[int, int, int]]]:
+        """What has a colour of its own whatever its value: name, number of elements, colour."""
+        counts = np.bincount(self._kinds, minlength=len(self._colouring.apart) + 1)
+        return [(one.name, int(counts[k]), one.colour) for k, one in enumerate(self._colouring.apart, start=1)]
 
     def _outline_inverted(self) -> None:
         """Outline inverted elements; where they are many, in fine frames alone: they cost half of a fast one."""
@@ -347,12 +403,13 @@ class Viewport:
         return self._colours(self._faces.hexes)
 
     def _colours(self, hexes: np.ndarray | slice) -> np.ndarray:
-        return self._colouring.colours(self._values[hexes], self._figures.inverted[hexes])
+        return self._colouring.colours(self._values[hexes], self._kinds[hexes])
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """What draws this view, one layer over the other."""
-        return self._plotter.renderer, self._structure.layer, self._highlight.layer, *self._node_step.layers
+        layers = (self._structure.layer, self._arrows.layer, self._highlight.layer, *self._node_step.layers)
+        return self._plotter.renderer, *layers
 
     def fit_axes(self) -> None:
         """Draw the axes in this view's corner, as large as in a window of one view, and so that they can be read."""
@@ -418,6 +475,7 @@ class Viewport:
         if fast != self._fast:
             self._fast = fast
             self._structure.set_fast(fast)
+            self._arrows.set_fast(fast)
             if self._mesh is not None and self._faces.many:
                 self._rebuild(self.kept())
             elif self._mesh is not None:

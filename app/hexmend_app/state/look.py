@@ -31,7 +31,7 @@ class ColourScale:
     Parameters
     ----------
     metric : str
-        A name of `hexmend.quality.METRICS`.
+        A name of `hexmend.quality.METRICS`, or of `hexmend_app.state.movement.MOVEMENTS`.
     map : str
         A name of `hexmend_app.scene.colours.MAPS`.
     mode : RangeMode
@@ -54,6 +54,45 @@ class ColourScale:
             raise ValueError(f"the colours' range is {self.pinned}: expected two numbers, the lower first")
         object.__setattr__(self, "mode", RangeMode(self.mode))
         object.__setattr__(self, "pinned", (low, high))
+
+
+class Since(StrEnum):
+    """The moment that the mesh is compared with."""
+
+    OPENED = "opened"
+    """As it was opened."""
+    RUN = "run"
+    """As the run began of which an iteration is shown."""
+    ITERATION = "iteration"
+    """As it was an iteration ago, or at the nearest one before that is kept."""
+
+
+class Arrows(StrEnum):
+    """Which nodes have arrows from where they were to where they are."""
+
+    NONE = "none"
+    SIGHT = "sight"
+    """Those of the faces that are seen."""
+    ALL = "all"
+    """Those of all elements that are shown, through whatever is before them."""
+
+
+@dataclass(frozen=True)
+class Traces:
+    """What is drawn of how the mesh has moved, beside the colours.
+
+    Parameters
+    ----------
+    since : Since
+        The moment that arrows, and colours of a movement, compare with.
+    arrows : Arrows
+    factor : float
+        How many times as long as the way of their nodes arrows are.
+    """
+
+    since: Since = Since.OPENED
+    arrows: Arrows = Arrows.NONE
+    factor: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -156,6 +195,8 @@ class Look:
         Draw the elements' edges.
     structure : Structure
         What is drawn of the mesh's structure.
+    traces : Traces
+        What is drawn of how the mesh has moved.
     """
 
     clip: Clip | None = None
@@ -168,3 +209,4 @@ class Look:
     scale: ColourScale = ColourScale()
     edges: bool = True
     structure: Structure = Structure()
+    traces: Traces = Traces()

@@ -10,6 +10,7 @@ from hexmend_app.state.explainer import Explainer
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.history import History
 from hexmend_app.state.opener import Opener
+from hexmend_app.state.reference import References
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
 from hexmend_app.state.stepping import Stepping
@@ -29,6 +30,7 @@ class Session(QObject):
     history : History
     smoothing : Smoothing
     timeline : Timeline
+    references : References
     opener : Opener
     finder : Finder
     explainer : Explainer
@@ -45,6 +47,7 @@ class Session(QObject):
         self.history = History()
         self.smoothing = Smoothing(self.document, self.history, self)
         self.timeline = Timeline(self.document, self.smoothing, self.history, self)
+        self.references = References(self.document, self.history)
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
         self.explainer = Explainer(self)

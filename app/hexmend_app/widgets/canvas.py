@@ -17,7 +17,7 @@ from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene.box_widget import BoxWidget
-from hexmend_app.scene.colours import INVERTED, Colouring
+from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.figure import Panel, figure
 from hexmend_app.scene.flight import Flight
 from hexmend_app.scene.panes import ROOM, Panes
@@ -25,6 +25,7 @@ from hexmend_app.scene.picture import picture
 from hexmend_app.scene.plane_widget import PlaneWidget
 from hexmend_app.state.clip import BoxClip, Clip, PlaneClip
 from hexmend_app.state.look import Look
+from hexmend_app.state.movement import Movement
 from hexmend_app.state.theme import BLUE, THEME
 from hexmend_app.state.views import Wipe
 from hexmend_app.widgets.colour_bar import ColourBar
@@ -124,6 +125,7 @@ class Canvas(QWidget):
     def set_points(self, points: np.ndarray, figures: ElementQuality, live: bool = False) -> None:
         """Draw the same mesh with its nodes elsewhere; `live` where more is to come, so that no fine frame is due."""
         self.viewport.set_points(points, figures)
+        self.panes.catch_up()
         self.panes.level()
         self._show_colours()
         self._changed()
@@ -134,9 +136,14 @@ class Canvas(QWidget):
         """Take which nodes are pinned, (n,) bool; drawn with the next points."""
         self.viewport.set_pinned(pinned)
 
+    def set_movement(self, movement: Movement | None) -> None:
+        """Take what colours and arrows of a movement show; drawn with the next mesh, points or look."""
+        self.panes.set_movement(movement)
+
     def set_look(self, look: Look, handles: bool, at: int = 0) -> None:
         """Draw it differently, with handles at the box, or at one of the planes, or without."""
         self.panes.set_look(look)
+        self.panes.catch_up()
         self._handled = look.clip, handles, at
         self._show_handles()
         self._show_colours()
@@ -276,7 +283,12 @@ class Canvas(QWidget):
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
         """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
         seen = self.viewport
-        how = {"filters": seen.filters, "camera": seen.camera, "transparent": transparent}
+        how = {
+            "filters": seen.filters,
+            "movement": seen.movement,
+            "camera": seen.camera,
+            "transparent": transparent,
+        }
         if len(self.panes.all) == 1:
             image = picture(seen.mesh, seen.figures, seen.look, size, node_step=seen.node_step, **how)
         else:
@@ -310,7 +322,7 @@ class Canvas(QWidget):
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)
             alone = len(self.panes.all) == 1  # of several, the captions say how many
-            self.colour_bar.set_inverted(self.viewport.figures.n_inverted if alone else 0, INVERTED)
+            self.colour_bar.set_apart([(name, n if alone else 0, colour) for name, n, colour in self.viewport.apart])
 
     def _changed(self) -> None:
         self.panes.moving()

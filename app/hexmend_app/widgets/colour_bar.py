@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
@@ -59,8 +60,7 @@ class ColourBar(QWidget):
         self._label = label
         self._table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
         self._low, self._high = 0.0, 1.0
-        self._inverted = 0
-        self._colour = QColor(INVERTED)
+        self._apart: list[tuple[str, int, QColor]] = [("inverted", 0, QColor(INVERTED))]
         self.setFont(tabular(smaller(self.font())))
         self.setContentsMargins(9, 3, 9, 3)
         fixed, grows = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding
@@ -88,10 +88,12 @@ class ColourBar(QWidget):
         self._describe()
         self.update()
 
-    def set_inverted(self, count: int, colour: object = INVERTED) -> None:
-        """Take the number of inverted elements and the colour they are drawn in: a name or (red, green, blue) bytes."""
-        self._inverted = int(count)
-        self._colour = QColor(colour) if isinstance(colour, str | QColor) else QColor(*(int(c) for c in colour))
+    def set_apart(self, apart: Sequence[tuple[str, int, object]]) -> None:
+        """Take what has a colour of its own: name, number of elements, colour as name or (red, green, blue) bytes."""
+        self._apart = [
+            (name, int(count), QColor(colour) if isinstance(colour, str | QColor) else QColor(*map(int, colour)))
+            for name, count, colour in apart
+        ]
         self._describe()
         self.updateGeometry()
         self.update()
@@ -102,16 +104,14 @@ class ColourBar(QWidget):
             self,
             "Colour bar",
             f"Colours stand for {self._label} from {low} to {high}; values beyond an end have the end's colour. "
-            "Inverted elements, which are turned inside out at a corner (a determinant σ ≤ 0), are outlined and have a "
-            "colour of their own.",
+            f"Elements that are {' or '.join(name for name, *_ in self._apart)} have a colour of their own; inverted "
+            "ones are turned inside out at a corner (a determinant σ ≤ 0), and outlined.",
         )
-        self.setAccessibleDescription(f"{self._swatch_text()}; {self._label} from {low} to {high}")
+        texts = "; ".join(_swatch_text(name, count) for name, count, _ in self._apart)
+        self.setAccessibleDescription(f"{texts}; {self._label} from {low} to {high}")
 
     def _text(self, value: float) -> str:
         return range_label(value, self._low, self._high)
-
-    def _swatch_text(self) -> str:
-        return f"inverted ({self._inverted:,})" if self._inverted else "inverted"
 
     def sizeHint(self) -> QSize:
         """As much as the labels need."""
@@ -119,52 +119,56 @@ class ColourBar(QWidget):
         if self._across:
             size = QSize(300, math.ceil(_THICKNESS + _TICK + metrics.height() + 3))
         else:
-            width = max(_THICKNESS + _TICK + 3 + metrics.horizontalAdvance("0.000"), self._swatch_room(metrics))
+            width = max(_THICKNESS + _TICK + 3 + metrics.horizontalAdvance("0.000"), *self._rooms(metrics))
             size = QSize(math.ceil(width), 200)
         return size.grownBy(margins)
 
     minimumSizeHint = sizeHint
 
-    def _swatch_room(self, metrics: QFontMetricsF) -> float:
-        """Width of the swatch's text, with room for a large count so that the gradient holds still during a run."""
-        wide = "inverted (00,000)" if 0 < self._inverted < 100_000 else self._swatch_text()
-        return metrics.horizontalAdvance(wide)
+    def _rooms(self, metrics: QFontMetricsF) -> list[float]:
+        """Width of each swatch's text; a single one has room for a large count, so that the gradient holds still."""
+        if len(self._apart) > 1:
+            return [max(_SWATCH, metrics.horizontalAdvance(_swatch_text(name, n))) for name, n, _ in self._apart]
+        ((name, count, _),) = self._apart
+        wide = f"{name} (00,000)" if 0 < count < 100_000 else _swatch_text(name, count)
+        return [metrics.horizontalAdvance(wide)]
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint swatch, gradient, ticks and labels."""
+        """Paint swatches, gradient, ticks and labels."""
         painter = QPainter(self)
         painter.setFont(self.font())
         metrics = QFontMetricsF(self.font())
-        swatch, bar = self._boxes(metrics)
-        painter.fillRect(swatch, self._colour)
+        swatches, bar = self._boxes(metrics)
         # One row of 256 pixels, stretched by the painter at the screen's own resolution.
         table = self._table if self._across else np.ascontiguousarray(self._table[::-1])
         n = len(table)
         width, height = (n, 1) if self._across else (1, n)
         image = QImage(table.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888)
         painter.drawImage(bar, image)
+        for swatch, (*_, colour) in zip(swatches, self._apart, strict=True):
+            painter.fillRect(swatch, colour)
         painter.setPen(QPen(QColor(str(LINE)), 0))
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawRect(swatch)
-        painter.drawRect(bar)
-        self._paint_labels(painter, metrics, swatch, bar)
+        painter.drawRects([*swatches, bar])
+        self._paint_labels(painter, metrics, swatches, bar)
 
-    def _boxes(self, metrics: QFontMetricsF) -> tuple[QRectF, QRectF]:
-        """Swatch and gradient."""
+    def _boxes(self, metrics: QFontMetricsF) -> tuple[list[QRectF], QRectF]:
+        """Swatches and gradient."""
         inside = QRectF(self.contentsRect())
         if self._across:
-            left = inside.left() + self._swatch_room(metrics) + _GAP
+            swatches, left = [], inside.left()
+            for room in self._rooms(metrics):
+                swatches.append(QRectF(left, inside.top(), _SWATCH, _THICKNESS))
+                left += room + (_GAP if len(self._apart) == 1 else 0.6 * _GAP)
+            if len(self._apart) > 1:  # a single one has room to spare
+                left += metrics.horizontalAdvance(self._text(self._low)) / 2
             right = inside.right() - metrics.horizontalAdvance(self._label) - 8
-            return (
-                QRectF(inside.left(), inside.top(), _SWATCH, _THICKNESS),
-                QRectF(left, inside.top(), max(right - left, 1), _THICKNESS),
-            )
+            return swatches, QRectF(left, inside.top(), max(right - left, 1), _THICKNESS)
         top = inside.top() + metrics.height() + 4
-        under = inside.bottom() - metrics.height() - _TICK - _THICKNESS
-        return (
-            QRectF(inside.left(), under, _THICKNESS, _THICKNESS),
-            QRectF(inside.left(), top, _THICKNESS, max(under - _GAP - top, 1)),
-        )
+        each = metrics.height() + _TICK + _THICKNESS
+        under = inside.bottom() - len(self._apart) * each
+        swatches = [QRectF(inside.left(), under + k * each, _THICKNESS, _THICKNESS) for k in range(len(self._apart))]
+        return swatches, QRectF(inside.left(), top, _THICKNESS, max(under - _GAP - top, 1))
 
     def _ticks(self, length: float, room: float) -> list[float]:
         """Both ends, and of the round values between them those that leave each number its room."""
@@ -179,15 +183,16 @@ class ColourBar(QWidget):
                 break
         return [low, *(tick for tick in between if low + near <= tick <= high - near), high]
 
-    def _paint_labels(self, painter: QPainter, metrics: QFontMetricsF, swatch: QRectF, bar: QRectF) -> None:
+    def _paint_labels(self, painter: QPainter, metrics: QFontMetricsF, swatches: list[QRectF], bar: QRectF) -> None:
         line, ascent = metrics.height(), metrics.ascent()
         painter.setPen(QColor(str(TEXT)))
         if self._across:
             painter.drawText(QPointF(bar.right() + 8, bar.center().y() + ascent / 2 - 1), self._label)
         else:
             painter.drawText(QPointF(bar.left(), bar.top() - 4 - metrics.descent()), self._label)
-        painter.setPen(QColor(str(TEXT if self._inverted else MUTED)))
-        painter.drawText(QPointF(swatch.left(), swatch.bottom() + _TICK + 2 + ascent), self._swatch_text())
+        for swatch, (name, count, _) in zip(swatches, self._apart, strict=True):
+            painter.setPen(QColor(str(TEXT if count else MUTED)))
+            painter.drawText(QPointF(swatch.left(), swatch.bottom() + _TICK + 2 + ascent), _swatch_text(name, count))
 
         length = bar.width() if self._across else bar.height()
         ends = self._text(self._low), self._text(self._high)
@@ -208,3 +213,7 @@ class ColourBar(QWidget):
                 painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + _TICK, y))
                 painter.setPen(QColor(str(TEXT)))
                 painter.drawText(QPointF(bar.right() + _TICK + 3, y + ascent / 2 - 1), text)
+
+
+def _swatch_text(name: str, count: int) -> str:
+    return f"{name} ({count:,})" if count else name

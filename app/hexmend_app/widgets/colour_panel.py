@@ -12,9 +12,10 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QL
 
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
-from hexmend_app.scene.colours import MAPS, range_label, table
+from hexmend_app.scene.colours import DIVERGING, MAPS, range_label, table
 from hexmend_app.scene.values import better, declared_range
 from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.state.movement import MOVEMENTS, named
 from hexmend_app.widgets.metrics import metrics_offered
 from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.segmented import Segmented
@@ -36,7 +37,9 @@ _MAPS = {
     "cividis": "From blue to yellow; looks nearly the same to all kinds of colour vision.",
     "plasma": "From blue over red to yellow.",
     "inferno": "From black over red to pale yellow.",
+    DIVERGING: "For changes: from brown for worse over white for none to teal for better.",
 }
+_OF_VALUES = "All maps are perceptually uniform and readable without telling red from green."
 _BOXES = (("low", 0.0), ("high", 1.0))
 
 
@@ -57,18 +60,14 @@ class ColourPanel(QWidget):
         self._ends = (0.0, 1.0)  # of the range in use, wherever it comes from
         self._set: dict[str, tuple[float, float]] = {}  # ends that were typed for each metric, to find them on return
         self._metric = _combo()
-        for at, metric in enumerate(metrics_offered()):
+        for metric in (*metrics_offered(), *MOVEMENTS.values()):
             self._metric.addItem(metric.title, metric.name)
-            self._metric.setItemData(at, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
+            self._metric.setItemData(self._metric.count() - 1, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
+        self._metric.insertSeparator(len(METRICS))
         self._map = _combo()
         self._map.setIconSize(_SWATCH)
-        for at, name in enumerate(MAPS):
-            self._map.addItem(name, name)
-            self._map.setItemData(at, _MAPS.get(name, ""), Qt.ItemDataRole.ToolTipRole)
+        self._offer_maps(False)
         dress(self._map, self._paint_swatches)
-        explain(
-            self._map, "Colour map", "All maps are perceptually uniform and readable without telling red from green."
-        )
         self._reverse = QCheckBox("Reverse")
         explain(self._reverse, "Reverse", "Swap the ends of the map. Without it, the dark end stands for the worst.")
         self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
@@ -79,8 +78,8 @@ class ColourPanel(QWidget):
         self._problem.hide()
         self._lay_out()
 
-        self._metric.activated.connect(self._on_metric)
-        self._map.activated.connect(lambda: self._change(map=self._map.currentData()))
+        self._metric.activated.connect(lambda: self.choose_metric(self._metric.currentData()))
+        self._map.activated.connect(self._on_map)
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
         self._mode.chosen.connect(lambda key: self._on_mode(RangeMode(key)))
         for box in (self._low, self._high):
@@ -90,8 +89,8 @@ class ColourPanel(QWidget):
         self._show_ends()
 
     def _paint_swatches(self) -> None:
-        for at, name in enumerate(MAPS):
-            self._map.setItemIcon(at, _swatch(name))
+        for at in range(self._map.count()):
+            self._map.setItemIcon(at, _swatch(self._map.itemData(at)))
 
     def _lay_out(self) -> None:
         grid = QGridLayout(self)
@@ -127,16 +126,22 @@ class ColourPanel(QWidget):
         if self._scale.mode is not RangeMode.PINNED:
             self._show_ends()
 
-    def _on_metric(self) -> None:
-        metric = self._metric.currentData()
+    def choose_metric(self, metric: str) -> None:
+        """Do as if the user chose what the colours show."""
         if metric == self._scale.metric:
             return
         pinned, mode = self._set.get(metric, self._scale.pinned), self._scale.mode
+        if (metric in MOVEMENTS) != (self._scale.metric in MOVEMENTS):
+            mode = RangeMode.FITTED if metric in MOVEMENTS else RangeMode.FULL
         if mode is RangeMode.PINNED and metric not in self._set:
             mode = RangeMode.FULL  # the values of one metric mean nothing for another
         if mode in (RangeMode.FULL, RangeMode.ACCEPTABLE) and declared_range(metric, mode) is None:
             mode = RangeMode.FITTED
         self._change(metric=metric, mode=mode, pinned=pinned)
+
+    def _on_map(self) -> None:
+        if self._map.currentData() in MAPS:
+            self._change(map=self._map.currentData())
 
     def _on_mode(self, mode: RangeMode) -> None:
         pinned = self._scale.pinned
@@ -188,11 +193,23 @@ class ColourPanel(QWidget):
                 box.set_value(end)
         self._show_problem()
 
+    def _offer_maps(self, change: bool) -> None:
+        """Offer the maps, or, for changes, the one in whose middle there is none."""
+        offered = {DIVERGING: "brown – teal"} if change else {name: name for name in MAPS}
+        if self._map.findData(next(iter(offered))) < 0:
+            self._map.clear()
+            for at, (name, text) in enumerate(offered.items()):
+                self._map.addItem(text, name)
+                self._map.setItemData(at, _MAPS[name], Qt.ItemDataRole.ToolTipRole)
+            self._paint_swatches()
+        self._map.setCurrentIndex(max(self._map.findData(self._scale.map), 0))
+        explain(self._map, "Colour map", _MAPS[DIVERGING] if change else _OF_VALUES)
+
     def _refresh(self) -> None:
         scale = self._scale
         self._metric.setCurrentIndex(self._metric.findData(scale.metric))
         explain(self._metric, "Metric", _about(scale.metric))
-        self._map.setCurrentIndex(self._map.findData(scale.map))
+        self._offer_maps(scale.metric == "q-change")
         self._reverse.setChecked(scale.reverse)
         self._mode.set_value(scale.mode.value)
         for mode in (RangeMode.FULL, RangeMode.ACCEPTABLE):
@@ -216,7 +233,7 @@ def _combo() -> QComboBox:
 
 def _about(name: str) -> str:
     """What a metric declares of itself, as rich text."""
-    metric = METRICS[name]
+    metric = named(name)
     which = {1: "More is better.", -1: "Less is better.", 0: ""}[better(name)]
     full, acceptable = _range(metric.full_range), _range(metric.acceptable)
     lines = (

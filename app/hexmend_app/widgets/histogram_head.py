@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QMenu, QSizePolicy, QSpinBox, QToolButton, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QSpinBox, QToolButton, QWidget
 
 from hexmend.quality import METRICS
-from hexmend_app.state.theme import BUTTON, HOVER
 from hexmend_app.widgets.histogram_bins import BINS, FEWEST, MOST
+from hexmend_app.widgets.menu_button import MenuButton
 from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import BLUE, LINE, dress, explain, icon, smaller, tabular
+from hexmend_app.widgets.style import explain, icon, smaller, tabular
 
 _CUMULATIVE = "Heights are the share of elements with a value up to x, inverted ones first."
 _KEEP = "Keep the distribution of this moment beside those that follow, to compare methods."
@@ -97,18 +97,13 @@ class HistogramHead(QWidget):
             action.triggered.connect(lambda _=False, number=number: self.bins.setValue(number))
 
     def _lay_out(self) -> None:
-        menu = QMenu(self)
-        menu.setToolTipsVisible(True)
+        self.more = MenuButton("More", "Cumulative shares, the number of bins, keeping and saving.")
+        self.more.setIcon(icon("dots-vertical"))
+        menu = self.more.menu()
         menu.addAction(self.cumulative)
         menu.addMenu("Bins").addActions(self._numbers.actions())
         menu.addSeparator()
         menu.addActions([self.keep, self.save])
-        self.more = QToolButton()
-        self.more.setIcon(icon("dots-vertical"))
-        self.more.setMenu(menu)
-        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        dress(self.more, lambda: self.more.setStyleSheet(_sheet()))
-        explain(self.more, "More", "Cumulative shares, the number of bins, keeping and saving.")
         buttons = {action: QToolButton() for action in (self.keep, self.cumulative)}
         for action, button in buttons.items():
             button.setDefaultAction(action)
@@ -169,13 +164,3 @@ class HistogramHead(QWidget):
             for action in self._numbers.actions():
                 action.setChecked(action.text() == str(self.bins.value()))
         self.bins_changed.emit()
-
-
-def _sheet() -> str:
-    """A button like the others beside it, without the arrow that a menu gives it."""
-    return f"""
-QToolButton {{ background: {BUTTON}; border: 1px solid {LINE}; border-radius: 3px; padding: 3px; }}
-QToolButton:hover {{ background: {HOVER}; }}
-QToolButton:focus {{ border-color: {BLUE}; }}
-QToolButton::menu-indicator {{ image: none; }}
-"""

@@ -46,6 +46,13 @@ def ask_histogram(parent: QWidget, stem: str) -> str:
     return QFileDialog.getSaveFileName(parent, "Save the histogram as", proposal, kinds)[0]
 
 
+def ask_convergence(parent: QWidget, stem: str) -> str:
+    """Where to save the charts of convergence, "" for nowhere."""
+    proposal = str(Path(_folder()) / f"{stem}-convergence.svg")
+    kinds = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;All figures of all runs (*.csv)"
+    return QFileDialog.getSaveFileName(parent, "Save the convergence as", proposal, kinds)[0]
+
+
 def ask_recipe(parent: QWidget) -> str:
     """The recipe to load, "" for none."""
     return QFileDialog.getOpenFileName(parent, "Load a recipe", _folder(), "Recipes (*.toml);;All files (*)")[0]

@@ -134,9 +134,7 @@ def write_histogram_figure(
     HexmendError
         For another suffix, and where matplotlib is missing or the file cannot be written.
     """
-    if path.suffix.lower() not in FIGURE_SUFFIXES:
-        kinds = ", ".join(FIGURE_SUFFIXES)
-        raise HexmendError(f"{path.name}: the name of a figure ends in one of {kinds}; choose one of them.")
+    check_figure(path)
     figure, axes = _figure()
     for outline in outlines:
         edges = [bin / len(outline.heights) for bin in range(len(outline.heights) + 1)]
@@ -154,32 +152,51 @@ def write_histogram_figure(
     axes.set_xticks([place for place, _ in ticks], [text for _, text in ticks])
     axes.grid(alpha=0.3)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
-    _save(figure, path)
+    save_figure(figure, path)
 
 
-def _figure() -> tuple[Figure, Axes]:
+def check_figure(path: Path) -> None:
+    """Raise `HexmendError` for a suffix that no figure has."""
+    if path.suffix.lower() not in FIGURE_SUFFIXES:
+        kinds = ", ".join(FIGURE_SUFFIXES)
+        raise HexmendError(f"{path.name}: the name of a figure ends in one of {kinds}; choose one of them.")
+
+
+def new_figure(width: float = 7.5, height: float = 4.5) -> Figure:
+    """An empty figure of so many inches.
+
+    Raises
+    ------
+    HexmendError
+        Where matplotlib is missing.
+    """
     try:
         from matplotlib.figure import Figure
     except ImportError:
         raise HexmendError(
             "figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'"
         ) from None
-    figure = Figure(figsize=(7.5, 4.5), layout="constrained")
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def _figure() -> tuple[Figure, Axes]:
+    figure = new_figure()
     return figure, figure.subplots()
 
 
 def _saved(figure: Figure, stem: Path) -> list[Path]:
     paths = [stem.with_name(f"{stem.name}{suffix}") for suffix in (".svg", ".png")]
     for path in paths:
-        _save(figure, path)
+        save_figure(figure, path)
     return paths
 
 
-def _save(figure: Figure, path: Path) -> None:
+def save_figure(figure: Figure, path: Path) -> None:
+    """Write a figure as a whole or not at all, as its path's suffix says; equal figures make equal files."""
     from matplotlib import rc_context
 
     kind = path.suffix.lower()[1:]
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-    # With names that are not drawn by lot, and without a date, equal figures make equal files.
+    # Names that are not drawn by lot, and no date.
     with replacing(path) as temporary, rc_context({"svg.hashsalt": "hexmend"}):
         figure.savefig(temporary, dpi=160, format=kind, metadata=dates.get(kind))

@@ -9,7 +9,8 @@ from hexmend_app.scene.figure import Panel, figure
 from hexmend_app.scene.panes import ROOM, Panes, columns, grid
 from hexmend_app.scene.picture import picture
 from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import ColourScale, Look, RangeMode
+from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
+from hexmend_app.state.movement import Moment, Movement
 from hexmend_app.state.views import Wipe
 from tests.core.grids import grid as hexes
 from tests.core.grids import scrambled
@@ -187,3 +188,20 @@ def test_a_figure_holds_all_meshes_with_captions():
     for rows in (slice(40, 220), slice(240, 420)):
         for across in (slice(0, 320), slice(320, 640)):
             assert colourful[rows, across].mean() > 0.1
+
+
+def test_views_beside_the_first_compare_with_the_same_moment(panes):
+    first, second = (measure(one.points, MESH.hexes) for one in (MESH, OTHERS[0]))
+    look = Look(scale=ColourScale("moved-most", mode=RangeMode.FITTED), traces=Traces(arrows=Arrows.ALL))
+    panes.set_movement(Movement(MESH, Moment(MESH.points, first, "then"), MESH.points, first))
+    panes.set_look(look)
+    panes.show([(OTHERS[2], measure(OTHERS[2].points, MESH.hexes))])
+    other = panes.all[1]
+    far = np.linalg.norm(OTHERS[2].points - MESH.points, axis=1).max() / MESH.mean_edge_length
+    assert panes.first.arrows == (0, 0)
+    assert other.arrows[0] == MESH.free.sum()
+    assert other.colouring.high == panes.first.colouring.high == pytest.approx(far)
+    panes.set_movement(Movement(MESH, Moment(OTHERS[0].points, second, "later"), MESH.points, first))
+    panes.catch_up()
+    assert other.colouring.title.endswith("since later")
+    np.testing.assert_array_equal(other.movement.before.points, OTHERS[0].points)

@@ -14,7 +14,8 @@ from hexmend.io import write
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, measure
 from hexmend_app.cli.clip import clip_of, plane
-from hexmend_app.cli.render import _look, command
+from hexmend_app.cli.looks import look_of
+from hexmend_app.cli.render import command
 from hexmend_app.scene.colours import INVERTED, resolve
 from hexmend_app.scene.figure import Panel, figure
 from hexmend_app.scene.picture import picture
@@ -88,7 +89,7 @@ def test_every_metric_has_a_range_of_colours(name):
     args = parser.parse_args(["a.vtk", "-o", "a.png", "--metric", name])
     for mesh in (grid(2), scrambled(grid(3), 0.6), scrambled(grid(1), 0), grid(2).with_points(grid(2).points * 0)):
         figures = measure(mesh.points, mesh.hexes)
-        scale = _look(args, mesh, figures).scale
+        scale = look_of(args, mesh).scale
         assert scale.metric == name
         shown = resolve(scale, values(name, mesh.points, mesh.hexes, figures), figures.inverted)
         low, high = shown.low, shown.high

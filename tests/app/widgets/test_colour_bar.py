@@ -47,11 +47,11 @@ def test_the_gradient_shows_the_whole_table_in_order(shown, ramp, orientation):
 def test_inverted_elements_have_a_swatch_of_their_colour(shown, ramp, colour):
     bar = ColourBar()
     bar.set_table(ramp)
-    bar.set_inverted(3, colour)
+    bar.set_apart([("inverted", 3, colour)])
     shown(bar, 400, 40)
     assert np.all(pixels(bar) == (0x12, 0xAB, 0x34), axis=2).sum() > 200
     assert "inverted (3)" in bar.accessibleDescription()
-    bar.set_inverted(0, colour)
+    bar.set_apart([("inverted", 0, colour)])
     assert bar.accessibleDescription().startswith("inverted;")
 
 
@@ -94,3 +94,17 @@ def test_the_label_is_the_quantity(shown):
     bar.set_label("Edge ratio")
     bar.set_range(1.02, 5.76)
     assert "Edge ratio from 1.02 to 5.76" in bar.accessibleDescription()
+
+
+@pytest.mark.parametrize("orientation", [Qt.Orientation.Horizontal, Qt.Orientation.Vertical])
+def test_several_kinds_set_apart_have_a_swatch_each_beside_the_gradient(shown, ramp, orientation):
+    across = orientation == Qt.Orientation.Horizontal
+    bar = ColourBar(orientation)
+    bar.set_table(ramp)
+    bar.set_range(-0.25, 0.25)
+    bar.set_apart([("newly inverted", 3, "#12ab34"), ("still inverted", 0, "#ab1234"), ("mended", 12, "#3412ab")])
+    shown(bar, *((760, 40) if across else (130, 500)))
+    rgb = pixels(bar)
+    for colour in ((0x12, 0xAB, 0x34), (0xAB, 0x12, 0x34), (0x34, 0x12, 0xAB)):
+        assert (rgb == colour).all(axis=2).sum() > 100
+    assert bar.accessibleDescription() == ("newly inverted (3); still inverted; mended (12); q(H) from -0.25 to 0.25")

@@ -1,0 +1,219 @@
+"""The figures of runs as curves: what can be plotted, against what, and where each run begins."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend_app.state.history import Record
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A figure of every iteration.
+
+    Parameters
+    ----------
+    key : str
+        Its name in `Record.rows`, or one that `Columns` knows how to find.
+    title, help : str
+    log : bool
+        Whether its logarithm says more than itself.
+    whole : bool
+        Whether it is a count.
+    """
+
+    key: str
+    title: str
+    help: str
+    log: bool = False
+    whole: bool = False
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Quantities that are plotted over one another."""
+
+    key: str
+    title: str
+    quantities: tuple[Quantity, ...]
+
+    @property
+    def help(self) -> str:
+        """What its quantities are."""
+        return " ".join(one.help for one in self.quantities)
+
+
+def _alone(key: str, title: str, help: str, **how: bool) -> Chart:
+    return Chart(key, title, (Quantity(key, title, help, **how),))
+
+
+#: What can be plotted, in the order in which it is offered.
+CHARTS: dict[str, Chart] = {
+    chart.key: chart
+    for chart in (
+        _alone(
+            "objective",
+            "objective",
+            "Sum of η(H)² over all elements (3.3), what smoothing minimises; infinite, a gap, while any is inverted.",
+            log=True,
+        ),
+        Chart(
+            "quality",
+            "quality",
+            (
+                Quantity("q_min", "q min", "Quality q(H) of the worst element: 1 for a cube, 0 for a flat one."),
+                Quantity("q_mean", "q mean", "Mean quality over all elements (2.11)."),
+            ),
+        ),
+        _alone("inverted", "inverted elements", "Elements turned inside out at a corner.", log=True, whole=True),
+        _alone(
+            "largest_move",
+            "largest move",
+            "How far the node went that went furthest, in mean edge lengths: what Algorithm A.1 stops at.",
+            log=True,
+        ),
+        _alone("gradient_norm", "gradient norm", "Norm of the objective's gradient before the step.", log=True),
+        _alone("step_length", "step length", "α, the share of the search direction that was gone (A.5).", log=True),
+        _alone(
+            "solver_iterations",
+            "CG iterations",
+            "Conjugate gradient iterations that the Newton direction took (A.4).",
+            whole=True,
+        ),
+        _alone("cuts", "line search cuts", "How often the line search cut the step (A.5).", whole=True),
+        _alone("step_seconds", "seconds per iteration", "Time that the method took for each iteration.", log=True),
+        _alone("delta", "delta", "δ, the softness of the barrier (3.2); 0 once no element is inverted.", log=True),
+    )
+}
+
+#: What is plotted at first.
+FIRST = ("objective", "quality", "inverted")
+
+_STORED = tuple(
+    one.key for chart in CHARTS.values() for one in chart.quantities if one.key != "step_seconds"
+)  # fmt: skip
+
+
+class Columns:
+    """The figures of one run as arrays, (k,) float64, that grow with it; nan where there is none.
+
+    Parameters
+    ----------
+    record : Record
+    """
+
+    def __init__(self, record: Record):
+        self.record = record
+        self._known = 0
+        self._rows = np.empty((64, len(_STORED) + 1))
+
+    def grow(self) -> None:
+        """Take the iterations that there are by now."""
+        rows = self.record.rows
+        newest = len(rows)  # by the thread that runs, more may come meanwhile
+        if newest > len(self._rows):
+            self._rows = np.resize(self._rows, (max(newest, 2 * len(self._rows)), len(_STORED) + 1))
+        for at in range(self._known, newest):
+            self._rows[at] = [*(_number(rows[at].get(key)) for key in _STORED), rows[at]["seconds"]]
+        if self._known == 0 < newest:
+            self._rows[0, _STORED.index("largest_move")] = np.nan  # where it begins, nothing has moved yet
+        self._known = newest
+
+    def __len__(self) -> int:
+        return self._known
+
+    @property
+    def seconds(self) -> np.ndarray:
+        """Since the run began."""
+        return self._rows[: self._known, -1]
+
+    def of(self, key: str) -> np.ndarray:
+        """A quantity's values."""
+        if key == "step_seconds":
+            return np.diff(self.seconds, prepend=np.nan)
+        return self._rows[: self._known, _STORED.index(key)]
+
+    def told(self, key: str) -> bool:
+        """Whether the method tells this at all."""
+        return self._known < 2 or bool(np.isfinite(self.of(key)).any()) or key == "objective"
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A run as it is plotted.
+
+    Parameters
+    ----------
+    columns : Columns
+    slot : int
+        What its colour goes by; it keeps it while others come and go.
+    begins : (iteration, seconds)
+        Where on the axis.
+    shown, current : bool
+        Whether it is plotted at all, and is the run that is gone through.
+    going : bool
+        Whether it goes on.
+    kept : callable
+        Numbers of the iterations whose positions are there, ascending, (k,) int.
+    """
+
+    columns: Columns
+    slot: int
+    begins: tuple[float, float]
+    shown: bool
+    current: bool
+    going: bool
+    kept: Callable[[], np.ndarray]
+
+    @property
+    def record(self) -> Record:
+        """The run."""
+        return self.columns.record
+
+    def x(self, by_time: bool) -> np.ndarray:
+        """Where its iterations are on the axis, (k,) float64."""
+        if by_time:
+            return self.begins[1] + self.columns.seconds
+        return self.begins[0] + np.arange(len(self.columns))
+
+    def nearest(self, x: float, by_time: bool) -> int:
+        """Number of the iteration that is nearest to a place on the axis."""
+        return int(np.abs(self.x(by_time) - x).argmin())
+
+
+def beginning(record: Record) -> tuple[float, float]:
+    """Where a run begins on the axes of iterations and of seconds: a branch where it left its parent."""
+    iteration, seconds = 0.0, 0.0
+    while record.parent is not None:
+        number, record = record.parent.number, record.parent.record
+        iteration += number
+        seconds += record.rows[number]["seconds"]
+    return iteration, seconds
+
+
+def free_slot(taken: Iterable[int]) -> int:
+    """The least slot that no run has."""
+    taken = set(taken)
+    return next(slot for slot in range(len(taken) + 1) if slot not in taken)
+
+
+def thinned(x: np.ndarray, y: np.ndarray, most: int = 2000) -> tuple[np.ndarray, np.ndarray]:
+    """A curve of more than `most` points by the least and the greatest value of as many pieces as make about `most`.
+
+    Parameters
+    ----------
+    x, y : (k,) float64
+        nan in y is a gap.
+    """
+    if len(x) <= most:
+        return x, y
+    starts = np.arange(0, len(x), -(-2 * len(x) // most))
+    ends = np.stack([np.fmin.reduceat(y, starts), np.fmax.reduceat(y, starts)], axis=1)
+    return np.repeat(x[starts], 2), ends.ravel()
+
+
+def _number(value: object) -> float:
+    return float(value) if isinstance(value, (int, float)) and np.isfinite(value) else np.nan

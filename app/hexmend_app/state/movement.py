@@ -1,0 +1,184 @@
+"""How far nodes have moved and elements have changed since an earlier moment: what colours, arrows and counts show."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.kernels import serial
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, ElementQuality, Metric
+from hexmend.quality.measure import read_only
+
+#: Changes of q, and ways in mean edge lengths, that are rounding.
+NOTHING = 1e-9
+
+_MOVED = "of where each node is and where it was, in mean edge lengths of the mesh as it was opened"
+
+
+def _of_two(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
+    raise TypeError("a movement is measured between two moments: see Movement.values")
+
+
+#: What colours can show of a movement, beside `METRICS`.
+MOVEMENTS: dict[str, Metric] = {
+    one.name: one
+    for one in (
+        Metric(
+            "moved-most", "Largest displacement", f"greatest distance, over the nodes of an element, {_MOVED}",
+            "Hexmend", (0.0, np.inf), (0.0, np.inf), 0, "Where the mesh has changed.", _of_two, "mean edge lengths",
+        ),
+        Metric(
+            "moved-mean", "Mean displacement", f"mean distance, over the nodes of an element, {_MOVED}",
+            "Hexmend", (0.0, np.inf), (0.0, np.inf), 0, "Where the mesh has changed.", _of_two, "mean edge lengths",
+        ),
+        Metric(
+            "q-change", "Change of q(H)", "q(H) now, less q(H) then", "Hexmend",
+            (-1.0, 1.0), (-np.inf, np.inf), 1, "Which elements have paid for what others have gained.", _of_two,
+        ),
+    )
+}  # fmt: skip
+
+_SHORT = {
+    "moved-most": "mean edge lengths moved",
+    "moved-mean": "mean edge lengths moved on average",
+    "q-change": "change of q(H)",
+}
+
+#: What the colours of `q-change` set apart, in this order: numbers of `Movement.kinds`.
+NEWLY_INVERTED, STILL_INVERTED, MENDED = 1, 2, 3
+
+
+def named(name: str) -> Metric:
+    """What colours show under a name: a metric, or a movement."""
+    return MOVEMENTS.get(name) or METRICS[name]
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """The open mesh as it was, that it is compared with.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    figures : ElementQuality
+    name : str
+        What to call it behind "since".
+    """
+
+    points: np.ndarray
+    figures: ElementQuality
+    name: str
+
+
+@dataclass(frozen=True, eq=False)
+class Movement:
+    """What lies between two moments of one mesh; each figure is worked out once, when it is asked for.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        For its hexes and its mean edge length, which is the unit.
+    before : Moment
+    points : (n, 3) float64
+        Where its nodes are now.
+    figures : ElementQuality
+        Of it now.
+    """
+
+    mesh: Mesh
+    before: Moment
+    points: np.ndarray
+    figures: ElementQuality
+    _known: dict[str, np.ndarray] = field(default_factory=dict)
+
+    def until(self, points: np.ndarray, figures: ElementQuality) -> Movement:
+        """From the same moment to where the nodes are elsewhere, (n, 3) float64."""
+        return Movement(self.mesh, self.before, points, figures)
+
+    def title(self, name: str) -> str:
+        """What colours show under one of the names of `MOVEMENTS`, in short."""
+        return f"{_SHORT[name]} since {self.before.name}"
+
+    @cached_property
+    def distances(self) -> np.ndarray:
+        """How far each node is from where it was, (n,) float64 in the unit of the mesh."""
+        return np.sqrt(np.square(self.points - self.before.points).sum(axis=1))
+
+    @cached_property
+    def unit(self) -> float:
+        """The mean edge length of the mesh."""
+        return self.mesh.mean_edge_length or 1.0
+
+    def values(self, name: str) -> np.ndarray:
+        """What colours show, (m,) float64; one of `MOVEMENTS`."""
+        if name not in self._known:
+            if name == "q-change":
+                self._known[name] = self.figures.q - self.before.figures.q
+            else:
+                of_hexes = np.empty(self.mesh.n_hexes)
+                _gather(
+                    read_only(self.mesh.hexes), read_only(self.distances / self.unit), name == "moved-mean", of_hexes
+                )
+                self._known[name] = of_hexes
+        return self._known[name]
+
+    @cached_property
+    def kinds(self) -> np.ndarray:
+        """0, or `NEWLY_INVERTED`, `STILL_INVERTED` or `MENDED`, of each element, (m,) uint8."""
+        then, now = self.before.figures.inverted, self.figures.inverted
+        return np.array([0, MENDED, NEWLY_INVERTED, STILL_INVERTED], np.uint8)[2 * now.astype(np.uint8) + then]
+
+    @cached_property
+    def counts(self) -> Counts:
+        """Its figures in short."""
+        distances = self.distances / self.unit
+        moved = distances > NOTHING
+        change = self.values("q-change")
+        return Counts(
+            int(np.count_nonzero(moved)),
+            float(distances[moved].mean()) if moved.any() else 0.0,
+            float(distances.max(initial=0.0)),
+            int(np.count_nonzero(change > NOTHING)),
+            int(np.count_nonzero(change < -NOTHING)),
+            int(np.count_nonzero(self.kinds == NEWLY_INVERTED)),
+            int(np.count_nonzero(self.kinds == MENDED)),
+        )
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Of a movement.
+
+    Parameters
+    ----------
+    moved : int
+        Nodes that are elsewhere.
+    mean, largest : float
+        How far they are, in mean edge lengths.
+    better, worse : int
+        Elements whose q(H) has risen or fallen.
+    newly_inverted, mended : int
+        Elements that were not inverted and are, and the other way round.
+    """
+
+    moved: int
+    mean: float
+    largest: float
+    better: int
+    worse: int
+    newly_inverted: int
+    mended: int
+
+
+@serial
+def _gather(hexes, of_nodes, mean, of_hexes):
+    for h in range(hexes.shape[0]):
+        total, most = 0.0, 0.0
+        for c in range(8):
+            one = of_nodes[hexes[h, c]]
+            total += one
+            most = max(most, one)
+        of_hexes[h] = total / 8 if mean else most

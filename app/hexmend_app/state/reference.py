@@ -1,0 +1,51 @@
+"""What the open mesh is compared with: how it was opened, how the run began, or the iteration before."""
+
+from __future__ import annotations
+
+from hexmend_app.state import history
+from hexmend_app.state.document import Document, State
+from hexmend_app.state.history import History
+from hexmend_app.state.look import Since
+from hexmend_app.state.movement import Moment, Movement
+
+
+class References:
+    """Finds the moments to compare with; what was found last is remembered.
+
+    Parameters
+    ----------
+    document : Document
+    records : History
+    """
+
+    def __init__(self, document: Document, records: History):
+        self._document, self._history = document, records
+        self._last: tuple[tuple, Movement] | None = None
+        self._measured: tuple[history.Moment, State] | None = None
+
+    def movement(self, since: Since) -> Movement:
+        """From then until what is shown now."""
+        now = self._document.now
+        shown = self._history.moment_of(now)
+        asked = (now, since, shown)
+        if self._last is None or self._last[0] != asked:
+            state, name = self._find(since, shown)
+            before = Moment(state.mesh.points, state.figures, name)
+            self._last = asked, Movement(self._document.start.mesh, before, now.mesh.points, now.figures)
+        return self._last[1]
+
+    def _find(self, since: Since, shown: history.Moment | None) -> tuple[State, str]:
+        if since is Since.OPENED or shown is None:
+            return self._document.start, "opening"
+        record = shown.record
+        if since is Since.ITERATION and shown.number:
+            kept = self._history.kept(record)
+            before = history.Moment(record, int(kept[kept < shown.number].max()))
+            if before.number:
+                return self._state(before), before.name
+        return record.start, f"{record.name} began"
+
+    def _state(self, moment: history.Moment) -> State:
+        if self._measured is None or self._measured[0] != moment:
+            self._measured = moment, self._history.state(moment, self._document.now.mesh)
+        return self._measured[1]

@@ -1,0 +1,97 @@
+"""Takes pictures of docs/watch.md, of meshes that the gallery makes.
+
+Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/take_watch_pictures.py FOLDER
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+from take_screenshots import opened, shoot, shut, turn, until
+
+from hexmend.gallery import make
+from hexmend.io import write
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.look import Arrows, Since, Traces
+from hexmend_app.state.run import Phase
+from hexmend_app.state.theme import Choice
+from hexmend_app.widgets.theming import choose
+from hexmend_app.window import Window
+
+
+def run(window: Window, method: str, iterations: int) -> None:
+    """Run a method from what is shown on."""
+    window.smoothing_panel.set_method(method)
+    window.smoothing_panel.stop_form.set_values({"max_iterations": iterations})
+    window.smoothing_panel.run_or_pause()
+    until(lambda: window.smoothing.phase is Phase.FINISHED)
+    turn(0.2)
+
+
+def cut(window: Window) -> None:
+    """Cut through the middle, by whole elements, without handles."""
+    window.view.set_handles(False)
+    window.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.document.now.mesh.points.mean(axis=0))))
+
+
+def convergence(window: Window) -> None:
+    """Three runs, of which one is a branch, and the iteration gone to."""
+    timeline = window.session.timeline
+    window.docks["convergence"].raise_()
+    run(window, "mend", 30)
+    trunk = timeline.record
+    timeline.go(trunk, 2)
+    run(window, "local-sd", 22)
+    timeline.go(trunk, 0)
+    run(window, "getme", 26)
+    timeline.choose(trunk)
+    timeline.go(trunk, 4)
+    cut(window)
+
+
+def movement(window: Window) -> None:
+    """Displacement since the mesh was opened, as colours and as arrows."""
+    window.docks["movement"].raise_()
+    run(window, "mend", 30)
+    cut(window)
+    window.view.change(traces=Traces(arrows=Arrows.SIGHT))
+    window.colour_panel.choose_metric("moved-most")
+    window.canvas.look_along("+x")
+
+
+def change(window: Window) -> None:
+    """What one iteration has made better, worse, inverted and mended; in the dark theme."""
+    choose(Choice.DARK)
+    window.docks["movement"].raise_()
+    run(window, "laplacian", 6)
+    window.session.timeline.go(window.session.timeline.record, 1)
+    window.view.change(traces=Traces(Since.ITERATION))
+    window.colour_panel.choose_metric("q-change")
+    cut(window)
+
+
+SCENES = (
+    (convergence, "bridge-sharp", {"size": 4000, "scramble": 0.4}),
+    (movement, "bridge-sharp", {"size": 4000, "scramble": 0.4}),
+    (change, "bridge-sharp", {"size": 4000, "scramble": 0.4}),
+)
+
+
+def main(folder: Path) -> None:
+    """Take them all."""
+    with tempfile.TemporaryDirectory() as place:
+        for scene, name, how in SCENES:
+            path = Path(place) / f"{name}.vtu"
+            write(path, make(name, **how))
+            window = opened(path, (1240, 780))
+            scene(window)
+            shoot(window, folder / f"watch-{scene.__name__}.png")
+            window.commands.reset()  # to what is recorded, or closing would ask
+            shut(window)
+    choose(Choice.LIGHT)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

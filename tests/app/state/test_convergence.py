@@ -1,0 +1,92 @@
+"""Figures of runs as curves."""
+
+import numpy as np
+import pytest
+
+from hexmend.run import Stop, iterate
+from hexmend.smoothers import METHODS
+from hexmend_app.state.convergence import CHARTS, Columns, Curve, beginning, free_slot, thinned
+from hexmend_app.state.document import State
+from hexmend_app.state.history import History, Moment, Record
+from tests.core.grids import grid, scrambled
+
+START = State.of(scrambled(grid(4), 0.4))
+
+
+def recorded(method, iterations=6, parent=None):
+    history = History()
+    record = history.begin(method, METHODS[method].title, START)
+    record.parent = parent
+    run = iterate(START.mesh, METHODS[method](), Stop(max_iterations=iterations, tolerance=0))
+    history.add(record, run.start)
+    for iteration in run:
+        history.add(record, iteration)
+    return record
+
+
+@pytest.mark.parametrize("method", ["laplacian", "local-sd", "global-nr", "mend"])
+def test_columns_hold_what_the_rows_hold_and_gaps_elsewhere(method):
+    record = recorded(method)
+    columns = Columns(record)
+    columns.grow()
+    assert len(columns) == len(record.rows)
+    for chart in CHARTS.values():
+        for key in (one.key for one in chart.quantities):
+            found = columns.of(key)
+            if key == "step_seconds":
+                expected = [None, *np.diff([row["seconds"] for row in record.rows])]
+            else:
+                expected = [row.get(key) for row in record.rows]
+            if key == "largest_move":
+                expected[0] = None
+            np.testing.assert_array_equal(found, [np.nan if one is None else one for one in expected])
+            assert columns.told(key) == (np.isfinite(found).any() or key == "objective")
+    assert columns.told("gradient_norm") == (method in ("global-nr", "mend"))
+
+
+def test_columns_grow_with_the_run_however_long_it_is():
+    record = Record("a", "A", START, None)
+    columns = Columns(record)
+    for length in (1, 63, 64, 65, 500):
+        while len(record.rows) < length:
+            record.rows.append({"iteration": len(record.rows), "seconds": 0.5 * len(record.rows), "q_min": 0.25})
+        columns.grow()
+        assert len(columns) == length
+        np.testing.assert_array_equal(columns.seconds, 0.5 * np.arange(length))
+        assert (columns.of("q_min") == 0.25).all()
+        assert np.isnan(columns.of("delta")).all()
+
+
+def test_a_branch_begins_where_it_left_its_parent():
+    trunk = recorded("laplacian")
+    branch = recorded("local-sd", 4, Moment(trunk, 3))
+    twig = recorded("getme", 2, Moment(branch, 2))
+    assert beginning(trunk) == (0, 0)
+    assert beginning(twig)[0] == 5
+    assert beginning(twig)[1] == trunk.rows[3]["seconds"] + branch.rows[2]["seconds"]
+    columns = Columns(twig)
+    columns.grow()
+    curve = Curve(columns, 0, beginning(twig), True, True, False, twig.numbers)
+    assert curve.x(by_time=False).tolist() == [5, 6, 7]
+    assert curve.nearest(5.6, by_time=False) == 1
+    assert curve.nearest(-3, by_time=False) == 0
+    assert curve.nearest(curve.x(by_time=True)[2] + 1, by_time=True) == 2
+
+
+def test_the_least_slot_that_is_free_is_taken():
+    assert free_slot([]) == 0
+    assert free_slot([0, 1, 3]) == 2
+
+
+@pytest.mark.parametrize("count", [3, 2000, 2001, 12345])
+def test_a_long_curve_keeps_its_extremes_and_its_gaps(count):
+    x = np.arange(count, dtype=float)
+    y = np.sin(x)
+    y[count // 2] = 7.0
+    y[: count // 4] = np.nan
+    few_x, few_y = thinned(x, y)
+    assert len(few_x) == len(few_y) <= max(count if count <= 2000 else 0, 2004)
+    assert np.nanmax(few_y) == 7.0
+    assert np.nanmin(few_y) == np.nanmin(y)
+    assert (np.diff(few_x) >= 0).all()
+    assert np.isnan(few_y[: len(few_y) // 4 - 3]).all()

@@ -1,0 +1,100 @@
+"""What has moved, and since when."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend.quality import measure
+from hexmend.run import Stop
+from hexmend.smoothers.local_sd import LocalSteepestDescent
+from hexmend_app.state.document import State
+from hexmend_app.state.look import Since
+from hexmend_app.state.movement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Moment, Movement
+from hexmend_app.state.session import Session
+from tests.core.grids import grid, scrambled
+from tests.said import FIRST_RUN
+
+MESH = grid(5)
+
+
+def moved(points, before=None):
+    then = MESH.points if before is None else before
+    was = Moment(then, measure(then, MESH.hexes), "then")
+    return Movement(MESH, was, points, measure(points, MESH.hexes))
+
+
+def test_displacement_of_an_element_is_that_of_its_nodes_in_mean_edge_lengths():
+    points = scrambled(MESH, 0.7).points
+    movement = moved(points)
+    lengths = np.linalg.norm(points - MESH.points, axis=1)[MESH.hexes] / MESH.mean_edge_length
+    np.testing.assert_allclose(movement.values("moved-most"), lengths.max(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(movement.values("moved-mean"), lengths.mean(axis=1), rtol=1e-12)
+    assert movement.counts.largest == pytest.approx(lengths.max())
+
+
+def test_elements_are_newly_inverted_still_inverted_or_mended():
+    good, bad = MESH.points, scrambled(MESH, 1.2).points
+    inverted = measure(bad, MESH.hexes).inverted
+    assert 0 < inverted.sum() < inverted.size
+    assert np.array_equal(moved(bad).kinds == NEWLY_INVERTED, inverted)
+    assert np.array_equal(moved(good, bad).kinds == MENDED, inverted)
+    assert np.array_equal(moved(bad, bad).kinds == STILL_INVERTED, inverted)
+    assert moved(bad).counts.newly_inverted == moved(good, bad).counts.mended == inverted.sum()
+    assert moved(bad).counts.worse == moved(good, bad).counts.better > 0
+
+
+def test_where_nothing_has_moved_all_is_zero():
+    movement = moved(MESH.points.copy())
+    for name in MOVEMENTS:
+        assert not movement.values(name).any()
+    assert not any(vars(movement.counts).values())
+
+
+@pytest.fixture
+def session(qtbot):
+    session = Session()
+    session.document.replace(State.of(scrambled(grid(5), 0.4)), Path("a.vtu"))
+    yield session
+    session.shut_down()
+
+
+def run(qtbot, session):
+    with qtbot.waitSignal(session.smoothing.ended, timeout=FIRST_RUN):
+        session.smoothing.start(LocalSteepestDescent(), Stop(max_iterations=12, tolerance=0))
+    return session.smoothing.record
+
+
+def before(session, since):
+    return session.references.movement(since).before
+
+
+def test_the_moment_to_compare_with_follows_the_iteration_that_is_shown(session, qtbot):
+    document, timeline = session.document, session.timeline
+    opened = document.now.mesh.points
+    assert before(session, Since.ITERATION).points is opened
+    first = run(qtbot, session)
+    timeline.go(first, 4)
+    second = run(qtbot, session)
+    timeline.go(second, 5)
+    assert before(session, Since.OPENED).points is opened
+    assert before(session, Since.OPENED).name == "opening"
+    assert before(session, Since.RUN).points is second.points(0)
+    assert before(session, Since.RUN).name == f"{second.name} began"
+    np.testing.assert_array_equal(before(session, Since.ITERATION).points, second.points(4))
+    assert before(session, Since.ITERATION).name == f"{second.name} 4"
+    timeline.go(second, 1)
+    assert before(session, Since.ITERATION).points is second.points(0)
+    assert session.references.movement(Since.RUN) is session.references.movement(Since.RUN)
+
+
+def test_where_the_iteration_before_was_thinned_out_the_nearest_before_it_is_compared(session, qtbot):
+    record = run(qtbot, session)
+    session.history.limit = session.history.bytes // 3
+    numbers = session.history.kept(record).tolist()
+    earlier, at = next((m, n) for m, n in pairwise(numbers) if n - m > 1)
+    session.timeline.go(record, at)
+    name = f"{record.name} {earlier}" if earlier else f"{record.name} began"
+    assert before(session, Since.ITERATION).name == name
+    assert session.references.movement(Since.ITERATION).counts.moved > 0

@@ -1,0 +1,118 @@
+"""How runs converge, in the window."""
+
+from __future__ import annotations
+
+import csv
+from time import perf_counter
+
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtTest import QTest
+
+from hexmend_app.state.run import Phase
+from tests.app.driving import LEFT, click, phase
+from tests.said import FIRST_RUN
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    window.docks["convergence"].raise_()
+    qtbot.waitUntil(window.convergence_panel.isVisible)
+    return window.convergence_panel
+
+
+def run(window, qtbot, method="local-sd", iterations=8):
+    window.smoothing_panel.set_method(method)
+    window.smoothing_panel.stop_form.set_values({"max_iterations": iterations, "tolerance": 0})
+    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+        click(window, "Run")
+    qtbot.wait(150)
+    return window.smoothing.record
+
+
+def press(panel, key, x):
+    plot = panel.plots[key]
+    at = plot.plot.mapFromScene(plot.view.mapViewToScene(QPointF(x, sum(plot.view.viewRange()[1]) / 2)))
+    QTest.mouseClick(plot.plot.viewport(), LEFT, Qt.KeyboardModifier.NoModifier, at)
+    QTest.qWait(50)
+
+
+def test_a_click_in_a_chart_goes_there_and_the_line_follows(window, qtbot, panel):
+    record = run(window, qtbot)
+    assert len(panel.curves[0].columns) == 9
+    press(panel, "inverted", 3)
+    assert window.session.timeline.moment.number == 3
+    assert window.document.previews
+    assert panel.plots["inverted"]._mark.value() == 3
+    window.session.timeline.go(record, 6)
+    assert panel.plots["objective"]._mark.value() == 6
+
+
+def test_branches_begin_where_they_left_or_at_nought_and_are_forgotten(window, qtbot, panel):
+    first = run(window, qtbot)
+    window.session.timeline.go(first, 4)
+    second = run(window, qtbot, "laplacian", 3)
+    begins = {one.record: one.begins[0] for one in panel.curves}
+    assert begins == {first: 0, second: 4}
+    assert {one.record: one.current for one in panel.curves} == {first: False, second: True}
+    panel.from_zero.trigger()
+    assert [one.begins[0] for one in panel.curves] == [0, 0]
+    slots = {one.record: one.slot for one in panel.curves}
+    QTest.mouseClick(panel.legend.rows[first].cross, LEFT)
+    assert [one.record for one in panel.curves] == [second]
+    third = run(window, qtbot, "getme", 2)
+    assert {one.record: one.slot for one in panel.curves} == {second: slots[second], third: slots[first]}
+    box = panel.legend.rows[third].box
+    QTest.keyClick(box, Qt.Key.Key_Space)
+    assert [one.shown for one in panel.curves] == [True, False]
+
+
+def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbot, panel):
+    drawn = []
+    original = panel.set_curves
+    panel.set_curves = lambda curves: (drawn.append(len(curves[0].columns) if curves else 0), original(curves))
+    window.smoothing_panel.stop_form.set_values({"max_iterations": 100_000, "tolerance": 0})
+    window.smoothing_panel.set_method("local-sd")
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=FIRST_RUN)
+    drawn.clear()
+    began = perf_counter()
+    qtbot.waitUntil(lambda: len(drawn) >= 6, timeout=FIRST_RUN)
+    assert perf_counter() - began > 0.45
+    assert drawn == sorted(drawn)
+    assert drawn[-1] > drawn[0]
+    window.smoothing.end_now()
+    qtbot.waitUntil(lambda: drawn[-1] == window.smoothing.record.newest + 1, timeout=3000)
+
+
+def test_what_is_behind_other_docks_is_drawn_as_it_comes_to_the_front(window, qtbot):
+    run(window, qtbot)
+    assert len(window.convergence_panel.curves) == 0
+    window.docks["convergence"].raise_()
+    qtbot.waitUntil(lambda: len(window.convergence_panel.curves) == 1, timeout=3000)
+
+
+def test_another_mesh_has_no_curves(window, qtbot, panel, mesh_file):
+    run(window, qtbot)
+    window.document.replace(window.document.start, mesh_file)
+    assert panel.curves == []
+
+
+def test_the_charts_are_saved_as_figures_and_all_figures_of_all_runs_as_a_table(window, qtbot, panel, tmp_path):
+    first = run(window, qtbot, "mend", 5)
+    window.session.timeline.go(first, 2)
+    second = run(window, qtbot, "laplacian", 3)
+    panel.toggled.emit(second, False)
+    for kind, start in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):
+        path = tmp_path / f"charts.{kind}"
+        assert window.saving.convergence(path, window.converging.write)
+        assert path.read_bytes().startswith(start)
+    assert window.saving.convergence(tmp_path / "charts.csv", window.converging.write)
+    rows = list(csv.DictReader((tmp_path / "charts.csv").read_text().splitlines()))
+    assert len(rows) == len(first.rows) + len(second.rows)
+    assert float(rows[1]["gradient_norm"]) == first.rows[1]["gradient_norm"]
+    assert rows[-1]["run"] == second.name
+    assert rows[-1]["branch_of"] == f"{first.name} 2"
+    assert rows[-1]["gradient_norm"] == ""
+    assert not window.saving.convergence(tmp_path / "charts.xls", window.converging.write)
+    assert "ends in one of .svg" in window.messages.messages()[-1][2]
