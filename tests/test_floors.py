@@ -38,6 +38,8 @@ APP = [
     {"widgets"},
     {"actions", "commands"},
     {
+        "advising",
+        "chaining",
         "comparing",
         "counting",
         "debugging",

@@ -89,6 +89,16 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("stop", "S&top", "&Smooth", "Shift+F5", "stop", "End the run and keep what has been reached."),
     ActionSpec("reset", "R&eset", "&Smooth", "Ctrl+R", "restore", "Put all nodes back to where they were when opened."),
     ActionSpec(
+        "recipe_run",
+        "R&un the recipe",
+        "&Smooth",
+        "Ctrl+Shift+F5",
+        help="Run the stages of the recipe one after another, as one run.",
+        separated=True,
+    ),
+    ActionSpec("recipe_load", "&Load a recipe…", "&Smooth", help="Load methods to be run one after another."),
+    ActionSpec("recipe_save", "Sa&ve the recipe…", "&Smooth", help="Save the stages as TOML."),
+    ActionSpec(
         "iteration_first",
         "Be&fore the run",
         "&Timeline",

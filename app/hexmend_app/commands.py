@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.io import left_out, write
 from hexmend.parameters import declared
 from hexmend.quality import summarise
-from hexmend.recipe import Stage
+from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.state.document import State
@@ -65,6 +65,12 @@ class Commands:
             self.stepping.leave()
             self.smoothing.start(METHODS[method](**values), Stop(**stop), iterations)
 
+    def run_recipe(self, recipe: Recipe) -> None:
+        """Run methods one after another on the mesh as it is now, unless another is being read."""
+        if not self.opener.busy:
+            self.stepping.leave()
+            self.smoothing.start(recipe, None)
+
     def change(self, method: str, values: dict, stop: dict) -> None:
         """Do the rest of a run's stage by another method, with other values or other limits."""
         self.smoothing.change(Stage(METHODS[method](**values), Stop(**stop)))
@@ -90,11 +96,11 @@ class Commands:
             mesh = self.document.now.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
 
-    def pin(self, node: int, on: bool) -> None:
-        """Keep a node where it is whatever smooths the mesh, or let it go, while the mesh may be changed."""
+    def pin(self, nodes: int | np.ndarray, on: bool) -> None:
+        """Keep a node or several where they are whatever smooths the mesh, or let them go, while it may be changed."""
         mesh = self.document.now.mesh
         pinned = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()
-        pinned[node] = on
+        pinned[nodes] = on
         self._amend("pin" if on else "unpin", pinned=pinned)
 
     def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:

@@ -134,6 +134,13 @@ class Comparing:
             self._forget(shown.state)
         self._views.close_all()
 
+    def _close_results(self) -> None:
+        """Close the views of what is about to be forgotten; others, such as those of iterations, stay."""
+        results = [self._comparison.initial, *(one.state for one in self._comparison.results)]
+        for number, shown in reversed(list(enumerate(self._views.all, 1))):
+            if any(shown.state is state for state in results):
+                self._close(number)
+
     def _forget(self, state: State) -> None:
         kept = self._kept.of(state)
         if kept is not None:
@@ -227,7 +234,7 @@ class Comparing:
 
     def _start(self, names: list[str], stop: Stop) -> None:
         if self._session.editable:
-            self._close_all()
+            self._close_results()
             values_of = self._smoothing_panel.values_of
             self._comparison.start([METHODS[name](**values_of(name)) for name in names], stop)
 

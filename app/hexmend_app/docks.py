@@ -80,9 +80,11 @@ def add_docks(
 
 
 def name_tabs(window: QMainWindow) -> None:
-    """Name the tabs of docks, which Qt makes as the window is shown, for who cannot see them."""
+    """Name the tabs of docks, which Qt makes as the window is shown, and keep their words whole."""
     for tabs in window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly):
         tabs.setAccessibleName("Panels")
+        tabs.setElideMode(Qt.TextElideMode.ElideNone)
+        tabs.setUsesScrollButtons(True)
 
 
 def _dock(window: QMainWindow, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:

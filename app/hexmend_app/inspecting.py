@@ -50,8 +50,8 @@ class Inspecting:
         self._canvas: Canvas | None = None
         selection.changed.connect(self._show_selected)
         worst_list.chosen.connect(self._go_to_worst)
-        element_panel.chosen.connect(self._go_to)
-        element_panel.fly_requested.connect(lambda: self._go_to(selection.hex))
+        element_panel.chosen.connect(self.go_to)
+        element_panel.fly_requested.connect(lambda: self.go_to(selection.hex))
         element_panel.corners_toggled.connect(self._show_selected)
         element_panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
         element_panel.pin_toggled.connect(lambda node, on: (commands.pin(node, on), self._show_element()))
@@ -110,7 +110,7 @@ class Inspecting:
         if hit is not None and not self._node_dock.widget().isVisible():
             self._element_dock.raise_()
 
-    def _go_to(self, h: int) -> None:
+    def go_to(self, h: int) -> None:
         """Choose an element and bring it before the camera."""
         self._selection.choose(h)
         if self._canvas is not None:
@@ -119,7 +119,7 @@ class Inspecting:
     def _go_to_worst(self, h: int) -> None:
         if self._worst_list.isolates:
             self._view.isolate((h,))
-        self._go_to(h)
+        self.go_to(h)
 
     def _dig(self, h: int) -> None:
         if h == self._selection.hex:

@@ -14,6 +14,11 @@ def resource(name: str) -> Path:
     raise FileNotFoundError(f"resource {name!r} is missing from the installation: install Hexmend again")
 
 
+def recipes() -> list[Path]:
+    """The recipes that come with Hexmend."""
+    return sorted(resource("recipes").glob("*.toml"))
+
+
 def demo_mesh() -> Path:
     """The mesh that the viewer opens where none is named."""
     return resource("demo.vtu")

@@ -15,6 +15,8 @@ from hexmend.parameters import declared
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
+from hexmend_app.advising import Advising
+from hexmend_app.chaining import Chaining
 from hexmend_app.commands import Commands, methods_offered
 from hexmend_app.comparing import TICKED, Comparing
 from hexmend_app.counting import Counting
@@ -45,6 +47,7 @@ from hexmend_app.widgets.histogram import QualityHistogram
 from hexmend_app.widgets.inside_panel import InsidePanel
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.node_panel import NodePanel
+from hexmend_app.widgets.outcome_panel import OutcomePanel
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
 from hexmend_app.widgets.recent_menu import RecentMenu
 from hexmend_app.widgets.smoothing_panel import SmoothingPanel
@@ -86,6 +89,7 @@ class Window(QMainWindow):
         self.element_panel = ElementPanel()
         self.node_panel = NodePanel()
         self.tag_panel = TagPanel()
+        self.outcome_panel = OutcomePanel()
         self.compare_panel = ComparePanel(TICKED)
         self.smoothing_panel = SmoothingPanel(declared(Stop))
         self.smoothing_panel.set_methods(methods_offered())
@@ -112,6 +116,15 @@ class Window(QMainWindow):
         )
         self.comparing = Comparing(session, self.commands, self.compare_panel, self.smoothing_panel, self.counting.kept)
         self.watching = Watching(session, self.commands, self.timeline_bar, self.smoothing_panel)
+        self.chaining = Chaining(self, session, self.commands, self.smoothing_panel, self.messages)
+        self.advising = Advising(
+            session,
+            self.commands,
+            self.outcome_panel,
+            self.docks["outcome"],
+            self.smoothing_panel,
+            self.inspecting.go_to,
+        )
         self.filming = Filming(self, session, self.busy, self.messages)
         self.saving = Saving(self, self.document, self.commands, self.messages, self.histogram, self.worst_list)
         self.actions_by_id = build_menus(self, self._handlers(), {"open_demo": self.recent_menu})
@@ -148,6 +161,7 @@ class Window(QMainWindow):
             ("element", "Element", self.element_panel),
             ("node", "Node", self.node_panel),
             ("tags", "Tags", self.tag_panel),
+            ("outcome", "Outcome", self.outcome_panel),
             ("compare", "Compare", self.compare_panel),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs)
@@ -189,6 +203,7 @@ class Window(QMainWindow):
         for told in (compared.changed, self.session.views.changed, self.compare_panel.offer_changed):
             told.connect(self._enable)
         self.session.timeline.runs_changed.connect(self._enable)
+        self.chaining.chain.changed.connect(self._enable)
         self.smoothing.phase_changed.connect(self._on_phase)
         self.smoothing.iterated.connect(self._on_iterated)
         self.smoothing.ended.connect(self._on_ended)
@@ -232,6 +247,7 @@ class Window(QMainWindow):
             **self.tagging.handlers(),
             **self.comparing.handlers(),
             **self.watching.handlers(),
+            **self.chaining.handlers(),
             **self.filming.handlers(),
         }
 
@@ -286,7 +302,8 @@ class Window(QMainWindow):
         self.smoothing_panel.set_status(sentence=sentence)
 
     def _on_iterated(self, frame: Frame) -> None:
-        self.smoothing_panel.set_status(frame.iteration.number, frame.iteration.seconds)
+        iteration, stage = frame.iteration, self.chaining.at_work(frame)
+        self.smoothing_panel.set_status(iteration.number, iteration.seconds, stage)
 
     def _on_ended(self, result: Result) -> None:
         self.smoothing_panel.set_status(result.iterations, result.seconds, result.message)
@@ -316,6 +333,7 @@ class Window(QMainWindow):
             self.looking,
             self.watching,
             self.comparing,
+            self.chaining,
             self.filming,
         )
         for id, on in {id: on for part in parts for id, on in part.offered().items()}.items():

@@ -17,6 +17,7 @@ __version__ = "0.1.0"
 
 if _TYPE_CHECKING:
     from hexmend import gallery
+    from hexmend.advice import advise
     from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
     from hexmend.io import read, read_recipe, write, write_recipe
     from hexmend.mesh import Cells, Mesh
@@ -28,6 +29,7 @@ if _TYPE_CHECKING:
     from hexmend.study.compare import Comparison, compare
 
 _HOMES = {
+    "advice": ("advise",),
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
     "io": ("read", "read_recipe", "write", "write_recipe"),
     "mesh": ("Cells", "Mesh"),
@@ -59,6 +61,7 @@ __all__ = [
     "Stage",
     "Stop",
     "Summary",
+    "advise",
     "compare",
     "gallery",
     "iterate",

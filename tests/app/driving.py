@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
@@ -43,3 +43,13 @@ def drag(widget, start, end, steps=12):
         QTest.qWait(10)
     QTest.mouseRelease(widget, LEFT, pos=end)
     QTest.qWait(50)
+
+
+def seen_at(window, place):
+    """Where in the view a place of the mesh is seen."""
+    interactor = window.canvas.interactor
+    renderer, ratio = interactor.renderer, interactor.devicePixelRatioF()
+    renderer.SetWorldPoint(*place, 1)
+    renderer.WorldToDisplay()
+    right, up, _ = renderer.GetDisplayPoint()
+    return QPoint(round(right / ratio), round(interactor.height() - up / ratio))

@@ -9,21 +9,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton
 
 from hexmend_app.state.clip import BoxClip, PlaneClip
-from tests.app.driving import LEFT, drag, pixels
+from tests.app.driving import LEFT, drag, pixels, seen_at
 
 
 def press(window, text):
     QTest.mouseClick(next(b for b in window.clip_panel.findChildren(QPushButton) if b.text() == text), LEFT)
-
-
-def seen_at(window, place):
-    """Where in the view a place of the mesh is seen."""
-    interactor = window.canvas.interactor
-    renderer, ratio = interactor.renderer, interactor.devicePixelRatioF()
-    renderer.SetWorldPoint(*place, 1)
-    renderer.WorldToDisplay()
-    right, up, _ = renderer.GetDisplayPoint()
-    return QPoint(round(right / ratio), round(interactor.height() - up / ratio))
 
 
 @pytest.mark.parametrize("cut", ["crinkle", "smooth"])

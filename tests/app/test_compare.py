@@ -15,11 +15,13 @@ from hexmend.report.comparison import FIGURES
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.document import State
 from hexmend_app.state.look import ColourScale, RangeMode
 from hexmend_app.widgets.captions import CaptionRow, WipeRow
 from hexmend_app.widgets.comparison_table import METHOD, VIEW
 from hexmend_app.widgets.wipe_handle import STEP, WipeHandle
-from tests.app.driving import LEFT, click, drag, open_and_wait, pixels
+from tests.app.driving import LEFT, click, drag, open_and_wait, pixels, seen_at
 from tests.said import FIRST_RUN
 
 COLUMN = {figure.key: at for at, figure in enumerate(FIGURES, 2)}
@@ -206,6 +208,17 @@ def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
     assert [one.points for one in compared.counting.kept.all] == [second.mesh.points]
 
 
+def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(compared, qtbot):
+    compared.comparing.show("mine", State.of(compared.document.now.mesh.with_points(compared.document.now.mesh.points)))
+    tick(compared, "getme", VIEW)
+    tick(compared, "initial", VIEW)
+    assert captions(compared) == ["now", "mine", "getme", "initial"]
+    press(compared, "Run the comparison")
+    assert captions(compared) == ["now", "mine"]
+    qtbot.waitUntil(lambda: not compared.session.comparison.busy, timeout=FIRST_RUN)
+    assert not any(one.shown for one in model(compared).entries)
+
+
 def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(compared, qtbot):
     tick(compared, "getme", VIEW)
     canvas, view = compared.canvas, compared.canvas.interactor
@@ -225,6 +238,8 @@ def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(com
     for one in canvas.panes.all:
         assert one._selected == chosen
         np.testing.assert_allclose(one._highlight._box.points, one.mesh.points[one.mesh.hexes[chosen]], rtol=1e-6)
+    tick(compared, "laplacian", VIEW)
+    assert canvas.panes.all[2]._selected == chosen
 
 
 def test_cut_and_colours_are_those_of_all_views(compared):
@@ -242,6 +257,25 @@ def test_cut_and_colours_are_those_of_all_views(compared):
     assert (first.colouring.low, first.colouring.high) == (min(map(np.min, q)), max(map(np.max, q)))
     bar = compared.canvas.colour_bar
     assert (bar._low, bar._high) == (first.colouring.low, first.colouring.high)
+
+
+@pytest.mark.parametrize("arranged", ["side by side", "wipe", "wipe, the mesh at the right"])
+def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared, qtbot, arranged):
+    tick(compared, "getme", VIEW)
+    if arranged != "side by side":
+        compared.session.views.set_wiping(True)
+        compared.session.views.move_wipe(0.9 if arranged == "wipe" else 0.1)
+    if arranged == "wipe, the mesh at the right":
+        compared.session.views.choose_wiped(1, 0)
+    compared.view.set_clip(PlaneClip.at((0, 0, 1), tuple(compared.document.now.mesh.points.mean(axis=0))))
+    qtbot.wait(200)
+    x, y, z = compared.view.look.clip.planes[0].origin
+    place = seen_at(compared, (x + 0.3, y - 0.3, z))  # on the plane, beside its arrow
+    before = compared.canvas.panes.all[1].shown
+    drag(compared.canvas.interactor, place, place + QPoint(0, -30))
+    assert compared.view.look.clip.planes[0].origin[2] > z
+    first, second = compared.canvas.panes.all
+    assert second.shown == first.shown != before
 
 
 def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):

@@ -64,7 +64,7 @@ def everything_on(window):
     return window
 
 
-@pytest.mark.parametrize("front", ["quality", "worst", "element", "node", "tags"])
+@pytest.mark.parametrize("front", ["quality", "worst", "element", "node", "tags", "outcome"])
 def test_tab_reaches_every_control_once_and_comes_back(everything_on, qtbot, front):
     window = everything_on
     window.selection.choose(7)

@@ -101,6 +101,8 @@ def test_higher_p_lifts_the_worst_hex():
     assert raised.outcome is Outcome.CONVERGED
     assert raised.after.q_min > plain.after.q_min + 0.01
     assert raised.after.q_mean < plain.after.q_mean
+    again = smooth(plain.mesh, Mend(highest_p=16.0), Stop(max_iterations=500))  # from the optimum of the lower p
+    assert again.after.q_min == pytest.approx(raised.after.q_min, rel=1e-3)
 
 
 def test_a_mesh_at_its_optimum_stays_there():

@@ -1,6 +1,8 @@
 """Recipes: data that comes back as it was written, and one clear sentence for what is wrong."""
 
+import re
 import tomllib
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -119,3 +121,9 @@ def test_files_that_are_no_text_are_said(tmp_path):
         io.read_recipe(tmp_path)
     with pytest.raises(FileError, match=r"no such file .* Did you mean mesh.toml"):
         io.read_recipe(tmp_path / "mash.toml")
+
+
+def test_the_recipe_of_the_docs_is_one():
+    text = (Path(__file__).resolve().parents[2] / "docs" / "recipes.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+    assert [stage.smoother.name for stage in from_toml(example).stages] == ["getme", "mend"]

@@ -66,7 +66,7 @@ class Panes:
         self.wipe: Wipe | None = None  # None where all stand side by side
         self._centres: dict[Viewport, float] = {}  # of the wipe's halves
         self._borders: list[tuple[pv.Renderer, vtkActor2D]] = []
-        self._width = 0
+        self._size = (0, 0)
         self._fitted: tuple[float, ...] = ()  # where the camera stands after `fit`
         self._watch(self.first)
         # The hand may grasp what stands in the first view.
@@ -159,8 +159,9 @@ class Panes:
         self.arrange()
 
     def arrange(self) -> None:
-        """Give each view its place, and the wipe its edge at a whole pixel of the window as wide as it is now."""
-        self._width = width = max(self._window.GetSize()[0], 2)
+        """Give each view its place, and the wipe its edge at a whole pixel of the window as large as it is now."""
+        self._size = self._window.GetSize()
+        width = max(self._size[0], 2)
         seen, wipe = self.seen, self.wipe
         if wipe is None:
             places, self._centres = grid(len(seen)), {}
@@ -214,7 +215,7 @@ class Panes:
             layer.AddObserver("StartEvent", lambda *_, view=view: self._begin(view))
 
     def _begin(self, view: Viewport) -> None:
-        if self.wipe is not None and self._window.GetSize()[0] != self._width:
+        if self._window.GetSize() != self._size:
             self.arrange()
         if self._others and view is self.seen[0]:
             self.reset_depth()

@@ -35,6 +35,9 @@ _MANY = 1000
 #: Where the axes are, x low, y low, x high, y high as shares of a window that is one view.
 _AXES = (0.0, 0.0, 0.13, 0.18)
 
+#: Pixels of the axes' height and width below which their letters lie over one another.
+_AXES_LEAST = 80
+
 #: Directions to look from: the place of the camera, and what is up.
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
     "iso": ((1.0, -1.3, 0.8), (0.0, 0.0, 1.0)),
@@ -352,10 +355,10 @@ class Viewport:
         return self._plotter.renderer, self._structure.layer, self._highlight.layer, *self._node_step.layers
 
     def fit_axes(self) -> None:
-        """Draw the axes in this view's corner, as large as in a window of one view: its place is another."""
-        left, low, right, high = self._plotter.renderer.GetViewport()
-        across, up = _AXES[2] / (right - left), _AXES[3] / (high - low)
-        self._plotter.renderer.axes_widget.SetViewport(0, 0, min(across, 1), min(up, 1))
+        """Draw the axes in this view's corner, as large as in a window of one view, and so that they can be read."""
+        renderer = self._plotter.renderer
+        pixels = np.maximum(np.multiply(_AXES[2:], self._plotter.render_window.GetSize()), _AXES_LEAST)
+        renderer.axes_widget.SetViewport(0, 0, *np.minimum(pixels / np.maximum(renderer.GetSize(), 1), 1))
 
     def close(self) -> None:
         """Draw no more, and leave the part of the window to another view."""

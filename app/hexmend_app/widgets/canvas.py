@@ -89,6 +89,7 @@ class Canvas(QWidget):
         self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._turning())
         self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
         self._handled: tuple[Clip | None, bool, int] = (None, False, 0)
+        self._chosen: tuple[int | None, bool] = (None, False)
         self._pressed: QPointF | None = None
         self.interactor.installEventFilter(self)
         explain(self.interactor, "3D view", "")
@@ -165,9 +166,9 @@ class Canvas(QWidget):
 
     def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
         """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
+        self._chosen = h, corners
         self.viewport.select(h, corners, node)
-        for view in self.panes.all[1:]:
-            view.select(h, corners)
+        self._select_beside()
         self._changed()
 
     def show_node_step(self, step: NodeStep | None) -> None:
@@ -175,6 +176,11 @@ class Canvas(QWidget):
         if not self._closed:
             self.viewport.show_node_step(step)
             self._changed()
+
+    def _select_beside(self) -> None:
+        """Mark the same element in the other views."""
+        for view in self.panes.all[1:]:
+            view.select(*self._chosen)
 
     def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
         """Show other places of the same mesh's nodes in views beside the first, or two views over one another.
@@ -186,6 +192,7 @@ class Canvas(QWidget):
             None shows all side by side.
         """
         self.panes.show(others, wipe)
+        self._select_beside()
         self._show_handles()
         self.frame.set_wipe(wipe)
         self._show_colours()

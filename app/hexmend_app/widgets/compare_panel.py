@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 from superqt import QElidingLabel
 
-from hexmend_app.state.theme import FRAME
+from hexmend_app.state.theme import CHOSEN, FRAME, ON_CHOSEN
 from hexmend_app.widgets.comparison_table import INITIAL, METHOD, VIEW, ComparisonModel, Entry
 from hexmend_app.widgets.element_table import shape_table
 from hexmend_app.widgets.style import MUTED, dress, explain, icon, smaller, tabular, tint
@@ -69,6 +69,8 @@ class ComparePanel(QWidget):
         self._wipe = QPushButton(icon("compare"), "Wipe")
         self._wipe.setCheckable(True)
         explain(self._wipe, "Wipe", "Lay two views over one another, with an edge between them that is dragged (W).")
+        self._wipe.toggled.connect(self._paint_wipe)
+        dress(self._wipe, self._paint_wipe)
         self._take = QPushButton("Take result")
         explain(self._take, "Take result", "Let the chosen row's result be the mesh; undo takes it back.")
         self._save = QPushButton(icon("content-save-outline"), "")
@@ -85,6 +87,14 @@ class ComparePanel(QWidget):
         self._take.clicked.connect(lambda: self.take_requested.emit(self._chosen()))
         self._save.clicked.connect(self.save_requested)
         self.set_status()
+
+    def _paint_wipe(self) -> None:
+        """Show that the button is pressed by more than Fusion's shade, which the dark theme swallows."""
+        palette = QPalette()
+        if self._wipe.isChecked():
+            palette.setColor(QPalette.ColorRole.Button, QColor(str(CHOSEN)))
+            palette.setColor(QPalette.ColorRole.ButtonText, QColor(str(ON_CHOSEN)))
+        self._wipe.setPalette(palette)
 
     def _make_table(self) -> QTableView:
         table = QTableView()
@@ -110,11 +120,12 @@ class ComparePanel(QWidget):
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
-        for part in (self._run, self._cancel):
-            head.addWidget(part)
-        head.addStretch()
-        for part in (self._wipe, self._take, self._save):
-            head.addWidget(part)
+        buttons = (self._run, self._cancel, self._wipe, self._take, self._save)
+        height = max(button.sizeHint().height() for button in buttons)  # with an icon, or without
+        for button in buttons:
+            button.setFixedHeight(height)
+            head.addWidget(button)
+        head.insertStretch(2)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(4)

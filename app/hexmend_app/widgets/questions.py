@@ -46,6 +46,17 @@ def ask_histogram(parent: QWidget, stem: str) -> str:
     return QFileDialog.getSaveFileName(parent, "Save the histogram as", proposal, kinds)[0]
 
 
+def ask_recipe(parent: QWidget) -> str:
+    """The recipe to load, "" for none."""
+    return QFileDialog.getOpenFileName(parent, "Load a recipe", _folder(), "Recipes (*.toml);;All files (*)")[0]
+
+
+def ask_recipe_target(parent: QWidget) -> str:
+    """Where to save the recipe, "" for nowhere."""
+    proposal = str(Path(_folder()) / "recipe.toml")
+    return QFileDialog.getSaveFileName(parent, "Save the recipe as", proposal, "Recipe (*.toml)")[0]
+
+
 def ask_film(parent: QWidget, stem: str) -> str:
     """Where to save a film of a run, "" for nowhere."""
     proposal = str(Path(_folder()) / f"{stem}.gif")

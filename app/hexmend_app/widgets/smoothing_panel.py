@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 from hexmend.parameters import Parameter
 from hexmend_app.widgets.breakpoint_form import BreakpointForm
 from hexmend_app.widgets.parameter_form import ParameterForm
+from hexmend_app.widgets.recipe_panel import RecipePanel
 from hexmend_app.widgets.run_buttons import STATES, RunButtons
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.style import MUTED, WORSE, explain, note, tabular, tint
@@ -76,9 +77,11 @@ class SmoothingPanel(QWidget):
         self.form = ParameterForm()
         self.stop_form = ParameterForm(stop_conditions)
         self.breakpoint_form = BreakpointForm()
+        self.recipe_panel = RecipePanel()
         self._sections = (
             Section("Parameters", self.form, "How the method goes about it; the defaults suit most meshes."),
             Section("Stop when", self.stop_form, "When a run ends by itself."),
+            Section("Recipe", self.recipe_panel, "Methods that are run one after another, as one run."),
             Section("Pause when", self.breakpoint_form, "Break-points: what a run pauses at, to be looked at."),
         )
         self.buttons = RunButtons()
@@ -143,6 +146,22 @@ class SmoothingPanel(QWidget):
         self.form.set_declarations(declarations)
         self.form.set_values(self._edited.get(name, {}) | dict(values or {}))
 
+    def choose(self, name: str, values: Mapping[str, Any], stop_values: Mapping[str, Any]) -> None:
+        """Show a method, its values and the stop conditions; without a signal."""
+        self.set_method(name, values)
+        self.stop_form.set_values(stop_values)
+
+    def show_at_work(self, name: str, values: Mapping[str, Any], stop_values: Mapping[str, Any]) -> None:
+        """Show what the run is at: only what is set otherwise from now on is a change of it."""
+        self.choose(name, values, stop_values)
+        self._begun = self._order()
+
+    def tell(self, sentence: str) -> None:
+        """Say something below the buttons, beside how far the run is."""
+        tint(self._sentence, MUTED)
+        self._sentence.setText(sentence)
+        self._sentence.setVisible(bool(sentence))
+
     def method(self) -> str:
         """Name of the method shown, "" where none is."""
         return self._name
@@ -171,9 +190,7 @@ class SmoothingPanel(QWidget):
         if seconds is not None:
             parts.append(f"{seconds:.2f} s")
         self._progress.setText("  ·  ".join(parts) or "Not run yet")
-        tint(self._sentence, MUTED)
-        self._sentence.setText(sentence)
-        self._sentence.setVisible(bool(sentence))
+        self.tell(sentence)
 
     def run_or_pause(self) -> None:
         """What the main button does: run, pause or resume, as the state has it."""

@@ -22,6 +22,7 @@ class Smooth:
         parser.add_argument("--history", metavar="FILE.csv", help="write a row an iteration")
 
     def run(self, args: argparse.Namespace) -> int:
+        from hexmend.advice import advise
         from hexmend.cli.command.method import chosen
         from hexmend.cli.command.progress import follow
         from hexmend.cli.tables import print_summaries
@@ -43,7 +44,11 @@ class Smooth:
             write_history(args.history, result)
         print_summaries(f"{args.mesh}: {what.title}", ["before", "after"], [result.before, result.after])
         print(f"{result.message}\nWritten to {args.output}.")
-        return 4 if result.after.inverted else 0
+        if not result.after.inverted:
+            return 0
+        advice = advise(result)
+        print("\n".join([advice.left, *(f"To try next: {one.text}" for one in advice.suggestions)]))
+        return 4
 
 
 command = Smooth()

@@ -148,7 +148,7 @@ class Result:
         The smoothed mesh; everything but the points is the initial one's.
     before, after : Summary
     method : str
-        "recipe" where there are `stages`.
+        "recipe" for a recipe, and where the method was changed on the way.
     parameters : mapping
     outcome : Outcome
         Of the last stage.
@@ -162,8 +162,8 @@ class Result:
     history : tuple of dict
         A row an iteration, the initial mesh first.
     stages : tuple of StageResult
-        The stages of a recipe as they were run, or the methods of a run whose method was changed on the way; empty for
-        a run of one method.
+        What each method did: of a run of one method one, else the stages of a recipe as they were run, or the methods
+        of a run whose method was changed on the way.
     """
 
     mesh: Mesh
@@ -177,4 +177,4 @@ class Result:
     seconds: float
     setup_seconds: float
     history: tuple[dict[str, float | int | None], ...]
-    stages: tuple[StageResult, ...] = ()
+    stages: tuple[StageResult, ...]

@@ -9,13 +9,14 @@ from typing import Any
 
 from hexmend.io.atomic import replacing
 from hexmend.optimise import Result
+from hexmend.recipe import Recipe
 
 #: Columns of a history, in order.
 HISTORY = ("iteration", "seconds", "objective", "q_min", "q_mean", "inverted", "largest_move")
 
 
 def record(result: Result) -> dict[str, Any]:
-    """The report of `hexmend smooth --json`; `stages` is there for a run of several methods alone."""
+    """The report of `hexmend smooth --json`; `stages` is there for a recipe alone."""
     report = {
         "method": result.method,
         "parameters": dict(result.parameters),
@@ -28,7 +29,7 @@ def record(result: Result) -> dict[str, Any]:
         "after": result.after.to_dict(),
         "history": [{column: row[column] for column in HISTORY} for row in result.history],
     }
-    return report | {"stages": [stage.to_dict() for stage in result.stages]} if result.stages else report
+    return report | {"stages": [stage.to_dict() for stage in result.stages]} if result.method == Recipe.name else report
 
 
 def to_json(data: Any) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from hexmend.mesh import Mesh
-from hexmend.optimise import Iteration, Outcome, Result, StageResult, Stop
+from hexmend.optimise import Iteration, Outcome, Result, Stop
 from hexmend.quality import measure, summarise
 from hexmend.quality.measure import read_only
 from hexmend.recipe import Recipe, Stage
@@ -174,20 +174,20 @@ class Run(Iterator[Iteration]):
     def result(self) -> Result:
         """The record of the run as far as it went."""
         mesh = self.mesh.with_points(self.reached.points)
-        stages = self._stage_results()
+        several = isinstance(self.smoother, Recipe) or len(self._legs) > 1
         return Result(
             mesh=mesh,
             before=summarise(self.mesh, self.start.figures),
             after=summarise(mesh, self.reached.figures),
-            method=Recipe.name if stages else self.smoother.name,
-            parameters={} if stages else self.stage.smoother.values(),
+            method=Recipe.name if several else self.smoother.name,
+            parameters={} if several else self.stage.smoother.values(),
             outcome=self.outcome or Outcome.STOPPED,
             message=self.message,
             iterations=self.last.number,
             seconds=self.last.seconds,
             setup_seconds=self.setup_seconds,
             history=tuple(self.history),
-            stages=stages,
+            stages=tuple(leg.result() for leg in self._legs),
         )
 
     @property
@@ -211,11 +211,6 @@ class Run(Iterator[Iteration]):
         over = self._leg.outcome
         if over is Outcome.NOTHING_FREE or (over is not None and not self._to_come):
             self.outcome = over
-
-    def _stage_results(self) -> tuple[StageResult, ...]:
-        if isinstance(self.smoother, Recipe) or len(self._legs) > 1:
-            return tuple(leg.result() for leg in self._legs)
-        return ()
 
 
 def _stages(smoother: Smoother | Recipe, stop: Stop | None) -> Sequence[Stage]:

@@ -83,10 +83,12 @@ class Mend(Smoother):
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Inverted hexes first, then whether a guarded figure is lower than at the start, then whether the objective of
-        the sound hexes is higher; of equals the last is kept.
+        the sound hexes, with the highest p that was asked for, is higher; of equals the last is kept.
         """
         fallen = now.q.min() < start.q.min() or now.scaled_jacobian.min() < start.scaled_jacobian.min()
-        before, after = (np.power(figures.eta[~figures.inverted], self.p).sum() for figures in (start, now))
+        p = max(self.p, self.highest_p)
+        with np.errstate(over="ignore"):  # beside the barrier
+            before, after = (np.power(figures.eta[~figures.inverted], p).sum() for figures in (start, now))
         return now.n_inverted, self.guard and fallen, after > before
 
     def _direction(self) -> TruncatedNewton:

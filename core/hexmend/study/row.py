@@ -44,7 +44,7 @@ class Row:
     iterations : int
     seconds, setup_seconds : float
     stages : tuple of StageResult
-        As in `Result`.
+        As in `Result`; of one method alone none.
     """
 
     method: str
@@ -127,7 +127,7 @@ def _row(name: str, result: Result) -> Row:
         iterations=result.iterations,
         seconds=result.seconds,
         setup_seconds=result.setup_seconds,
-        stages=result.stages,
+        stages=result.stages if result.method == Recipe.name else (),
     )
 
 

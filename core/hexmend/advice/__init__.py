@@ -1,0 +1,17 @@
+"""Why a run ended, what it left, and what to try next, in words for engineers.
+
+>>> from hexmend.gallery import make
+>>> from hexmend.run import smooth
+>>> advice = advise(smooth(make("bridge-sharp", size=500), "laplacian"))
+>>> print(advice.why)
+Converged: in the last of 34 iterations no node moved further than 0.0001 mean edge lengths.
+>>> print(advice.left)
+10 of 500 hexes are inverted. None was at the start.
+>>> [suggestion.title for suggestion in advice.suggestions]
+['Mend', 'Smart Laplacian from before the run']
+"""
+
+from hexmend.advice.advice import Advice, advise
+from hexmend.advice.suggestion import Suggestion
+
+__all__ = ["Advice", "Suggestion", "advise"]

@@ -1,0 +1,101 @@
+"""A run that ended, explained."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.advice.rules import RULES
+from hexmend.advice.situation import Situation
+from hexmend.advice.suggestion import Suggestion
+from hexmend.optimise import Outcome, Result
+
+
+@dataclass(frozen=True, eq=False)
+class Advice:
+    """Why a run ended and what to do.
+
+    Parameters
+    ----------
+    why : str
+        The outcome, as sentences.
+    left : str
+        What the run left, as sentences.
+    locked, loose : (k,) int64
+        Numbers, from 0, of the inverted hexes that fixed nodes hold in inversion, and of the other inverted ones.
+    suggestions : tuple of Suggestion
+        The most urgent first; empty where nothing is known to help.
+    """
+
+    why: str
+    left: str
+    locked: np.ndarray
+    loose: np.ndarray
+    suggestions: tuple[Suggestion, ...]
+
+
+def advise(result: Result) -> Advice:
+    """Explain a run that ended."""
+    now = Situation(result)
+    told = [suggestion for rule in RULES if (suggestion := rule(now)) is not None]
+    if result.outcome is Outcome.NOTHING_FREE:
+        told = [one for one in told if one.unpin.size]
+    return Advice(_why(now), _left(now), now.locked, now.loose, tuple(told))
+
+
+def _why(now: Situation) -> str:
+    several = len({stage.stage for stage in now.result.stages}) > 1
+    return f"The last stage, {now.smoother.title}: {_end(now)}" if several else _end(now)
+
+
+def _end(now: Situation) -> str:
+    result, stop = now.result, now.stop
+    move = result.history[-1]["largest_move"]
+    still = f" The last one still moved a node by {move:.2g} mean edge lengths." if move > stop.tolerance else ""
+    stage = result.stages[-1].stage
+    many = sum(one.iterations for one in result.stages if one.stage == stage)
+    count = f"{many:,} iteration{'s' * (many != 1)}"
+    if result.outcome is Outcome.CONVERGED and many:
+        return (
+            f"Converged: in the last of {count} no node moved further than {stop.tolerance:g} mean edge lengths."
+            if move < stop.tolerance
+            else f"Converged after {count}: what another step could gain is less than rounding."
+        )
+    if result.outcome is Outcome.MAX_ITERATIONS:
+        return f"Stopped at the limit of {stop.max_iterations:,} iterations before it converged.{still}"
+    if result.outcome is Outcome.MAX_SECONDS:
+        return f"Stopped at the limit of {stop.max_seconds:g} s, after {count}, before it converged.{still}"
+    if result.outcome is Outcome.STOPPED:
+        return f"Stopped by you after {count}.{still}"
+    return result.outcome.value
+
+
+def _left(now: Situation) -> str:
+    """What is inverted, and by whose fault; else how good the worst hex is."""
+    before, after = now.result.before, now.result.after
+    if not after.inverted:
+        done = " It can hardly be better." if after.q_min >= 0.99 else ""
+        count = before.inverted
+        mended = f" {count:,} {'was' if count == 1 else 'were'} inverted at the start." if count else ""
+        return f"No hex is inverted; the worst has q = {after.q_min:.3f}.{mended}{done}"
+    words = [f"{after.inverted:,} of {after.hexes:,} hexes {'is' if after.inverted == 1 else 'are'} inverted."]
+    if before.inverted != after.inverted:
+        words.append(f"{_inverted(before.inverted)} at the start.")
+    if now.locked.size:
+        words.append(_locked(now))
+    return " ".join(words)
+
+
+def _inverted(count: int) -> str:
+    return f"{count:,} {'was' if count == 1 else 'were'}" if count else "None was"
+
+
+def _locked(now: Situation) -> str:
+    many, one = now.locked.size, now.locked.size == 1
+    every = many == now.result.after.inverted
+    which = ("It is" if one else "All of them are") if every else f"{many:,} of them {'is' if one else 'are'}"
+    said = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion, and no method moves these."
+    if not now.pins_of(now.locked).size:
+        said += " Correct the boundary where the mesh was made."
+    return said

@@ -1,0 +1,100 @@
+"""What is known of a run that ended: what every rule looks at."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.optimise import Outcome, Result, Stop
+from hexmend.quality import ElementQuality, measure
+from hexmend.quality.measure import locked
+from hexmend.smoothers import METHODS, Smoother
+
+#: Outcomes of a run that did not end by itself.
+CUT_SHORT = frozenset({Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS, Outcome.STOPPED})
+
+#: What a figure must gain over the last quarter of the iterations to be still on its way: a share of the objective, or
+#: of the mean quality.
+_FALLING, _RISING = 1e-3, 1e-4
+
+
+class Situation:
+    """A run that ended, with the figures of its mesh.
+
+    Attributes
+    ----------
+    result : Result
+    mesh : Mesh
+        As the run left it.
+    smoother : Smoother
+        The method that was at work at the end.
+    stop : Stop
+        Its limits.
+    figures : ElementQuality
+    locked, loose : (k,) int64
+        Numbers of the inverted hexes that fixed nodes hold in inversion, and of the other inverted ones.
+    """
+
+    def __init__(self, result: Result):
+        last = result.stages[-1]
+        self.result = result
+        self.mesh: Mesh = result.mesh
+        self.smoother: Smoother = METHODS[last.method](**last.parameters)
+        self.stop: Stop = last.stop
+        self.figures: ElementQuality = measure(self.mesh.points, self.mesh.hexes)
+        held = locked(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.figures.inverted)
+        self.locked = np.flatnonzero(held)
+        self.loose = np.flatnonzero(self.figures.inverted & ~held)
+
+    @property
+    def cut_short(self) -> bool:
+        """Whether it ended by a limit or by the user."""
+        return self.result.outcome in CUT_SHORT
+
+    @property
+    def p(self) -> float:
+        """The exponent of the objective."""
+        return getattr(self.smoother, "p", 2.0)
+
+    @property
+    def highest_p(self) -> float:
+        """The exponent that it was raised to."""
+        return max(self.p, getattr(self.smoother, "highest_p", 1.0))
+
+    @property
+    def aim(self) -> str:
+        """The figure that an optimiser betters: the objective with its p, or, where that is infinite, q_norm."""
+        if self.result.after.objective is not None and self.p != 2:
+            return "energy"
+        return "objective" if self.result.after.objective is not None else "q_norm"
+
+    @cached_property
+    def improving(self) -> bool:
+        """Whether the last quarter of the last method's iterations still gained."""
+        rows = self.result.history
+        quarter = max(1, self.result.stages[-1].iterations // 4)
+        if not self.result.stages[-1].iterations:
+            return False
+        then, now = rows[-1 - quarter], rows[-1]
+        if self.aim == "energy":  # of which the history does not tell; a line search lowers it with every move
+            return now["largest_move"] > self.stop.tolerance
+        if now["inverted"] != then["inverted"]:
+            return now["inverted"] < then["inverted"]
+        if now["objective"] is not None and then["objective"] is not None:
+            return now["objective"] < (1 - _FALLING) * then["objective"]
+        return now["q_mean"] > then["q_mean"] + _RISING
+
+    @cached_property
+    def worst_can_move(self) -> bool:
+        """Whether the worst hex that is not locked has a free node."""
+        q = np.where(self.figures.inverted, np.inf, self.figures.q)
+        return bool(self.mesh.free[self.mesh.hexes[int(q.argmin())]].any())
+
+    def pins_of(self, hexes: np.ndarray) -> np.ndarray:
+        """Numbers of the nodes of these hexes that are fixed by nothing but a pin."""
+        if self.mesh.pinned is None:
+            return np.zeros(0, dtype=np.int64)
+        nodes = np.unique(self.mesh.hexes[hexes])
+        return nodes[self.mesh.pinned[nodes] & ~self.mesh.topology.boundary[nodes]]

@@ -1,0 +1,166 @@
+"""The end of a run explained in the window: by real clicks."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel, QPushButton
+
+from hexmend import gallery, io
+from hexmend.optimise import Stop
+from hexmend_app.state.run import Phase
+from tests.app.driving import LEFT, click, open_and_wait, phase
+from tests.core.grids import grid
+from tests.core.test_mend import with_locked_corner
+from tests.said import FIRST_RUN
+
+
+def run(window, qtbot, method, values=None, **stop):
+    """Run a method from its button to its end."""
+    window.smoothing_panel.choose(method, values or {}, Stop(**stop).values())
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+
+
+def said(window):
+    return " ".join(label.text() for label in window.outcome_panel.findChildren(QLabel) if label.isVisible())
+
+
+def button(window, name):
+    return next(b for b in window.outcome_panel.findChildren(QPushButton) if b.accessibleName() == name)
+
+
+def press(window, name):
+    QTest.qWait(20)  # laid out
+    chosen = button(window, name)
+    assert chosen.isVisible()
+    assert chosen.isEnabled()
+    QTest.mouseClick(chosen, LEFT)
+
+
+@pytest.fixture
+def locked(window, qtbot, tmp_path):
+    """The window with a mesh of which fixed nodes lock one element."""
+    mesh = with_locked_corner(gallery.make("five-side", size=300))
+    io.write(tmp_path / "locked.vtu", mesh)
+    open_and_wait(qtbot, window, tmp_path / "locked.vtu")
+    return int(mesh.topology.node_corners.items[0] // 8)
+
+
+def test_before_a_run_it_says_what_it_is_for(window, qtbot):
+    window.docks["outcome"].raise_()
+    qtbot.wait(50)
+    assert "No run has ended yet" in said(window)
+
+
+def test_a_run_that_ends_is_explained_before_everything_else(window, qtbot):
+    assert not window.outcome_panel.isVisible()
+    run(window, qtbot, "laplacian")
+    qtbot.waitUntil(window.outcome_panel.isVisible)
+    assert "Why laplacian stopped" in said(window)
+    assert "no node moved further than 0.0001 mean edge lengths" in said(window)
+    inverted = window.document.now.summary.inverted
+    assert f"{inverted} of {window.document.now.mesh.n_hexes:,} hexes are inverted" in said(window)
+
+
+def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
+    run(window, qtbot, "laplacian", max_iterations=3)
+    left = window.document.now.summary.inverted
+    assert left > 0
+    qtbot.waitUntil(window.outcome_panel.isVisible)
+    press(window, "Choose: Mend")
+    assert window.smoothing_panel.method() == "mend"
+    assert window.smoothing_panel.stop_form.values() == Stop().values()  # or three iterations would not help either
+    assert window.smoothing.phase is Phase.FINISHED
+    click(window, "Run")
+    qtbot.waitUntil(lambda: window.smoothing.busy, timeout=5000)
+    assert not button(window, "Choose: Mend").isEnabled()
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    assert window.document.now.summary.inverted == 0
+    assert "Why mend stopped" in said(window)
+
+
+def test_while_a_run_goes_on_it_says_so(window, qtbot):
+    window.docks["outcome"].raise_()
+    window.smoothing_panel.choose("laplacian", {}, Stop(tolerance=0, max_iterations=1_000_000).values())
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    assert "A run is under way" in said(window)
+    click(window, "Stop")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=5000)
+    assert "Stopped by you after 1 iteration" in said(window)
+
+
+def test_the_run_that_is_gone_through_is_the_one_explained(window, qtbot):
+    run(window, qtbot, "laplacian", max_iterations=3)
+    run(window, qtbot, "mend", max_iterations=2)
+    assert "Why mend stopped" in said(window)
+    first = window.session.history.records[0]
+    window.session.timeline.choose(first)
+    assert "Why laplacian stopped" in said(window)
+    press(window, "Choose: Mend")  # from where that run ended
+    assert window.session.timeline.moment.record is first
+
+
+def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
+    io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=500))
+    open_and_wait(qtbot, window, tmp_path / "sound.vtu")
+    start = window.document.now.mesh.points
+    run(window, qtbot, "laplacian")
+    assert window.document.now.summary.inverted > 0
+    press(window, "Choose: Smart Laplacian from before the run")
+    np.testing.assert_array_equal(window.document.now.mesh.points, start)
+    assert window.smoothing_panel.method() == "smart-laplacian"
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    assert window.document.now.summary.inverted == 0
+
+
+def test_locked_elements_are_listed_and_shown(window, qtbot, locked):
+    run(window, qtbot, "mend")
+    assert f'<a href="{locked}">{locked}</a>' in said(window)
+    press(window, "Show the locked elements")
+    assert window.view.look.isolation.hexes == (locked,)
+    assert window.selection.hex == locked
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert window.view.look.isolation is None
+    button(window, "Show the locked elements").setFocus()
+    QTest.keyClick(button(window, "Show the locked elements"), Qt.Key.Key_Space)
+    assert window.view.look.isolation is not None
+
+
+def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_path):
+    from tests.core.test_advice import pinned_tangle
+
+    mesh = pinned_tangle()
+    io.write(tmp_path / "pinned.vtu", mesh.replace(pinned=None))
+    open_and_wait(qtbot, window, tmp_path / "pinned.vtu")
+    window.commands.pin(int(np.flatnonzero(mesh.pinned)[0]), True)
+    run(window, qtbot, "mend")
+    assert window.document.now.summary.inverted > 0
+    press(window, "Choose: Unpin, then Mend")
+    assert window.document.undo_title == "unpin"
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    assert window.document.now.summary.inverted == 0
+
+
+def test_a_run_with_nothing_to_do_is_explained_too(window, qtbot, tmp_path):
+    run(window, qtbot, "laplacian", max_iterations=1)
+    io.write(tmp_path / "one.vtu", grid(1))
+    window.document.saved(tmp_path / "one.vtu")
+    open_and_wait(qtbot, window, tmp_path / "one.vtu")
+    run(window, qtbot, "mend")
+    qtbot.waitUntil(window.outcome_panel.isVisible)
+    assert "Why mend stopped Nothing to do: every node is fixed." in said(window)
+    run(window, qtbot, "laplacian")
+    assert "Why laplacian stopped" in said(window)
+
+
+def test_another_mesh_is_unexplained(window, qtbot, mesh_file):
+    run(window, qtbot, "laplacian", max_iterations=1)
+    window.document.saved(mesh_file)
+    open_and_wait(qtbot, window, mesh_file)
+    window.docks["outcome"].raise_()
+    qtbot.wait(50)
+    assert "No run has ended yet" in said(window)

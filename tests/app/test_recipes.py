@@ -1,0 +1,232 @@
+"""Recipes in the window, by real clicks and keys: put together, run, saved and loaded."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QFileDialog, QLineEdit, QListWidget, QPushButton
+
+from hexmend import io
+from hexmend.optimise import Stop
+from hexmend.recipe import Recipe, Stage
+from hexmend.run import smooth
+from hexmend.smoothers import METHODS
+from hexmend_app.state.breakpoints import Breakpoints
+from hexmend_app.state.chain import Chain
+from hexmend_app.state.run import Phase
+from tests.app.driving import LEFT, click, open_and_wait, phase
+from tests.said import FIRST_RUN
+
+SHORT = Stop(max_iterations=3, tolerance=0)
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    for section in window.smoothing_panel._sections:
+        section.collapse()
+    window.smoothing_panel._sections[2].expand()
+    qtbot.wait(30)
+    return window.smoothing_panel.recipe_panel
+
+
+def button(panel, name):
+    return next(b for b in panel.findChildren(QPushButton) if b.accessibleName() == name)
+
+
+def press(panel, name):
+    assert button(panel, name).isEnabled()
+    QTest.mouseClick(button(panel, name), LEFT)
+
+
+def stages(panel):
+    shown = panel.findChild(QListWidget)
+    return [shown.item(at).text() for at in range(shown.count())]
+
+
+def choose(panel, at):
+    shown = panel.findChild(QListWidget)
+    place = shown.visualItemRect(shown.item(at)).center()
+    QTest.mouseClick(shown.viewport(), LEFT, pos=place)
+    return place
+
+
+def add(window, panel, method, values=None, stop=SHORT):
+    window.smoothing_panel.choose(method, values or {}, stop.values())
+    press(panel, "Add")
+
+
+def test_a_chain_is_stages_in_order():
+    chain, (a, b, c) = Chain(), (Stage(METHODS[name]()) for name in ("getme", "mend", "local-sd"))
+    assert chain.recipe is None
+    for stage in (a, b, c):
+        chain.add(stage)
+    chain.move(0, 2)
+    assert chain.stages == (b, c, a)
+    chain.replace(1, a)
+    chain.remove(0)
+    assert chain.recipe == Recipe.of(a, a)
+    chain.rename("  Twice ")
+    assert chain.recipe.title == "Twice"
+    chain.take(Recipe.of(b, c))
+    assert (chain.title, chain.stages) == ("", (b, c))
+
+
+def test_an_empty_recipe_offers_nothing_to_run(window, panel):
+    assert not any(button(panel, name).isEnabled() for name in ("Run recipe", "Save", "Move up", "Remove the stage"))
+    assert not window.actions_by_id["recipe_run"].isEnabled()
+    assert window.actions_by_id["recipe_load"].isEnabled()
+
+
+def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
+    add(window, panel, "getme", stop=Stop(max_iterations=20))
+    add(window, panel, "local-sd", {"p": 4.0})
+    add(window, panel, "mend", {"guard": True}, Stop())
+    assert stages(panel) == [
+        "1  GETMe, simultaneous (at most 20 iterations)",
+        "2  Local steepest descent (p 4, at most 3 iterations, tolerance 0)",
+        "3  Mend (Guard on)",
+    ]
+    press(panel, "Move up")  # the one added last is chosen
+    assert [stage.smoother.name for stage in window.chaining.chain.stages] == ["getme", "mend", "local-sd"]
+    choose(panel, 0)
+    assert not button(panel, "Move up").isEnabled()
+    press(panel, "Remove the stage")
+    assert [stage.smoother.name for stage in window.chaining.chain.stages] == ["mend", "local-sd"]
+    choose(panel, 1)
+    window.smoothing_panel.set_method("laplacian")
+    press(panel, "Replace the stage")
+    assert window.chaining.chain.stages[1].smoother == METHODS["laplacian"]()
+
+
+def test_enter_shows_a_stage_above(window, panel):
+    add(window, panel, "local-sd", {"p": 4.0})
+    add(window, panel, "mend", stop=Stop())
+    choose(panel, 0)
+    QTest.keyClick(panel.findChild(QListWidget), Qt.Key.Key_Return)
+    shown = window.smoothing_panel
+    assert (shown.method(), shown.form.values()["p"], shown.stop_form.values()) == ("local-sd", 4, SHORT.values())
+
+
+def test_a_wrong_value_becomes_no_stage(window, panel):
+    window.smoothing_panel.set_method("local-sd")
+    window.smoothing_panel._sections[0].expand()
+    editor = window.smoothing_panel.form.editor("p").lineEdit()
+    editor.setFocus()
+    editor.selectAll()
+    QTest.keyClicks(editor, "99")
+    press(panel, "Add")
+    assert stages(panel) == []
+    assert "Correct the marked value" in window.smoothing_panel._sentence.text()
+
+
+def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
+    mesh = window.document.now.mesh
+    add(window, panel, "getme")
+    add(window, panel, "local-sd")
+    recipe = window.chaining.chain.recipe
+    seen = set()
+    window.smoothing.iterated.connect(lambda frame: seen.add(window.smoothing_panel._sentence.text()))
+    press(panel, "Run recipe")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    np.testing.assert_array_equal(window.document.now.mesh.points, smooth(mesh, recipe).mesh.points)
+    assert [row["method"] for row in window.smoothing.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
+    assert window.document.undo_title == recipe.title
+    assert "Stage 1, GETMe" in window.smoothing_panel._sentence.text()
+    QTest.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert window.document.now.mesh.points is mesh.points
+
+
+def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, qtbot):
+    add(window, panel, "getme", stop=Stop(max_iterations=100_000, tolerance=0))
+    add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
+    QTest.keyClick(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    window.smoothing.pause()
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    click(window, "Step")
+    qtbot.waitUntil(lambda: window.smoothing_panel._sentence.text() == "Stage 1 of 2: GETMe, simultaneous.")
+    shown = panel.findChild(QListWidget)
+    assert [shown.item(at).font().bold() for at in range(2)] == [True, False]
+    assert not any(button(panel, name).isEnabled() for name in ("Add", "Run recipe", "Load"))
+    click(window, "Resume")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    assert not any(shown.item(at).font().bold() for at in range(2))
+    assert button(panel, "Add").isEnabled()
+
+
+def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel, qtbot):
+    add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
+    add(window, panel, "local-sd", stop=Stop(max_iterations=3, tolerance=0))
+    window.smoothing_panel.set_method("laplacian")
+    window.smoothing.break_at(Breakpoints(node=free_node(window), move=0.0))
+    press(panel, "Run recipe")
+    qtbot.waitUntil(lambda: paused_after(window, 1), timeout=FIRST_RUN)
+    assert window.smoothing_panel.method() == "local-sd"  # the stage at work, not what was shown before
+    for number in (2, 3):
+        click(window, "Resume")
+        qtbot.waitUntil(lambda number=number: paused_after(window, number))
+    window.smoothing_panel.form.set_values({"p": 4.0})
+    with qtbot.waitSignal(window.smoothing.ended) as ended:
+        window.smoothing.break_at(Breakpoints())
+        click(window, "Resume")
+    assert [(one.stage, one.parameters["p"], one.iterations) for one in ended.args[0].stages] == [
+        (1, 2, 2), (2, 2, 1), (2, 4, 2),
+    ]  # fmt: skip
+    assert [stage.smoother.p for stage in window.chaining.chain.stages] == [2, 2]  # the recipe itself is as it was
+
+
+def free_node(window):
+    return int(np.flatnonzero(window.document.now.mesh.free)[0])
+
+
+def paused_after(window, number):
+    return window.smoothing.phase is Phase.PAUSED and window.smoothing.record.newest == number
+
+
+def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatch):
+    path = tmp_path / "mine.toml"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(path), ""))
+    add(window, panel, "getme")
+    add(window, panel, "mend", {"p": 3.0})
+    title = panel.findChild(QLineEdit)
+    assert title.placeholderText() == "GETMe, simultaneous; then Mend"
+    title.setFocus()
+    QTest.keyClicks(title, "Mine")
+    QTest.keyClick(title, Qt.Key.Key_Return)
+    press(panel, "Save")
+    assert window.messages.messages()[-1][1] == f"Recipe saved to {path}"
+    saved = io.read_recipe(path)
+    assert saved == window.chaining.chain.recipe
+    assert saved.title == "Mine"
+    window.chaining.chain.take(Recipe.of("laplacian"))
+    window.actions_by_id["recipe_load"].trigger()
+    assert window.chaining.chain.recipe == saved
+    assert title.text() == "Mine"
+
+
+def test_a_file_that_is_no_recipe_is_said_and_the_recipe_stays(window, panel, tmp_path):
+    add(window, panel, "getme")
+    before = window.chaining.chain.recipe
+    path = tmp_path / "wrong.toml"
+    path.write_text('format = 1\n[[stage]]\nmethod = "mned"')
+    window.chaining.load(path)
+    kind, title, text = window.messages.messages()[-1]
+    assert (kind, title) == ("error", "The recipe was not loaded")
+    assert "wrong.toml: stage 1: there is no method 'mned': did you mean mend?" in text
+    assert window.chaining.chain.recipe == before
+    window.chaining.save(tmp_path / "no" / "such.toml")
+    assert window.messages.messages()[-1][1] == "The recipe was not saved"
+
+
+def test_recipes_of_hexmend_are_offered_by_title(window, panel):
+    offered = {action.text(): action for action in button(panel, "Load").menu().actions() if action.text()}
+    assert "GETMe, then mend" in offered
+    offered["GETMe, then mend"].trigger()
+    assert [stage.smoother.name for stage in window.chaining.chain.stages] == ["getme", "mend"]
+
+
+def test_the_recipe_outlives_the_mesh(window, panel, qtbot, mesh_file):
+    add(window, panel, "getme")
+    open_and_wait(qtbot, window, mesh_file)
+    assert len(stages(panel)) == 1
+    assert button(panel, "Run recipe").isEnabled()

@@ -1,0 +1,184 @@
+"""Advice: why a run ended, what is left, and suggestions that are worth following."""
+
+import numpy as np
+import pytest
+
+from hexmend.advice import advise
+from hexmend.gallery import make
+from hexmend.optimise import Stop
+from hexmend.quality import measure
+from hexmend.recipe import Recipe, Stage
+from hexmend.run import iterate, smooth
+from hexmend.smoothers import METHODS
+from tests.core.grids import grid
+from tests.core.test_mend import with_locked_corner
+
+MESHES = {
+    "cube, scrambled": ("cube", {"size": 125, "scramble": 0.5}),
+    "cube, tangled": ("cube", {"size": 512, "scramble": 2.0}),
+    "bridge": ("bridge-sharp", {"size": 500}),
+    "bridge, tangled": ("bridge-sharp", {"size": 500, "scramble": 0.4}),
+    "five-side": ("five-side", {"size": 500}),
+    "five-side, tangled": ("five-side", {"size": 500, "scramble": 1.5}),
+    "plane": ("plane", {"size": 2500}),
+    "plane, tangled": ("plane", {"size": 2500, "scramble": 0.4}),
+}
+LOOSE, SHORT = Stop(tolerance=1e-2), Stop(max_iterations=12)
+RUNS = {
+    **{name: (name, Stop()) for name in METHODS if not name.startswith("global")},
+    **{f"{name}, cut short": (name, SHORT) for name in METHODS if name != "global-nr"},
+    **{f"{name}, soon content": (name, LOOSE) for name in ("local-sd", "local-mnr", "global-sd")},
+    "mend, raised": (METHODS["mend"](highest_p=16), Stop()),
+    "mend, p = 4": (METHODS["mend"](p=4), Stop()),
+    "local-sd, p = 4": (METHODS["local-sd"](p=4), SHORT),
+    "local-sd, no delta": (METHODS["local-sd"](delta=0.0), SHORT),
+    "global-sd, no delta": (METHODS["global-sd"](delta=0.0), SHORT),
+    "mend, then lifted": (Recipe.of("mend", "getme-sequential"), None),
+}
+
+
+def better(gain, before, after):
+    """Whether a figure of `Summary` is better."""
+    if gain in ("q_min", "q_norm"):
+        return getattr(after, gain) > getattr(before, gain)
+    then, now = getattr(before, gain), getattr(after, gain)
+    return now is not None and (then is None or now < then)
+
+
+def followed(mesh, result, suggestion):
+    """What comes of a suggestion."""
+    begin = mesh if suggestion.undo else result.mesh
+    if suggestion.unpin.size:
+        pinned = begin.pinned.copy()
+        pinned[suggestion.unpin] = False
+        begin = begin.replace(pinned=pinned)
+    return smooth(begin, suggestion.smoother, suggestion.stop)
+
+
+def energy(mesh, p):
+    """The sum of eta(H)^p."""
+    return np.power(measure(mesh.points, mesh.hexes).eta, p).sum()
+
+
+@pytest.mark.parametrize("which", MESHES)
+def test_following_a_suggestion_helps(which):
+    name, parameters = MESHES[which]
+    follow_all(make(name, **parameters))
+
+
+def test_following_a_suggestion_helps_beside_what_is_locked():
+    follow_all(with_locked_corner(make("five-side", size=500)))
+    follow_all(with_locked_corner(make("five-side", size=500, scramble=0.8)))
+
+
+def follow_all(mesh):
+    """Follow every suggestion after every run on a mesh."""
+    seen = set()
+    for what, (smoother, stop) in RUNS.items():
+        result = smooth(mesh, smoother, stop)
+        for suggestion in advise(result).suggestions:
+            then = followed(mesh, result, suggestion)
+            after = then.after
+            said = f"{what}: {suggestion.title}: {result.after} became {after}"
+            if suggestion.gain == "energy":
+                assert energy(then.mesh, suggestion.smoother.p) < energy(result.mesh, suggestion.smoother.p), said
+            else:
+                assert better(suggestion.gain, result.after, after), said
+            assert after.inverted <= result.after.inverted, said
+            seen.add(suggestion.title)
+    assert seen, "nothing was suggested at all"
+
+
+def test_every_kind_of_suggestion_is_made_somewhere():
+    bridge, tangled = make("bridge-sharp", size=500), make("bridge-sharp", size=500, scramble=0.4)
+    lifted = smooth(bridge, Recipe.of("mend", "getme-sequential")).mesh
+    runs = [
+        smooth(tangled, "local-sd", SHORT),
+        smooth(bridge, "laplacian"),
+        smooth(bridge, "local-sd", SHORT),
+        smooth(bridge, "global-sd", LOOSE),
+        smooth(bridge, "mend"),
+        smooth(lifted, "mend"),
+        smooth(tangled, METHODS["global-sd"](delta=0.0)),
+        smooth(pinned_tangle(), "mend"),
+    ]
+    titles = {suggestion.title for result in runs for suggestion in advise(result).suggestions}
+    assert titles == {
+        "Mend", "Smart Laplacian from before the run", "Go on", "Tighter tolerance", "GETMe, sequential", "Mend, p up to 16",
+        "Guarded Mend from before the run", "δ = 0.01", "Unpin, then Mend",
+    }  # fmt: skip
+
+
+def pinned_tangle():
+    """A grid of which an inner node lies far out and is pinned there."""
+    mesh = grid(4)
+    (node,) = np.flatnonzero((mesh.points == [1, 1, 1]).all(axis=1))
+    points, pinned = mesh.points.copy(), np.zeros(mesh.n_nodes, dtype=bool)
+    points[node] += 4
+    pinned[node] = True
+    return mesh.with_points(points).replace(pinned=pinned)
+
+
+def test_a_pin_that_holds_hexes_inverted_is_named_and_unpinning_helps():
+    mesh = pinned_tangle()
+    result = smooth(mesh, "mend")
+    first = advise(result).suggestions[0]
+    assert first.unpin.tolist() == np.flatnonzero(mesh.pinned).tolist()
+    assert "Unpin the node" in first.text
+    assert result.after.inverted > 0
+    assert followed(mesh, result, first).after.inverted == 0
+
+
+def test_the_guard_keeps_what_would_fall():
+    bridge = make("bridge-sharp", size=500)
+    mesh = smooth(bridge, Recipe.of("mend", "getme-sequential")).mesh
+    result = smooth(mesh, "mend")
+    (guard,) = (one for one in advise(result).suggestions if one.undo)
+    assert result.after.q_min < result.before.q_min <= followed(mesh, result, guard).after.q_min
+
+
+def test_locked_hexes_are_named_and_nothing_vain_is_suggested():
+    mesh = with_locked_corner(make("five-side", size=300))
+    advice = advise(smooth(mesh, "mend"))
+    assert advice.locked.tolist() == [mesh.topology.node_corners.items[0] // 8]
+    assert advice.loose.size == 0
+    assert "1 of 300 hexes is inverted. It is locked: fixed nodes alone hold it in inversion" in advice.left
+    assert "Correct the boundary" in advice.left
+    assert advice.suggestions == ()
+
+
+def test_of_a_recipe_the_last_stage_is_explained():
+    stages = [Stage(METHODS["getme"](), SHORT), Stage(METHODS["local-sd"](), SHORT)]
+    advice = advise(smooth(make("bridge-sharp", size=500), Recipe("two", tuple(stages))))
+    assert advice.why.startswith("The last stage, Local steepest descent: Stopped at the limit of 12 iterations")
+
+
+def test_a_perfect_mesh_wants_nothing():
+    advice = advise(smooth(make("cube", size=64, scramble=0.3), "mend"))
+    assert advice.suggestions == ()
+    assert advice.left.endswith("It can hardly be better.")
+
+
+def test_a_mesh_with_nothing_free_is_explained():
+    advice = advise(smooth(grid(1), "mend"))
+    assert advice.why == "Nothing to do: every node is fixed."
+    assert advice.suggestions == ()
+
+
+@pytest.mark.parametrize(("stop", "said"), [
+    (Stop(max_iterations=3, tolerance=0), "Stopped at the limit of 3 iterations before it converged. The last one still"),
+    (Stop(max_seconds=1e-9, tolerance=0), "Stopped at the limit of 1e-09 s, after 1 iteration, before it converged."),
+    (Stop(tolerance=0.01), "no node moved further than 0.01 mean edge lengths."),
+])  # fmt: skip
+def test_why_it_ended_is_said_with_its_limits(stop, said):
+    assert said in advise(smooth(make("bridge-sharp", size=500), "local-sd", stop)).why
+
+
+def test_a_run_that_was_stopped_says_so_and_what_is_inverted():
+    run = iterate(make("bridge-sharp", size=500, scramble=0.4), "laplacian")
+    next(run)
+    run.close()
+    advice = advise(run.result())
+    assert advice.why.startswith("Stopped by you after 1 iteration.")
+    assert advice.left.startswith(f"{advice.loose.size} of 500 hexes are inverted. 94 were at the start.")
+    assert [one.title for one in advice.suggestions] == ["Mend"]
