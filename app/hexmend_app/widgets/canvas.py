@@ -171,16 +171,16 @@ class Canvas(QWidget):
         self._select_beside()
         self._changed()
 
+    def _select_beside(self) -> None:
+        """Mark the same element in the other views."""
+        for view in self.panes.all[1:]:
+            view.select(*self._chosen)
+
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw a node's step; None draws none."""
         if not self._closed:
             self.viewport.show_node_step(step)
             self._changed()
-
-    def _select_beside(self) -> None:
-        """Mark the same element in the other views."""
-        for view in self.panes.all[1:]:
-            view.select(*self._chosen)
 
     def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
         """Show other places of the same mesh's nodes in views beside the first, or two views over one another.
