@@ -68,6 +68,7 @@ class Commands:
     def run_recipe(self, recipe: Recipe) -> None:
         """Run methods one after another on the mesh as it is now, unless another is being read."""
         if not self.opener.busy:
+            self.stepping.leave()
             self.smoothing.start(recipe, None)
 
     def change(self, method: str, values: dict, stop: dict) -> None:

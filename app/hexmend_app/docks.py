@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QScrollArea, QStyle, QTabBar, QVBoxLayout, QWidget
 
 #: Number of the layout: one that was saved with other docks is not restored.
-LAYOUT = 5
+LAYOUT = 6
 
 
 class _Column(QScrollArea):

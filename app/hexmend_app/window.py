@@ -167,7 +167,6 @@ class Window(QMainWindow):
             ("quality", "Quality", self.statistics),
             ("worst", "Worst", self.worst_list),
             ("element", "Element", self.element_panel),
-            ("node", "Node", self.node_panel),
             ("tags", "Tags", self.tag_panel),
             ("outcome", "Outcome", self.outcome_panel),
             ("compare", "Compare", self.compare_panel),
@@ -175,6 +174,7 @@ class Window(QMainWindow):
         behind = [
             ("convergence", "Convergence", self.convergence_panel),
             ("movement", "Movement", column(self.movement_panel)),
+            ("node", "Node", self.node_panel),
         ]
         self.docks = add_docks(self, tools, self.histogram, tabs, behind)
         self.statusBar().addWidget(self.counts, 1)

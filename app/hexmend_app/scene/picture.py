@@ -31,8 +31,8 @@ def picture(
     size: tuple[int, int],
     *,
     filters: Filters | None = None,
-    movement: Movement | None = None,
     node_step: NodeStep | None = None,
+    movement: Movement | None = None,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
     transparent: bool = False,
@@ -51,10 +51,10 @@ def picture(
     filters : Filters, optional
         Those of a view of the mesh, whose elements are drawn: a cut by whole elements is made where the nodes are as a
         plane comes, not where they are now.
-    movement : Movement, optional
-        What colours and arrows of a movement show.
     node_step : NodeStep, optional
         A node's step that is drawn too.
+    movement : Movement, optional
+        What colours and arrows of a movement show.
     view : str or vector
         The direction to look from, where no camera is given.
     camera : pyvista.Camera, optional

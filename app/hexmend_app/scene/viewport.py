@@ -408,8 +408,8 @@ class Viewport:
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """What draws this view, one layer over the other."""
-        inside = (self._structure.layer, self._arrows.layer)
-        return self._plotter.renderer, *inside, self._highlight.layer, *self._node_step.layers
+        layers = (self._structure.layer, self._arrows.layer, self._highlight.layer, *self._node_step.layers)
+        return self._plotter.renderer, *layers
 
     def fit_axes(self) -> None:
         """Draw the axes in this view's corner, as large as in a window of one view, and so that they can be read."""
