@@ -5,6 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QScrollArea, QStyle, QTabBar, QVBoxLayout, QWidget
 
+from hexmend_app.widgets.style import smaller
+
 #: Number of the layout: one that was saved with other docks is not restored.
 LAYOUT = 6
 
@@ -89,6 +91,7 @@ def name_tabs(window: QMainWindow) -> None:
     """Name the tabs of docks, which Qt makes as the window is shown, and keep their words whole."""
     for tabs in window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly):
         tabs.setAccessibleName("Panels")
+        tabs.setFont(smaller(tabs.font()))
         tabs.setElideMode(Qt.TextElideMode.ElideNone)
         tabs.setUsesScrollButtons(True)
 

@@ -56,4 +56,5 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     shiboken6.invalidate(window.windowHandle())
     window.deleteLater()  # with 50 MB that Qt and Mesa have kept for it
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    window.canvas.interactor._forget_context()  # nor for the surface that was drawn on, which is gone too
     assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []

@@ -23,12 +23,12 @@ from hexmend_app.widgets.legend import legend_entry
 from hexmend_app.widgets.node_figures import NodeFigures
 from hexmend_app.widgets.node_plot import NodePlot
 from hexmend_app.widgets.node_words import rows
-from hexmend_app.widgets.style import MUTED, WORSE, dress, explain, icon, note, tabular, tint
+from hexmend_app.widgets.style import MUTED, WORSE, dress, explain, note, tabular, tint
 
 _BUTTONS = {
-    "next": ("debug-step-over", "Next node", "Move the next node of the sweep, and look at its step (F11)."),
-    "ten": ("fast-forward-10", "10 nodes", "Move the next ten nodes of the sweep (Shift+F11)."),
-    "finish": ("page-last", "Finish", "Move all nodes that are left of the sweep (Ctrl+F11)."),
+    "next": ("Next node", "Move the next node of the sweep, and look at its step (F11)."),
+    "ten": ("10 nodes", "Move the next ten nodes of the sweep (Shift+F11)."),
+    "finish": ("Finish", "Move all nodes that are left of the sweep (Ctrl+F11)."),
 }
 _LEGEND = (
     ("gradient", UPHILL, "The gradient of the energy by this node: uphill. Its length in the view means nothing."),
@@ -87,8 +87,10 @@ class NodePanel(QWidget):
             "Show nothing but the node's elements, before the camera; Esc brings back the rest.",
         )
         self._patch.toggled.connect(self.patch_toggled)
-        self._buttons = {name: QPushButton(icon(picture), text) for name, (picture, text, _) in _BUTTONS.items()}
+        self._buttons = {name: QPushButton(text) for name, (text, _) in _BUTTONS.items()}
         for name, button in self._buttons.items():
+            text = button.fontMetrics().horizontalAdvance(button.text())
+            button.setMinimumWidth(text + 16)  # less than the style's, which a narrow window has no room for
             button.clicked.connect(lambda _=False, name=name: self.requested.emit(name))
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
@@ -114,9 +116,9 @@ class NodePanel(QWidget):
             entry = legend_entry(text, role)
             explain(entry, text, help)
             layout.addWidget(entry)
-        self._otherwise = {text: legend_entry(text, OTHERWISE) for text in ("as it will be", "as it was")}
+        self._otherwise = {text: legend_entry(text, OTHERWISE) for text in ("after", "before")}
         for text, entry in self._otherwise.items():
-            explain(entry, text, f"The edges at the node, {text.replace('it', 'they').replace('was', 'were')}.")
+            explain(entry, text, f"The edges at the node, {text} the step.")
             layout.addWidget(entry)
         layout.addStretch()
         return row
@@ -168,8 +170,8 @@ class NodePanel(QWidget):
         self.plot.show_step(step)
         self.plot.setVisible(self.plot.drawn)
         self.figures.show_rows(rows(step))
-        self._otherwise["as it was"].setVisible(made and step.move > 0)
-        self._otherwise["as it will be"].setVisible(not made and step.move > 0)
+        self._otherwise["before"].setVisible(made and step.move > 0)
+        self._otherwise["after"].setVisible(not made and step.move > 0)
         self._legend.show()
         self._stack.setCurrentIndex(1)
 
@@ -186,7 +188,7 @@ class NodePanel(QWidget):
         """Offer to go through a sweep, or say for what `reason` not; how far one under way is."""
         for name, button in self._buttons.items():
             button.setEnabled(not reason)
-            explain(button, _BUTTONS[name][1], reason or _BUTTONS[name][2])
+            explain(button, _BUTTONS[name][0], reason or _BUTTONS[name][1])
         self._progress.setText(f"{done:,} of {total:,} nodes" if done else "")
 
     def set_patch(self, on: bool) -> None:
