@@ -13,6 +13,7 @@ from take_screenshots import opened, shoot, shut, turn, until
 
 from hexmend.gallery import make
 from hexmend.io import write
+from hexmend_app.state.breakpoints import Breakpoints
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, Since, Traces
 from hexmend_app.state.run import Phase
@@ -34,6 +35,21 @@ def cut(window: Window) -> None:
     """Cut through the middle, by whole elements, without handles."""
     window.view.set_handles(False)
     window.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.document.now.mesh.points.mean(axis=0))))
+
+
+def timeline(window: Window) -> None:
+    """Paused where an element inverts, the iteration before kept in a view, the cut and the chosen element in both."""
+    panel = window.smoothing_panel
+    panel.set_method("laplacian")
+    panel.stop_form.set_values({"tolerance": 0.0})
+    panel.show_break_points()
+    panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True))
+    panel.run_or_pause()
+    until(lambda: window.smoothing.phase is Phase.PAUSED)
+    window.session.timeline.step(-1)
+    window.actions_by_id["iteration_beside"].trigger()
+    window.session.timeline.go_to_newest()
+    cut(window)
 
 
 def convergence(window: Window) -> None:
@@ -73,6 +89,7 @@ def change(window: Window) -> None:
 
 
 SCENES = (
+    (timeline, "bridge-sharp", {"size": 4000}),
     (convergence, "bridge-sharp", {"size": 4000, "scramble": 0.4}),
     (movement, "bridge-sharp", {"size": 4000, "scramble": 0.4}),
     (change, "bridge-sharp", {"size": 4000, "scramble": 0.4}),

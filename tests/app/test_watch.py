@@ -140,7 +140,7 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
 
 
 def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
-    window.smoothing_panel._sections[2].expand()
+    window.smoothing_panel.show_break_points()
     check(window, "An element inverts")
     window.smoothing_panel.set_method("laplacian")
     window.smoothing_panel.stop_form.set_values(ENDLESS)
@@ -158,7 +158,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     ("text", "method", "chooses"), [("Node", "laplacian", True), ("Line search cuts more than", "global-sd", False)]
 )
 def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
-    window.smoothing_panel._sections[2].expand()
+    window.smoothing_panel.show_break_points()
     mesh = window.document.now.mesh
     node = int(np.flatnonzero(mesh.free)[100])
     window.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)

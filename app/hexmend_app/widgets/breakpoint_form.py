@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QSpinBox, QWidget
 
 from hexmend_app.state.breakpoints import Breakpoints
@@ -68,6 +68,28 @@ class BreakpointForm(QWidget):
             change=self._change.value(),
             cuts=self._cuts.value() if self._cut.isChecked() else None,
         )
+
+    def set_breakpoints(self, breakpoints: Breakpoints) -> None:
+        """Choose these."""
+        for check, on in (
+            (self._inverts, breakpoints.inverts),
+            (self._falls, breakpoints.q_min_falls),
+            (self._node, breakpoints.node is not None),
+            (self._hex, breakpoints.hex is not None),
+            (self._cut, breakpoints.cuts is not None),
+        ):
+            check.setChecked(on)
+        for box, value in (
+            (self._node_box, breakpoints.node),
+            (self._move, breakpoints.move),
+            (self._hex_box, breakpoints.hex),
+            (self._change, breakpoints.change),
+            (self._cuts, breakpoints.cuts),
+        ):
+            if value is not None:
+                with QSignalBlocker(box):
+                    box.setValue(value)
+        self._tell()
 
     def set_chosen(self, hex: int | None, node: int | None) -> None:
         """Take which element and node are chosen in the view, for when one is to be watched."""

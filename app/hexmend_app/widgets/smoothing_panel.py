@@ -192,6 +192,10 @@ class SmoothingPanel(QWidget):
         self._progress.setText("  ·  ".join(parts) or "Not run yet")
         self.tell(sentence)
 
+    def show_break_points(self) -> None:
+        """Unfold what a run pauses at."""
+        self._sections[-1].expand()
+
     def run_or_pause(self) -> None:
         """What the main button does: run, pause or resume, as the state has it."""
         if self._state == "running":
