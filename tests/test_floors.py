@@ -54,7 +54,7 @@ APP = [
         "tagging",
         "watching",
     },
-    {"converging"},
+    {"converging", "shell"},
     {"window"},
     {"program"},
     {"bench", "cli"},

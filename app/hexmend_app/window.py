@@ -9,20 +9,16 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QSettings, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
-from PySide6.QtWidgets import QLabel, QMainWindow, QVBoxLayout, QWidget
 
-from hexmend.parameters import declared
-from hexmend.run import Stop
-from hexmend.smoothers import DEFAULT_METHOD
 from hexmend_app.actions import ACTIONS
 from hexmend_app.advising import Advising
 from hexmend_app.chaining import Chaining
-from hexmend_app.commands import Commands, methods_offered
-from hexmend_app.comparing import TICKED, Comparing
+from hexmend_app.commands import Commands
+from hexmend_app.comparing import Comparing
 from hexmend_app.converging import Converging
 from hexmend_app.counting import Counting
 from hexmend_app.debugging import Debugging
-from hexmend_app.docks import LAYOUT, add_docks, column, name_tabs
+from hexmend_app.docks import LAYOUT, name_tabs
 from hexmend_app.filming import Filming
 from hexmend_app.inspecting import Inspecting
 from hexmend_app.looking import Looking
@@ -31,43 +27,22 @@ from hexmend_app.moving import Moving
 from hexmend_app.opening import Opening
 from hexmend_app.resources import demo_mesh
 from hexmend_app.saving import Saving
-from hexmend_app.state.recent import Recent
+from hexmend_app.shell import Shell
 from hexmend_app.state.run import Frame, Phase
 from hexmend_app.state.session import Session
 from hexmend_app.state.theme import Choice
 from hexmend_app.tagging import Tagging
 from hexmend_app.watching import Watching
 from hexmend_app.widgets import theming
-from hexmend_app.widgets.busy import Busy
-from hexmend_app.widgets.clip_panel import ClipPanel
-from hexmend_app.widgets.colour_panel import ColourPanel
 from hexmend_app.widgets.command_palette import CommandPalette
-from hexmend_app.widgets.compare_panel import ComparePanel
-from hexmend_app.widgets.convergence_panel import ConvergencePanel
-from hexmend_app.widgets.element_panel import ElementPanel
-from hexmend_app.widgets.hint import Hint
-from hexmend_app.widgets.histogram import QualityHistogram
-from hexmend_app.widgets.inside_panel import InsidePanel
-from hexmend_app.widgets.message_bar import MessageBar
-from hexmend_app.widgets.movement_panel import MovementPanel
-from hexmend_app.widgets.node_panel import NodePanel
-from hexmend_app.widgets.outcome_panel import OutcomePanel
 from hexmend_app.widgets.questions import Answer, ask_mesh, ask_unsaved, show_about
-from hexmend_app.widgets.recent_menu import RecentMenu
-from hexmend_app.widgets.smoothing_panel import SmoothingPanel
-from hexmend_app.widgets.statistics import StatisticsTable
-from hexmend_app.widgets.structure_panel import StructurePanel
-from hexmend_app.widgets.tag_panel import TagPanel
-from hexmend_app.widgets.timeline_bar import TimelineBar
-from hexmend_app.widgets.welcome import Welcome
-from hexmend_app.widgets.worst_list import WorstList
 
 if TYPE_CHECKING:
     from hexmend.optimise import Result
     from hexmend_app.widgets.canvas import Canvas
 
 
-class Window(QMainWindow):
+class Window(Shell):
     """Hexmend's one window.
 
     It is shown before what is slow to load: `build_canvas` adds the 3D view afterwards.
@@ -75,41 +50,12 @@ class Window(QMainWindow):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setWindowTitle("Hexmend")
-        self.setAcceptDrops(True)
         session = self.session = Session(self)
         self.document, self.view, self.selection = session.document, session.view, session.selection
         self.smoothing, self.opener, self.finder = session.smoothing, session.opener, session.finder
         self.commands = Commands(session)
         self.canvas: Canvas | None = None
 
-        self.messages = MessageBar()
-        self.recent = Recent(self)
-        self.recent_menu = RecentMenu(self.recent, self)
-        self.welcome = Welcome(self.recent)
-        self.histogram = QualityHistogram()
-        self.statistics = StatisticsTable()
-        self.worst_list = WorstList()
-        self.element_panel = ElementPanel()
-        self.node_panel = NodePanel()
-        self.tag_panel = TagPanel()
-        self.outcome_panel = OutcomePanel()
-        self.compare_panel = ComparePanel(TICKED)
-        self.smoothing_panel = SmoothingPanel(declared(Stop))
-        self.smoothing_panel.set_methods(methods_offered())
-        self.smoothing_panel.set_method(DEFAULT_METHOD)
-        self.clip_panel = ClipPanel()
-        self.inside_panel = InsidePanel()
-        self.structure_panel = StructurePanel()
-        self.colour_panel = ColourPanel()
-        self.convergence_panel = ConvergencePanel()
-        self.movement_panel = MovementPanel()
-        self.timeline_bar = TimelineBar()
-        self.busy = Busy()
-        self.hint = Hint()
-        self.counts = QLabel()
-
-        self._lay_out()
         self.looking = Looking(session, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel)
         self.moving = Moving(session, self.movement_panel, self.colour_panel)
         self.counting = Counting(session, self.histogram)
@@ -148,38 +94,6 @@ class Window(QMainWindow):
         self._connect()
         self._restore()
         self._enable()
-
-    def _lay_out(self) -> None:
-        self._centre = QVBoxLayout()
-        self._centre.setContentsMargins(0, 0, 0, 0)
-        self._centre.setSpacing(0)
-        self._centre.addWidget(self.messages)
-        self._centre.addWidget(self.hint)
-        self._centre.addWidget(self.welcome, 1)
-        self._centre.addWidget(self.timeline_bar)
-        centre = QWidget()
-        centre.setLayout(self._centre)
-        self.setCentralWidget(centre)
-        tools = column(
-            self.smoothing_panel, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel
-        )
-        tabs = [
-            ("quality", "Quality", self.statistics),
-            ("worst", "Worst", self.worst_list),
-            ("element", "Element", self.element_panel),
-            ("tags", "Tags", self.tag_panel),
-            ("outcome", "Outcome", self.outcome_panel),
-            ("compare", "Compare", self.compare_panel),
-        ]
-        behind = [
-            ("convergence", "Convergence", self.convergence_panel),
-            ("movement", "Movement", column(self.movement_panel)),
-            ("node", "Node", self.node_panel),
-        ]
-        self.docks = add_docks(self, tools, self.histogram, tabs, behind)
-        self.statusBar().addWidget(self.counts, 1)
-        self.statusBar().addPermanentWidget(self.busy)
-        self.busy.done()
 
     def build_canvas(self) -> None:
         """Load what draws in 3D and put it where the welcome is; slow the first time."""
