@@ -10,6 +10,9 @@ from hexmend_app.widgets.style import smaller
 #: Number of the layout: one that was saved with other docks is not restored.
 LAYOUT = 6
 
+#: Pixels that a column has to spare, for words that are longer once there are figures in them.
+_LONGER = 8
+
 
 class _Column(QScrollArea):
     """Shows what the focus comes to by keys, from within or from elsewhere, which Qt's own scrolls to only from within.
@@ -42,7 +45,7 @@ def column(*parts: QWidget) -> QScrollArea:
     scroll.setFrameShape(QScrollArea.Shape.NoFrame)
     scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     bar = scroll.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
-    scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar)
+    scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar + _LONGER)
     return scroll
 
 

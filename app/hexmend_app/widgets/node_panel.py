@@ -120,6 +120,7 @@ class NodePanel(QWidget):
         for text, entry in self._otherwise.items():
             explain(entry, text, f"The edges at the node, {text} the step.")
             layout.addWidget(entry)
+        row.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)  # of the last two one is shown
         layout.addStretch()
         return row
 
@@ -143,7 +144,7 @@ class NodePanel(QWidget):
         for button in self._buttons.values():
             foot.addWidget(button)
         column = QVBoxLayout(self)
-        column.setContentsMargins(8, 4, 8, 4)
+        column.setContentsMargins(6, 4, 6, 4)
         column.setSpacing(3)
         column.addLayout(head)
         column.addLayout(self._stack, 1)
