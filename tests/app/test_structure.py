@@ -243,7 +243,7 @@ def test_closing_before_it_is_found_leaves_no_thread(window, qtbot, mesh_file, s
         qtbot.waitSignal(window.finder.found, timeout=FIRST_RUN).wait()
     window.document.replace(window.document.start, mesh_file)
     if searching:
-        qtbot.waitUntil(lambda: window.finder._finding is not None, timeout=2000)
+        qtbot.waitUntil(lambda: window.finder._finding is not None, timeout=FIRST_RUN)
     window.close()
     qtbot.wait(150)
     assert window.finder._finding is None
