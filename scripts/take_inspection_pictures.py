@@ -6,14 +6,11 @@ Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/take_inspection_picture
 from __future__ import annotations
 
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy as np
-from take_screenshots import opened, shoot, shut, turn, until
+from take_screenshots import take, turn, until
 
-from hexmend.gallery import make
-from hexmend.io import write
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import ColourScale, RangeMode, Structure, ValueRange
 from hexmend_app.state.run import Phase
@@ -86,18 +83,5 @@ SCENES = (
 )
 
 
-def main(folder: Path) -> None:
-    """Take them all."""
-    with tempfile.TemporaryDirectory() as place:
-        for scene, name, how in SCENES:
-            path = Path(place) / f"{name}.vtu"
-            write(path, make(name, **how))
-            window = opened(path, (1240, 780))
-            scene(window)
-            shoot(window, folder / f"inspect-{scene.__name__}.png")
-            shut(window)
-    choose(Choice.LIGHT)
-
-
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    take(SCENES, Path(sys.argv[1]), "inspect")

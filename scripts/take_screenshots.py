@@ -7,15 +7,23 @@ from __future__ import annotations
 
 import sys
 import tempfile
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from PIL import Image
 from PySide6.QtCore import QEventLoop, QSettings, QTimer
 
+from hexmend.gallery import make
+from hexmend.io import write
 from hexmend_app.program import application
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.run import Phase
+from hexmend_app.state.theme import Choice
+from hexmend_app.widgets.theming import choose
 from hexmend_app.window import Window
+
+#: What is photographed: what is done in the window, the gallery's mesh that is open in it, and how that is made.
+Scenes = Sequence[tuple[Callable[[Window], object], str, dict]]
 
 
 def turn(seconds: float) -> None:
@@ -58,8 +66,23 @@ def opened(mesh: str | Path, size: tuple[int, int] = (1320, 830)) -> Window:
     return window
 
 
+def take(scenes: Scenes, folder: Path, prefix: str) -> None:
+    """Photograph scenes, each in a window of its own, into files that are called after them."""
+    with tempfile.TemporaryDirectory() as place:
+        for scene, name, how in scenes:
+            path = Path(place) / f"{name}.vtu"
+            write(path, make(name, **how))
+            window = opened(path, (1240, 780))
+            scene(window)
+            shoot(window, folder / f"{prefix}-{scene.__name__}.png")
+            shut(window)
+    choose(Choice.LIGHT)
+
+
 def shut(window: Window) -> None:
     """Close the window, whatever is unsaved."""
+    window.smoothing.end_now()
+    window.document.commit("shown", window.document.now)
     window.document.saved(window.document.path)
     window.close()
     turn(0.1)

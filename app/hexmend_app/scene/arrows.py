@@ -6,6 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
+from hexmend_app.scene.overlay import overlay
 from hexmend_app.scene.surface import set_points
 from hexmend_app.state.movement import NOTHING, Movement
 
@@ -43,14 +44,7 @@ class ArrowLayer:
     """
 
     def __init__(self, plotter: pv.BasePlotter):
-        # A layer of its own, in which nothing hides what is inside the mesh.
-        self._inside = vtkRenderer()
-        self._inside.SetLayer(1)
-        self._inside.InteractiveOff()
-        self._inside.SetActiveCamera(plotter.camera)
-        window = plotter.render_window
-        window.SetNumberOfLayers(max(2, window.GetNumberOfLayers()))
-        window.AddRenderer(self._inside)
+        self._inside = overlay(plotter)
         self._points = pv.PolyData()
         self._front_actors = _actors(plotter.renderer)
         self._inside_actors = _actors(self._inside)

@@ -8,6 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkPo
 
 from hexmend.hexahedron import EDGES
 from hexmend_app.scene.fitting import pixels
+from hexmend_app.scene.overlay import overlay
 
 _LINE, _HALO, _ARROW = "#ffffff", "#11151c", "#ff8c00"
 _LINES = np.column_stack([np.full(12, 2), EDGES]).ravel()
@@ -25,14 +26,7 @@ class Highlight:
     """
 
     def __init__(self, plotter: pv.BasePlotter):
-        # A layer of its own is drawn later: nothing hides what is in it.
-        self._layer = vtkRenderer()
-        self._layer.SetLayer(1)
-        self._layer.InteractiveOff()
-        self._layer.SetActiveCamera(plotter.camera)
-        window = plotter.render_window
-        window.SetNumberOfLayers(max(2, window.GetNumberOfLayers()))
-        window.AddRenderer(self._layer)
+        self._layer = overlay(plotter)
         self._box = pv.PolyData(np.zeros((8, 3)), lines=_LINES)
         self._actors = [self._lines(colour, width) for colour, width in ((_HALO, 5), (_LINE, 2))]
         self._texts = [self._text() for _ in range(8)]

@@ -8,6 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend.hexahedron import EDGES, FACES
 from hexmend.node_step import NodeStep
+from hexmend_app.scene.overlay import overlay
 from hexmend_app.state.theme import OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, UPHILL, Role
 
 _RIM = "#11151c"
@@ -36,7 +37,7 @@ class NodeStepMarks:
     """
 
     def __init__(self, plotter: pv.BasePlotter):
-        self._behind, self._front = (_layer(plotter) for _ in range(2))  # the patch, and what is drawn over it
+        self._behind, self._front = (overlay(plotter) for _ in range(2))  # the patch, and what is drawn over it
         self.step: NodeStep | None = None
         self._dark = False
         self._roles: dict[vtkActor, Role] = {}
@@ -162,18 +163,6 @@ class NodeStepMarks:
         self.step = None
         for layer in self.layers:
             layer.DrawOff()
-
-
-def _layer(plotter: pv.BasePlotter) -> vtkRenderer:
-    """What is drawn later than all before, so that nothing hides it."""
-    layer = vtkRenderer()
-    layer.SetLayer(1)
-    layer.InteractiveOff()
-    layer.SetActiveCamera(plotter.camera)
-    window = plotter.render_window
-    window.SetNumberOfLayers(max(2, window.GetNumberOfLayers()))
-    window.AddRenderer(layer)
-    return layer
 
 
 def _draw(actor: vtkActor, poly: pv.PolyData) -> None:

@@ -13,6 +13,7 @@ from hexmend.structure import Structure as Found
 from hexmend.structure import structure
 from hexmend_app.scene.fitting import pixels
 from hexmend_app.scene.marks import Marks
+from hexmend_app.scene.overlay import overlay
 from hexmend_app.scene.skin import Faces
 from hexmend_app.state.look import Look, Structure
 
@@ -42,14 +43,7 @@ class StructureLayers:
     """
 
     def __init__(self, plotter: pv.BasePlotter):
-        # A layer of its own, in which nothing hides what is inside the mesh. What is not hidden is drawn twice, thick.
-        self._inside = vtkRenderer()
-        self._inside.SetLayer(1)
-        self._inside.InteractiveOff()
-        self._inside.SetActiveCamera(plotter.camera)
-        window = plotter.render_window
-        window.SetNumberOfLayers(max(2, window.GetNumberOfLayers()))
-        window.AddRenderer(self._inside)
+        self._inside = overlay(plotter)  # what is not hidden is drawn twice, thick
         front = self._front = plotter.renderer
         self._irregular, self._irregular_inside = Marks(front, 4, 1.25), Marks(self._inside, 1.5, 0.75)
         self._ends, self._ends_inside = Marks(front, 7, 2), Marks(self._inside, 4, 1.5)

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numba
 from PySide6.QtCore import QObject, QThread, QTimer, Signal
 
 from hexmend import compiling
@@ -17,7 +16,7 @@ from hexmend.smoothers import Smoother
 from hexmend.study import compare
 from hexmend.study.row import Row, run_one
 from hexmend_app.state.document import Document, State
-from hexmend_app.state.worker import give_way
+from hexmend_app.state.standing_back import stand_back
 
 #: Milliseconds between two looks at how far the methods are.
 _PERIOD = 100
@@ -63,8 +62,7 @@ class _Worker(QThread):
 
     def run(self) -> None:
         """What the thread does; a method that fails has its row, and the others go on."""
-        give_way()
-        numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))  # one core stays with the window
+        stand_back()
         state, smoothers, stop = self._order
         for at, smoother in enumerate(smoothers):
             if self.ended.is_set():

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import numba
 from PySide6.QtCore import QObject, QThread, Signal
 
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep, explain
 from hexmend.run.warm import one_blas_thread, warm_up
 from hexmend.smoothers import Smoother
+from hexmend_app.state.standing_back import stand_back
 
 
 class _Explaining(QThread):
@@ -24,8 +24,7 @@ class _Explaining(QThread):
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
         try:
-            # One core stays with the window.
-            numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
+            stand_back()
             warm_up(self.question[1])
             with one_blas_thread():
                 self.step = explain(*self.question)

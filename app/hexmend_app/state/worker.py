@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numba
 from PySide6.QtCore import QThread
 
 from hexmend.mesh import Mesh
@@ -20,9 +17,7 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.breakpoints import Breakpoints, Hit
 from hexmend_app.state.document import State
 from hexmend_app.state.measured import values
-
-#: How far the worker stands back behind the window, as `nice` counts.
-_NICE = 10
+from hexmend_app.state.standing_back import stand_back
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,9 +113,7 @@ class Worker(QThread):
     def run(self) -> None:
         """What the thread does; everything that goes wrong ends in `error`."""
         try:
-            give_way()
-            # One core stays with the window; results do not depend on the number of threads.
-            numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
+            stand_back()
             mesh, smoother, stop = self._order
             run = iterate(mesh, smoother, stop)
             self._keep(run.start)
@@ -167,10 +160,3 @@ class Worker(QThread):
         if change is not None and run.outcome is None and not ended:
             run.go_on_with(change.smoother, change.stop)  # which may have to compile: the window must not wait for it
         return run.outcome is None and not ended
-
-
-def give_way() -> None:
-    """Let the window's threads go first where they want the same core: a frame that waits is seen, a step is not."""
-    if hasattr(os, "setpriority"):
-        with contextlib.suppress(OSError):  # where the system does not know priorities of threads
-            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)

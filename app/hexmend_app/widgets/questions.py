@@ -29,28 +29,24 @@ def ask_mesh(parent: QWidget) -> str:
 def ask_target(parent: QWidget, stem: str) -> str:
     """Where to save the mesh, "" for nowhere."""
     kinds = ";;".join(f"{suffix[1:].upper()} mesh (*{suffix})" for suffix in writable_suffixes())
-    proposal = str(Path(_folder()) / f"{stem}-smoothed.vtu")
-    return QFileDialog.getSaveFileName(parent, "Save the mesh as", proposal, kinds, "VTU mesh (*.vtu)")[0]
+    return _ask_to_save(parent, "Save the mesh as", f"{stem}-smoothed.vtu", kinds, "VTU mesh (*.vtu)")
 
 
 def ask_list(parent: QWidget, stem: str) -> str:
     """Where to save the list of the worst elements, "" for nowhere."""
-    proposal = str(Path(_folder()) / f"{stem}-worst.csv")
-    return QFileDialog.getSaveFileName(parent, "Save the list as", proposal, "Table (*.csv)")[0]
+    return _ask_to_save(parent, "Save the list as", f"{stem}-worst.csv", "Table (*.csv)")
 
 
 def ask_histogram(parent: QWidget, stem: str) -> str:
     """Where to save the histogram, "" for nowhere."""
-    proposal = str(Path(_folder()) / f"{stem}-histogram.svg")
     kinds = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
-    return QFileDialog.getSaveFileName(parent, "Save the histogram as", proposal, kinds)[0]
+    return _ask_to_save(parent, "Save the histogram as", f"{stem}-histogram.svg", kinds)
 
 
 def ask_convergence(parent: QWidget, stem: str) -> str:
     """Where to save the charts of convergence, "" for nowhere."""
-    proposal = str(Path(_folder()) / f"{stem}-convergence.svg")
     kinds = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;All figures of all runs (*.csv)"
-    return QFileDialog.getSaveFileName(parent, "Save the convergence as", proposal, kinds)[0]
+    return _ask_to_save(parent, "Save the convergence as", f"{stem}-convergence.svg", kinds)
 
 
 def ask_recipe(parent: QWidget) -> str:
@@ -60,22 +56,19 @@ def ask_recipe(parent: QWidget) -> str:
 
 def ask_recipe_target(parent: QWidget) -> str:
     """Where to save the recipe, "" for nowhere."""
-    proposal = str(Path(_folder()) / "recipe.toml")
-    return QFileDialog.getSaveFileName(parent, "Save the recipe as", proposal, "Recipe (*.toml)")[0]
+    return _ask_to_save(parent, "Save the recipe as", "recipe.toml", "Recipe (*.toml)")
 
 
 def ask_film(parent: QWidget, stem: str) -> str:
     """Where to save a film of a run, "" for nowhere."""
-    proposal = str(Path(_folder()) / f"{stem}.gif")
     kinds = "GIF animation (*.gif);;WebP animation, smaller and finer (*.webp);;PNG animation, exact (*.png)"
-    return QFileDialog.getSaveFileName(parent, "Save the film as", proposal, kinds)[0]
+    return _ask_to_save(parent, "Save the film as", f"{stem}.gif", kinds)
 
 
 def ask_comparison(parent: QWidget, stem: str) -> str:
     """Where to save the table of methods, "" for nowhere."""
-    proposal = str(Path(_folder()) / f"{stem}-comparison.csv")
     kinds = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;Everything, for programs (*.json)"
-    return QFileDialog.getSaveFileName(parent, "Save the table as", proposal, kinds)[0]
+    return _ask_to_save(parent, "Save the table as", f"{stem}-comparison.csv", kinds)
 
 
 def remember_folder(path: Path) -> None:
@@ -104,6 +97,11 @@ def show_about(parent: QWidget, version: str) -> None:
         "<p>Its mathematics is T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
         "Meshes</i>. BSD 3-clause licence.</p>",
     )
+
+
+def _ask_to_save(parent: QWidget, title: str, name: str, kinds: str, chosen: str = "") -> str:
+    """Where to save something that is proposed to be called `name`, of one of several kinds, "" for nowhere."""
+    return QFileDialog.getSaveFileName(parent, title, str(Path(_folder()) / name), kinds, chosen)[0]
 
 
 def _folder() -> str:

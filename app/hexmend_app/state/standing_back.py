@@ -1,0 +1,23 @@
+"""How threads that compute leave room to the window."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import threading
+
+import numba
+
+#: How far such a thread stands back behind the window, as `nice` counts.
+_NICE = 10
+
+
+def stand_back() -> None:
+    """Let the window go first, from the thread that calls this on: a frame that waits is seen, a step is not.
+
+    One core stays with the window; results do not depend on the number of threads.
+    """
+    numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
+    if hasattr(os, "setpriority"):
+        with contextlib.suppress(OSError):  # where the system does not know priorities of threads
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)
