@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
 from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -10,7 +12,7 @@ import numpy as np
 
 from hexmend.gallery import make
 from hexmend.study.section import Section, peak_mb
-from hexmend_app.bench.windows import measured, turning_ms
+from hexmend_app.bench.windows import draw, measured, report, turning_ms
 
 if TYPE_CHECKING:
     from hexmend_app.window import Window
@@ -51,7 +53,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
         "shrink": [{"shrink": 0.2 + k / 50} for k in range(_CHANGES)],
         "clip, peel, shrink": [{"clip": PlaneClip.at((1, 0, 0), place), "peel": 1, "shrink": 0.3} for place in places],
     }
-    viewport, canvas = window.canvas.viewport, window.canvas
+    viewport = window.canvas.viewport
     window.view.set_handles(False)
     kept, spent = viewport.kept, [0.0]
 
@@ -70,7 +72,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
             began = perf_counter()
             window.view.change(**fields)
             done = perf_counter()
-            canvas.interactor.repaint()
+            draw(window)
             frames.append(perf_counter() - done)
             masks.append(sum(spent))
             faces.append(done - began - masks[-1])
@@ -85,23 +87,16 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
     return answer
 
 
-def _lines(figures: dict[str, Any]) -> list[str]:
-    rows = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
-    for row in figures["meshes"]:
-        rows.append(f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing, quads drawn at last")
-        for name, ms in row["ms"].items():
-            rows.append(
-                f"  {name:<18} {ms['mask']:6.1f} + {ms['faces']:6.1f} + {ms['drawing']:6.1f} ms   {ms['quads']:>8,}"
-            )
-        rows.append(
-            f"  a frame while the view turns: {row['turning_ms']:.1f} ms; memory at most {row['memory_mb']:,.0f} MB"
-        )
-    return rows
+def _lines(row: dict[str, Any]) -> Iterator[str]:
+    yield f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing, quads drawn at last"
+    for name, ms in row["ms"].items():
+        yield f"  {name:<18} {ms['mask']:6.1f} + {ms['faces']:6.1f} + {ms['drawing']:6.1f} ms   {ms['quads']:>8,}"
+    yield f"  a frame while the view turns: {row['turning_ms']:.1f} ms; memory at most {row['memory_mb']:,.0f} MB"
 
 
 filters = Section(
     "filters",
     f"The viewer: a change of what is hidden, and turning (medians of {_CHANGES})",
     _measure,
-    _lines,
+    partial(report, lines=_lines),
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +11,7 @@ import numpy as np
 
 from hexmend.gallery import make
 from hexmend.study.section import Section
-from hexmend_app.bench.windows import measured, turn, turning_ms
+from hexmend_app.bench.windows import draw, measured, report, turn, turning_ms
 
 if TYPE_CHECKING:
     from hexmend_app.state.document import State
@@ -28,7 +30,7 @@ def _row(window: Window) -> dict[str, Any]:
     states = _others(window)
     began = perf_counter()
     window.session.views.show("0", states[0])
-    window.canvas.interactor.render()
+    draw(window)
     opening = 1e3 * (perf_counter() - began)
     turning["2 views"] = turning_ms(window)
     for k in (1, 2):
@@ -40,7 +42,7 @@ def _row(window: Window) -> dict[str, Any]:
     for at in np.linspace(0.2, 0.8, 20):
         began = perf_counter()
         window.session.views.move_wipe(float(at))
-        window.canvas.interactor.render()
+        draw(window)
         wiping.append(1e3 * (perf_counter() - began))
     turn(0.1)
     view = [window.canvas.interactor.width(), window.canvas.interactor.height()]
@@ -55,16 +57,11 @@ def _others(window: Window) -> list[State]:
     return [State.of(mesh.with_points(mesh.points + one * mesh.free[:, None])) for one in shift]
 
 
-def _lines(figures: dict[str, Any]) -> list[str]:
-    rows = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
-    for row in figures["meshes"]:
-        rows.append(f"{row['mesh']}, {row['hexes']:,} hexes, {row['view'][0]} × {row['view'][1]} pixels in all")
-        for name, ms in row["turning_ms"].items():
-            rows.append(f"  turning, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} a second)")
-        rows.append(
-            f"  dragging the wipe  {row['wiping_ms']:6.1f} ms; another view opens in {row['opening_ms']:.0f} ms"
-        )
-    return rows
+def _lines(row: dict[str, Any]) -> Iterator[str]:
+    yield f"{row['mesh']}, {row['hexes']:,} hexes, {row['view'][0]} × {row['view'][1]} pixels in all"
+    for name, ms in row["turning_ms"].items():
+        yield f"  turning, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} a second)"
+    yield f"  dragging the wipe  {row['wiping_ms']:6.1f} ms; another view opens in {row['opening_ms']:.0f} ms"
 
 
-views = Section("views", "The viewer: several views side by side (medians)", _measure, _lines)
+views = Section("views", "The viewer: several views side by side (medians)", _measure, partial(report, lines=_lines))

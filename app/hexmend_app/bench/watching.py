@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -10,7 +11,7 @@ import numpy as np
 
 from hexmend.gallery import make
 from hexmend.study.section import Section
-from hexmend_app.bench.windows import measured, turn
+from hexmend_app.bench.windows import draw, measured, report, turn
 
 if TYPE_CHECKING:
     from hexmend_app.window import Window
@@ -65,7 +66,7 @@ def _scrub(window: Window, numbers: np.ndarray) -> float:
     for number in numbers:
         began = perf_counter()
         timeline.go(timeline.record, int(number))
-        window.canvas.interactor.repaint()
+        draw(window)
         times.append(perf_counter() - began)
     return 1e3 * median(times)
 
@@ -89,19 +90,18 @@ def _stop(window: Window) -> tuple[float, float]:
     return 1e3 * (ended[0] - began), 1e3 * last["seconds"] / last["iteration"]
 
 
-def _lines(figures: dict[str, Any]) -> list[str]:
-    rows = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
-    for row in figures["meshes"]:
-        rows += [
-            f"{row['mesh']}, {row['hexes']:,} hexes",
-            f"  scrubbing {_SCRUBBED} iterations: {row['scrub_ms']:.1f} ms each "
-            f"({1000 / row['scrub_ms']:.0f} a second), {row['jump_ms']:.1f} in any order",
-            f"  history of {row['iterations']} iterations: positions of {row['kept']} in {row['kept_mb']:.0f} MB "
-            f"({row['iteration_mb']:.2f} each), limit {row['limit_mb']:.0f} MB; the run took {row['run_s']:.1f} s",
-            f"  stop answered after {row['stop_ms']:.0f} ms; an iteration of local-sd takes "
-            f"{row['stop_iteration_ms']:.0f} ms",
-        ]
-    return rows
+def _lines(row: dict[str, Any]) -> list[str]:
+    return [
+        f"{row['mesh']}, {row['hexes']:,} hexes",
+        f"  scrubbing {_SCRUBBED} iterations: {row['scrub_ms']:.1f} ms each "
+        f"({1000 / row['scrub_ms']:.0f} a second), {row['jump_ms']:.1f} in any order",
+        f"  history of {row['iterations']} iterations: positions of {row['kept']} in {row['kept_mb']:.0f} MB "
+        f"({row['iteration_mb']:.2f} each), limit {row['limit_mb']:.0f} MB; the run took {row['run_s']:.1f} s",
+        f"  stop answered after {row['stop_ms']:.0f} ms; an iteration of local-sd takes "
+        f"{row['stop_iteration_ms']:.0f} ms",
+    ]
 
 
-watching = Section("watching", "Watching: the timeline, and how soon a run stops", _measure, _lines)
+watching = Section(
+    "watching", "Watching: the timeline, and how soon a run stops", _measure, partial(report, lines=_lines)
+)

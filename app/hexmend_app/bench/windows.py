@@ -8,11 +8,14 @@ from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
+from hexmend.errors import HexmendError
+
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
     from hexmend_app.window import Window
 
 _FRAMES = 40
+_PATIENCE = 60.0  # seconds for a frame
 
 
 def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) -> dict[str, Any]:
@@ -53,9 +56,30 @@ def turning_ms(window: Window) -> float:
         canvas.viewport.camera.Azimuth(4)
         canvas.panes.reset_depth()
         began = perf_counter()
-        canvas.interactor.render()
+        draw(window)
         times.append(perf_counter() - began)
     return 1e3 * median(times)
+
+
+def draw(window: Window) -> None:
+    """Draw a frame and wait until it is on the screen, with the panels that have changed."""
+    from PySide6.QtWidgets import QApplication
+
+    interactor, seen = window.canvas.interactor, []
+    told = interactor.frameSwapped.connect(lambda: seen.append(True))
+    interactor.update()
+    began = perf_counter()
+    while not seen:
+        QApplication.processEvents()
+        if perf_counter() - began > _PATIENCE:
+            raise HexmendError("the window draws no frame: is it hidden?")
+    interactor.frameSwapped.disconnect(told)
+
+
+def report(figures: dict[str, Any], lines: Callable[[dict[str, Any]], Iterable[str]]) -> list[str]:
+    """What a section prints: the lines of each mesh's row, or why there are none."""
+    left_out = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
+    return left_out + [line for row in figures["meshes"] for line in lines(row)]
 
 
 def turn(seconds: float) -> None:
