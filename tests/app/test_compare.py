@@ -236,10 +236,12 @@ def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(com
     chosen = compared.selection.hex
     assert chosen is not None
     for one in canvas.panes.all:
-        assert one._selected == chosen
-        np.testing.assert_allclose(one._highlight._box.points, one.mesh.points[one.mesh.hexes[chosen]], rtol=1e-6)
+        assert one._pointing._selected == chosen
+        np.testing.assert_allclose(
+            one._pointing._highlight._box.points, one.mesh.points[one.mesh.hexes[chosen]], rtol=1e-6
+        )
     tick(compared, "laplacian", VIEW)
-    assert canvas.panes.all[2]._selected == chosen
+    assert canvas.panes.all[2]._pointing._selected == chosen
 
 
 def test_cut_and_colours_are_those_of_all_views(compared):

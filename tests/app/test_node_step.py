@@ -252,7 +252,7 @@ def test_the_marks_and_the_plot_follow_the_theme(at_work, qtbot):
     try:
         theming.choose(Choice.DARK)
         qtbot.wait(20)
-        arrow = at_work.canvas.viewport._node_step._arrows[UPHILL][1]
+        arrow = at_work.canvas.viewport._pointing._node_step._arrows[UPHILL][1]
         wanted = [int(UPHILL.dark[k : k + 2], 16) / 255 for k in (1, 3, 5)]
         assert arrow.GetProperty().GetColor() == pytest.approx(wanted)
         assert at_work.node_panel.plot._curve.opts["pen"].color().name() == SEARCH.dark

@@ -7,7 +7,7 @@ import pyvista as pv
 
 #: From how far an element is looked at, in radii of the sphere around it: near enough to see it among its neighbours.
 #: And a patch of elements, of which the inside is to be seen.
-_FAR, PATCH_FAR = 9.0, 5.0
+ELEMENT_FAR, PATCH_FAR = 9.0, 5.0
 
 
 class Flight:
@@ -22,7 +22,7 @@ class Flight:
         From how far it is to be looked at, in radii.
     """
 
-    def __init__(self, camera: pv.Camera, centre: np.ndarray, radius: float, away: float = _FAR):
+    def __init__(self, camera: pv.Camera, centre: np.ndarray, radius: float, away: float):
         self._camera = camera
         ahead = np.array(camera.GetDirectionOfProjection())
         focus, place = np.array(camera.GetFocalPoint()), np.array(camera.GetPosition())

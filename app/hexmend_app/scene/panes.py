@@ -202,7 +202,7 @@ class Panes:
                 if shown != bool(self._window.HasRenderer(layer)):
                     (self._window.AddRenderer if shown else self._window.RemoveRenderer)(layer)
         if self.first in seen:
-            self.first.fit_axes()
+            self.first.axes.fit()
         self._frame()
 
     def _frame(self) -> None:

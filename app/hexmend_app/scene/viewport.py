@@ -4,41 +4,35 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkCellPicker, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
-from hexmend.quality import ElementQuality, Node, corner_qualities
+from hexmend.quality import ElementQuality, Node
 from hexmend_app.scene import cut
 from hexmend_app.scene.arrows import ArrowLayer
+from hexmend_app.scene.axes import Axes
 from hexmend_app.scene.coarse import MANY, coarse
 from hexmend_app.scene.colours import Colouring, fitted, resolve
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.fitting import fit
-from hexmend_app.scene.flight import PATCH_FAR, Flight
+from hexmend_app.scene.flight import ELEMENT_FAR, PATCH_FAR, Flight
 from hexmend_app.scene.halo import Halo
-from hexmend_app.scene.highlight import Highlight
-from hexmend_app.scene.node_step import NodeStepMarks
 from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.pointing import Pointing
 from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
 from hexmend_app.scene.structure import StructureLayers, uncut
-from hexmend_app.scene.surface import Surface, hex_of, hexes_of, quads, set_colours, set_points
+from hexmend_app.scene.surface import Surface, hexes_of, quads, set_colours, set_points
 from hexmend_app.state.look import Arrows, Look
 from hexmend_app.state.measured import values
 from hexmend_app.state.movement import MOVEMENTS, Movement
-from hexmend_app.state.theme import AXES, BACKGROUND
+from hexmend_app.state.theme import BACKGROUND
 
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 
 #: Inverted elements that are outlined in every frame.
 _MANY = 1000
-
-#: Where the axes are, x low, y low, x high, y high as shares of a window that is one view.
-_AXES = (0.0, 0.0, 0.13, 0.18)
-
-#: Pixels of the axes' height and width below which their letters lie over one another.
-_AXES_LEAST = 80
 
 #: Directions to look from: the place of the camera, and what is up.
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
@@ -88,14 +82,8 @@ class Viewport:
         self._structure = StructureLayers(plotter)
         self._arrows = ArrowLayer(plotter)
         self._movement: Movement | None = None
-        self._highlight = Highlight(plotter)
-        self._node_step = NodeStepMarks(plotter)
-        self._selected: int | None = None
-        self._picker = vtkCellPicker()
-        self._picker.PickFromListOn()
-        for surface in (self._skin_surface, self._section_surface):
-            self._picker.AddPickList(surface.actor)
-        self._axes = plotter.add_axes(line_width=2, labels_off=False, viewport=_AXES) if axes else None
+        self._pointing = Pointing(plotter, (self._skin_surface, self._section_surface))
+        self.axes = Axes(plotter) if axes else None
         self._beside: tuple[float, float] | None = None
         self.set_dark(False)
 
@@ -103,10 +91,9 @@ class Viewport:
         """Draw on the dark theme's ground, or on the light one's, as pictures for reports are."""
         self._dark = dark
         self._plotter.set_background(BACKGROUND.of(dark))
-        for letter in "XYZ" if self._axes is not None else "":
-            label = getattr(self._axes, f"Get{letter}AxisCaptionActor2D")()
-            label.GetCaptionTextProperty().SetColor(*pv.Color(AXES.of(dark)).float_rgb)
-        self._node_step.set_dark(dark)
+        if self.axes is not None:
+            self.axes.set_dark(dark)
+        self._pointing.set_dark(dark)
         if self._outline is not None:
             self._outline.set_dark(dark)
 
@@ -133,6 +120,7 @@ class Viewport:
         self._structure.set_mesh(mesh)
         self.show_node_step(None)
         self.select(None)
+        self._pointing.set_places(mesh.points, mesh.hexes)
         self._cull()
         self._measure()
         self._rebuild(self.kept())
@@ -150,8 +138,7 @@ class Viewport:
         """
         self._points, self._figures = points, figures
         self._cull()
-        self._show_selected()
-        self._node_step.move(points)
+        self._pointing.set_places(points, self._mesh.hexes)
         self._measure()
         keep = self.kept()
         if _same(keep, self._keep):
@@ -200,61 +187,22 @@ class Viewport:
             return None
         self._set_fast(False)  # what is drawn coarsely, or without its sides, is not what is pointed at
         self._skin_surface.stand_in(None)
-        for surface in (self._skin_surface, self._section_surface):
-            surface.actor.SetPickable(True)
-        self._picker.Pick(x, y, 0, self._plotter.renderer)
-        for surface in (self._skin_surface, self._section_surface):
-            surface.actor.SetPickable(False)
-        cell = self._picker.GetCellId()
-        if cell < 0:
-            return None
-        h = hex_of(pv.wrap(self._picker.GetDataSet()), cell)
-        nodes = self._mesh.hexes[h]
-        away = np.square(self._points[nodes] - self._picker.GetPickPosition()).sum(axis=1)
-        return h, int(nodes[away.argmin()])
+        return self._pointing.pick(x, y)
 
     def select(self, h: int | None, corners: bool = False, node: Node | None = None) -> None:
         """Mark one hex, with the quality at each of its corners or without, and one of its nodes; None marks none."""
-        self._selected, self._with_corners = h, corners
-        self._show_selected()
-        if h is not None:
-            self.mark_node(node)
-
-    def mark_node(self, node: Node | None) -> None:
-        """Mark a node where it is now, and which way the energy around it falls, if it may go there."""
-        if node is None:
-            self._highlight.show_node(None)
-            return
-        steepness = float(np.linalg.norm(node.downhill))
-        corners = self._points[self._mesh.hexes[self._selected]]
-        length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
-        goes = node.kind == "free" and steepness > 0
-        self._highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
+        self._pointing.select(h, corners, node)
 
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw a node's step, in the place of the marks of the hex that is selected; None draws none."""
-        if step is None:
-            self._node_step.hide()
-        else:
-            self._node_step.show(step, self._mesh.hexes[step.hexes], self._points)
-        self._show_selected()
-
-    def _show_selected(self) -> None:
-        if self._selected is None or self._node_step.step is not None:
-            self._highlight.hide()
-            return
-        nodes = self._mesh.hexes[self._selected]
-        values = corner_qualities(self._points, nodes[None])[0] if self._with_corners else None
-        self._highlight.show(self._points[nodes], values)
+        self._pointing.show_node_step(step)
 
     def flight_to(self, *hexes: int) -> Flight:
         """The camera's way to a hex, or to a patch of several."""
         corners = self._points[self._mesh.hexes[list(hexes)].ravel()]
         centre = corners.mean(axis=0)
         radius = float(np.sqrt(np.square(corners - centre).sum(axis=1).max()))
-        return (
-            Flight(self.camera, centre, radius) if len(hexes) == 1 else Flight(self.camera, centre, radius, PATCH_FAR)
-        )
+        return Flight(self.camera, centre, radius, ELEMENT_FAR if len(hexes) == 1 else PATCH_FAR)
 
     def reset_depth(self) -> None:
         """Fit what is near and far enough to be drawn to where the camera is."""
@@ -408,14 +356,7 @@ class Viewport:
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """What draws this view, one layer over the other."""
-        layers = (self._structure.layer, self._arrows.layer, self._highlight.layer, *self._node_step.layers)
-        return self._plotter.renderer, *layers
-
-    def fit_axes(self) -> None:
-        """Draw the axes in this view's corner, as large as in a window of one view, and so that they can be read."""
-        renderer = self._plotter.renderer
-        pixels = np.maximum(np.multiply(_AXES[2:], self._plotter.render_window.GetSize()), _AXES_LEAST)
-        renderer.axes_widget.SetViewport(0, 0, *np.minimum(pixels / np.maximum(renderer.GetSize(), 1), 1))
+        return self._plotter.renderer, self._structure.layer, self._arrows.layer, *self._pointing.layers
 
     def close(self) -> None:
         """Draw no more, and leave the part of the window to another view."""
@@ -484,7 +425,7 @@ class Viewport:
     @property
     def node_step(self) -> NodeStep | None:
         """The node's step that is drawn."""
-        return self._node_step.step
+        return self._pointing.node_step
 
     @property
     def look(self) -> Look:
