@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 CORE = [
     {"compiling", "errors", "hexahedron"},
     {"parameters", "registry"},
-    {"kernels"},
+    {"kernels", "numba_kernels"},
     {"topology"},
     {"mesh"},
     {"quality", "structure"},

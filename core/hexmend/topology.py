@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.hexahedron import FACES
-from hexmend.kernels import incidence, structure
+from hexmend.numba_kernels import incidence, structure
 
 
 @dataclass(frozen=True)

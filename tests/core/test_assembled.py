@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hexmend.energy import MeshEnergy
 from hexmend.energy.assembled import Assembled, full
 from hexmend.energy.couplings import Couplings
-from hexmend.kernels import conjugate_gradients
+from hexmend.numba_kernels import conjugate_gradients
 from hexmend.mesh import Mesh
 from tests.core.grids import grid, scrambled
 

@@ -8,7 +8,7 @@ from hexmend import compiling
 
 PROGRAM = """
 import numpy as np
-from hexmend.kernels.incidence import grouped
+from hexmend.numba_kernels.incidence import grouped
 from hexmend.compiling import listeners
 listeners.append(lambda: print("compiling"))
 grouped(np.zeros(3, np.int32), 1)

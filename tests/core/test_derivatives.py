@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
 from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.kernels import hexahedron
+from hexmend.numba_kernels import hexahedron
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled

@@ -11,9 +11,9 @@ from scipy.spatial.transform import Rotation
 
 from hexmend.gallery import make
 from hexmend.hexahedron import EDGES, UNIT_CUBE
-from hexmend.kernels.element_step import element_step, element_steps
-from hexmend.kernels.lanes import CHUNK, LANES
-from hexmend.kernels.worst_first import replay, tournament
+from hexmend.numba_kernels.element_step import element_step, element_steps
+from hexmend.numba_kernels.lanes import CHUNK, LANES
+from hexmend.numba_kernels.worst_first import replay, tournament
 from hexmend.optimise import Outcome
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth

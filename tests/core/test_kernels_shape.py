@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.kernels.shape import barrier, power_minus_two_thirds
+from hexmend.numba_kernels.shape import barrier, power_minus_two_thirds
 
 
 @given(st.floats(min_value=1e-300, max_value=1e300))

@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 
-PROGRAM = "import os, hexmend.kernels; print(os.environ['OMP_WAIT_POLICY'], os.environ['GOMP_SPINCOUNT'])"
+PROGRAM = "import os, hexmend.numba_kernels; print(os.environ['OMP_WAIT_POLICY'], os.environ['GOMP_SPINCOUNT'])"
 
 
 def policy(**settings):

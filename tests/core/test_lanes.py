@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.kernels import hexahedron, objective
-from hexmend.kernels.lanes import CHUNK, LANES
+from hexmend.numba_kernels import hexahedron, objective
+from hexmend.numba_kernels.lanes import CHUNK, LANES
 from hexmend.quality.measure import read_only
 from tests.core.grids import grid, scrambled
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from hexmend.energy import AdaptiveDelta, FixedDelta, MeshEnergy
 from hexmend.gallery import make
-from hexmend.kernels import local, symmetric
+from hexmend.numba_kernels import local, symmetric
 from hexmend.optimise import descent
 from hexmend.optimise.direction import (
     ModifiedNewton,

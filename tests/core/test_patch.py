@@ -8,7 +8,7 @@ from scipy.spatial.distance import pdist
 
 from hexmend.energy import MeshEnergy, energies
 from hexmend.hexahedron import UNIT_CUBE
-from hexmend.kernels import patch
+from hexmend.numba_kernels import patch
 from tests.core.grids import grid, scrambled
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from hexmend.kernels import serial
+from hexmend.numba_kernels import serial
 
 
 @dataclass(frozen=True, eq=False)

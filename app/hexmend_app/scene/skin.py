@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.hexahedron import FACES
-from hexmend.kernels import serial
+from hexmend.numba_kernels import serial
 from hexmend.mesh import Mesh
 
 #: Elements up to which all are drawn where they are shrunk; of more, those in sight. So many take 50 ms a frame without

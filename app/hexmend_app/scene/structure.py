@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.kernels import serial
+from hexmend.numba_kernels import serial
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
 from hexmend.structure import Structure as Found

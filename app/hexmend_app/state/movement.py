@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.kernels import serial
+from hexmend.numba_kernels import serial
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, Metric
 from hexmend.quality.measure import read_only

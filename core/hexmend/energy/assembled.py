@@ -9,7 +9,7 @@ import scipy.sparse
 import scipy.sparse.linalg
 
 from hexmend.energy.couplings import Couplings
-from hexmend.kernels import conjugate_gradients as kernels
+from hexmend.numba_kernels import conjugate_gradients as kernels
 
 
 @dataclass(frozen=True, eq=False)

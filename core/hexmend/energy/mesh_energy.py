@@ -12,8 +12,8 @@ import scipy.sparse.linalg
 from hexmend.energy.assembled import Assembled
 from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import energies
-from hexmend.kernels import assembly
-from hexmend.kernels import objective as kernels
+from hexmend.numba_kernels import assembly
+from hexmend.numba_kernels import objective as kernels
 from hexmend.mesh import Mesh
 from hexmend.quality.measure import read_only
 

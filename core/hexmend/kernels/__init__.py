@@ -1,98 +1,59 @@
-"""Numba kernels: arrays in, arrays out, no classes.
+"""Compiled kernels: arrays in, arrays out, no classes.
 
-They stand below `mesh` and `topology`, which are built with them, and import only the reference hexahedron. Every
-kernel releases the GIL, so that a window stays alive beside it, and is cached on disk. Results do not depend on the
-number of threads: parallel loops write disjoint rows, and sums are taken over those rows afterwards.
+They are written in C++ (`core/native`, a file a family) and stand below `mesh` and `topology`, which are built with
+them. Every kernel releases the GIL, so that a window stays alive beside it. Results do not depend on the number of
+threads: parallel loops write disjoint rows, and sums are taken over those rows afterwards.
 
-Numba compiles a kernel once more for an array that is read-only. Points are therefore always handed over read-only
-where they are only read, as `Mesh` keeps them.
+There is a build for each generation of processors; the newest that this one can run is loaded. The variable
+`HEXMEND_KERNELS` names another: v2, v3 or v4 (x86-64-v2 and so on).
+
+Arrays are taken as they are, without a copy: points (n, 3) float64, hexes (m, 8) int32, all contiguous. Another type
+or shape is a TypeError.
 """
 
 from __future__ import annotations
 
-import hashlib
+import importlib
 import os
-import tempfile
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
+import sys
+from types import ModuleType
 
-import numba
-from numba.core import event
+from hexmend.kernels import _processor
 
-from hexmend.compiling import tell
-
-# Threads that wait for others sleep after some microseconds. OpenMP's own way, to spin, keeps the thread that is waited
-# for off its core wherever another process (or this one's window) wants one too: twenty times slower on a busy machine.
-# Read as the first parallel kernel runs; what the user has set stands.
-for _name, _value in (("OMP_WAIT_POLICY", "PASSIVE"), ("GOMP_SPINCOUNT", "1000"), ("KMP_BLOCKTIME", "0")):
-    os.environ.setdefault(_name, _value)
-
-#: Hexes (or nodes) that one thread takes at a time.
-CHUNK = 256
+#: Builds, the newest first, that a processor of each level can run.
+_RUNS = {"v4": ("v4", "v3", "v2"), "v3": ("v3", "v2"), "v2": ("v2",), "native": ("native",)}
 
 
-def _cache_folder() -> Path:
-    """Where compiled kernels are kept: a folder for each state of their sources.
-
-    Numba's own cache looks only at the file of the kernel, not at those whose functions it calls, nor at its options;
-    a change there would go unseen.
-    """
-    here = Path(__file__).parent
-    digest = hashlib.sha256()
-    for source in sorted([*here.glob("*.py"), here.parent / "hexahedron.py"]):
-        digest.update(source.read_bytes())
-    home = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or Path.home() / ".cache"
-    folder = Path(home) / "hexmend" / f"kernels-{digest.hexdigest()[:16]}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:  # a home that cannot be written to
-        return Path(tempfile.gettempdir()) / f"hexmend-{digest.hexdigest()[:16]}"
-    return folder
+def _chosen() -> str:
+    can = _RUNS.get(_processor.LEVEL, ())
+    wanted = os.environ.get("HEXMEND_KERNELS") or (can[0] if can else "")
+    if wanted not in can:
+        runs = f"it runs {', '.join(can)}" if can else "it runs none of them; SSE 4.2 is the least"
+        raise ImportError(
+            f"HEXMEND_KERNELS={wanted or 'v2'}: this processor cannot run that build of the kernels; {runs}"
+        )
+    return wanted
 
 
-_CACHE = str(_cache_folder())
+def _default_threads() -> int:
+    """HEXMEND_THREADS, else what OpenMP's variables say, else every processor that this process may use."""
+    for name in ("HEXMEND_THREADS", "OMP_NUM_THREADS"):
+        first = os.environ.get(name, "").split(",")[0].strip()
+        if first.isdecimal() and int(first) > 0:
+            return int(first)
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
-def _compiled(**options: Any) -> Callable[[Callable], Callable]:
-    def decorate(function: Callable) -> Callable:
-        theirs = numba.config.CACHE_DIR
-        numba.config.CACHE_DIR = theirs or _CACHE  # read as the function is decorated, and by nobody after
-        try:
-            return numba.njit(nogil=True, cache=True, error_model="numpy", **options)(function)
-        finally:
-            numba.config.CACHE_DIR = theirs
+#: The build that is loaded.
+BUILD = _chosen()
 
-    return decorate
+_native = importlib.import_module(f"hexmend.kernels._{BUILD}")
+_native.set_default_threads(_default_threads())
 
+threads, set_threads, LANES = _native.threads, _native.set_threads, _native.LANES
 
-class _Compiling(event.Listener):
-    """Hears of every kernel that is compiled because it is not on disk."""
-
-    def on_start(self, event: event.Event) -> None:
-        tell()
-
-    def on_end(self, event: event.Event) -> None:
-        pass
-
-
-event.register("numba:compile", _Compiling())
-
-#: A kernel that runs on one thread, or a piece of one. Products and sums may be contracted to one rounding, which is
-#: what vector units are fast at.
-serial = _compiled(fastmath={"contract"})
-
-#: Of what Numba would make parallel, `prange` alone: array expressions are short here, and cost seconds to compile.
-_PRANGE = dict.fromkeys(
-    ("comprehension", "reduction", "inplace_binop", "setitem", "numpy", "stencil", "fusion"), False
-) | {"prange": True}
-
-#: A kernel whose `prange` loops share the threads.
-parallel = _compiled(parallel=_PRANGE, fastmath={"contract"})
-
-#: A formula that its callers take in whole, as a loop over lanes needs it to be.
-formula = _compiled(fastmath={"contract"}, forceinline=True)
-
-#: The same, every operation rounded on its own: its result is the same to the last bit wherever it stands. (What is not
-#: said is inherited from the caller.)
-exact = _compiled(fastmath=False, forceinline=True)
+for _name, _family in vars(_native).items():
+    if isinstance(_family, ModuleType):
+        globals()[_name] = sys.modules[f"{__name__}.{_name}"] = _family

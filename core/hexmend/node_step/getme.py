@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 
-from hexmend.kernels.element_step import element_steps
+from hexmend.numba_kernels.element_step import element_steps
 from hexmend.mesh import Mesh
 from hexmend.node_step.explain import explained
 from hexmend.node_step.record import NodeStep, Pull, Verdict

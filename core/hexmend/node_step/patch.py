@@ -1,10 +1,10 @@
-"""A node's patch, ready to be asked: what `hexmend.kernels.local.sweep` works out of it, one thing at a time."""
+"""A node's patch, ready to be asked: what `hexmend.numba_kernels.local.sweep` works out of it, one thing at a time."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from hexmend.kernels import local, patch, serial
+from hexmend.numba_kernels import local, patch, serial
 from hexmend.mesh import Mesh
 from hexmend.node_step.record import Trial
 from hexmend.quality.measure import read_only

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.energy import MeshEnergy, energies
-from hexmend.kernels.reach import shorten
+from hexmend.numba_kernels.reach import shorten
 from hexmend.optimise.direction import Direction, Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
 from hexmend.quality.measure import read_only

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.hexahedron import EDGES
-from hexmend.kernels.objective import gradient
+from hexmend.numba_kernels.objective import gradient
 from hexmend.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure, read_only
 from hexmend.quality.metric import METRICS

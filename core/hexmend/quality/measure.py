@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.kernels import elements
+from hexmend.numba_kernels import elements
 
 
 @dataclass(frozen=True, eq=False)

@@ -61,7 +61,7 @@ def by_kernel(kernel: str, rows: int, row: int, worst: float) -> Values:
     Parameters
     ----------
     kernel : str
-        Its module in `hexmend.kernels` and its name; it takes points, hexes and so many arrays (m,) as it writes. It is
+        Its module in `hexmend.numba_kernels` and its name; it takes points, hexes and so many arrays (m,) as it writes. It is
         imported as it is first used: a command that shows no metric does not wait for it.
     rows, row : int
         How many these are, and which of them is meant.
@@ -72,7 +72,7 @@ def by_kernel(kernel: str, rows: int, row: int, worst: float) -> Values:
     def of(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
         module, name = kernel.split(".")
         values = np.empty((rows, len(hexes)))
-        write = getattr(importlib.import_module(f"hexmend.kernels.{module}"), name)
+        write = getattr(importlib.import_module(f"hexmend.numba_kernels.{module}"), name)
         write(read_only(points), read_only(hexes), *values)
         values[row][np.isnan(values[row])] = worst
         return values[row]

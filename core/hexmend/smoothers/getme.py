@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.kernels import getme as kernels
-from hexmend.kernels.element_step import element_steps
+from hexmend.numba_kernels import getme as kernels
+from hexmend.numba_kernels.element_step import element_steps
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import parameter

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from hexmend.energy import POLICIES
-from hexmend.kernels import local
+from hexmend.numba_kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
@@ -21,7 +21,7 @@ class LocalDescent(Smoother):
     """One line-searched step per free node, sweep after sweep, on the node's patch scaled to unit mean edge length."""
 
     optimises = True
-    #: Search direction, one of `hexmend.kernels.local`.
+    #: Search direction, one of `hexmend.numba_kernels.local`.
     direction: ClassVar[int]
 
     p: float = parameter(

@@ -12,8 +12,8 @@ import numpy as np
 
 from hexmend.energy import Couplings, MeshEnergy, energies
 from hexmend.gallery import make
-from hexmend.kernels import hexahedron, local, objective, serial, tetrahedron
-from hexmend.kernels.elements import load
+from hexmend.numba_kernels import hexahedron, local, objective, serial, tetrahedron
+from hexmend.numba_kernels.elements import load
 from hexmend.quality import measure
 from hexmend.study.section import Section
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import CHUNK, parallel
+from hexmend.numba_kernels import CHUNK, parallel
 
 
 @parallel

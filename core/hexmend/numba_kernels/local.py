@@ -5,7 +5,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import parallel, patch, serial, symmetric
+from hexmend.numba_kernels import parallel, patch, serial, symmetric
 
 #: Nodes that one thread takes at a time.
 _CHUNK = 64

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import parallel, serial
-from hexmend.kernels.elements import load, quality
+from hexmend.numba_kernels import parallel, serial
+from hexmend.numba_kernels.elements import load, quality
 
 #: Halvings of a node's step before it is given up: 1, 1/2, 1/4, 1/8, 0.
 HALVINGS = 4

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import parallel, serial, tetrahedron
-from hexmend.kernels.hexahedron import weights
-from hexmend.kernels.lanes import (
+from hexmend.numba_kernels import parallel, serial, tetrahedron
+from hexmend.numba_kernels.hexahedron import weights
+from hexmend.numba_kernels.lanes import (
     ALL,
     CHUNK,
     CORNERS,

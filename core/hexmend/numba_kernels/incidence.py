@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA, FACES
-from hexmend.kernels import serial
+from hexmend.numba_kernels import serial
 
 #: Of each corner, the three corners that it shares an edge with.
 _EDGE_NEIGHBOURS = np.ascontiguousarray(CORNER_TETRAHEDRA[:, 1:])

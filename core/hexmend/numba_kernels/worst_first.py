@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.kernels import serial
-from hexmend.kernels.element_step import element_step
-from hexmend.kernels.elements import load, quality
+from hexmend.numba_kernels import serial
+from hexmend.numba_kernels.element_step import element_step
+from hexmend.numba_kernels.elements import load, quality
 
 # The queue is a tournament: a binary tree, kept in an array, with the hexes as leaves and in each node the one of its
 # two children that has the lesser key. The root, number 1, is the hex of least key; a changed key replays the matches

@@ -11,8 +11,8 @@ import numba
 import numpy as np
 
 from hexmend.hexahedron import EDGES, FACES, UNIT_CUBE
-from hexmend.kernels import formula, lanes, parallel, serial
-from hexmend.kernels.lanes import ALL, CHUNK, CORNERS, LANES, ROW, STRIDE, VECTOR, WORK, vector
+from hexmend.numba_kernels import formula, lanes, parallel, serial
+from hexmend.numba_kernels.lanes import ALL, CHUNK, CORNERS, LANES, ROW, STRIDE, VECTOR, WORK, vector
 
 
 def _corner_faces() -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import CHUNK, parallel, serial
+from hexmend.numba_kernels import CHUNK, parallel, serial
 
 #: Pairs of corners of a hex, in the order 01, 02... 07, 12...
 PAIRS = 28

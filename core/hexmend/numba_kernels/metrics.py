@@ -10,10 +10,10 @@ import numba
 import numpy as np
 
 from hexmend.hexahedron import DIAGONALS, EDGES, UNIT_CUBE
-from hexmend.kernels import CHUNK, lanes, parallel, serial
-from hexmend.kernels.elements import load
-from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, WORK, S
-from hexmend.kernels.shape import determinant, power_minus_two_thirds
+from hexmend.numba_kernels import CHUNK, lanes, parallel, serial
+from hexmend.numba_kernels.elements import load
+from hexmend.numba_kernels.lanes import ALL, CORNERS, LANES, ROW, WORK, S
+from hexmend.numba_kernels.shape import determinant, power_minus_two_thirds
 
 _SIDES = 2 * UNIT_CUBE.T - 1  # where each corner lies from the centre, -1 or 1, along x, y and z
 

@@ -18,10 +18,10 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.kernels import formula, serial
-from hexmend.kernels.hexahedron import weights
-from hexmend.kernels.shape import barrier, determinant, power_minus_two_thirds
-from hexmend.kernels.tetrahedron import own_second
+from hexmend.numba_kernels import formula, serial
+from hexmend.numba_kernels.hexahedron import weights
+from hexmend.numba_kernels.shape import barrier, determinant, power_minus_two_thirds
+from hexmend.numba_kernels.tetrahedron import own_second
 
 #: Hexes in a block, and the tetrahedra in it that hold the node: number j of hex s is in lane 8 j + s.
 HEXES, LANES = 8, 32

@@ -14,9 +14,9 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import formula, parallel, serial
-from hexmend.kernels.block_rows import subtract_transposed, times
-from hexmend.kernels.symmetric import extreme_eigenvalues
+from hexmend.numba_kernels import formula, parallel, serial
+from hexmend.numba_kernels.block_rows import subtract_transposed, times
+from hexmend.numba_kernels.symmetric import extreme_eigenvalues
 
 #: What the count of iterations comes with: how it ended.
 DONE, NEGATIVE_CURVATURE, TOO_MANY = 0, 1, 2

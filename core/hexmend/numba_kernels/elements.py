@@ -5,10 +5,10 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import lanes, parallel, serial
-from hexmend.kernels.hexahedron import corner_edges
-from hexmend.kernels.lanes import ALL, CHUNK, CORNERS, LANES, ROW, SUM, WORK, S
-from hexmend.kernels.shape import determinant, power_minus_two_thirds
+from hexmend.numba_kernels import lanes, parallel, serial
+from hexmend.numba_kernels.hexahedron import corner_edges
+from hexmend.numba_kernels.lanes import ALL, CHUNK, CORNERS, LANES, ROW, SUM, WORK, S
+from hexmend.numba_kernels.shape import determinant, power_minus_two_thirds
 
 
 @serial

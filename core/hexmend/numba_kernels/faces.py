@@ -6,10 +6,10 @@ import numba
 import numpy as np
 
 from hexmend.hexahedron import FACES
-from hexmend.kernels import CHUNK, lanes, parallel, serial
-from hexmend.kernels.elements import load
-from hexmend.kernels.lanes import ALL, CORNERS, LANES, ROW, WORK, S
-from hexmend.kernels.metrics import load_from_first
+from hexmend.numba_kernels import CHUNK, lanes, parallel, serial
+from hexmend.numba_kernels.elements import load
+from hexmend.numba_kernels.lanes import ALL, CORNERS, LANES, ROW, WORK, S
+from hexmend.numba_kernels.metrics import load_from_first
 
 #: Rows in which `angles` keeps the least and the greatest cosine of each hex.
 _LEAST, _GREATEST = ROW[9], ROW[10]

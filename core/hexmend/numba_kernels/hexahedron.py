@@ -6,7 +6,7 @@ Whole meshes are taken through `lanes`, several times faster; here are the refer
 from __future__ import annotations
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.kernels import serial, tetrahedron
+from hexmend.numba_kernels import serial, tetrahedron
 
 
 @serial

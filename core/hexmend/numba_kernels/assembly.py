@@ -9,10 +9,10 @@ import numba
 import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.kernels import formula, parallel, serial, tetrahedron
-from hexmend.kernels.couplings import PAIRS
-from hexmend.kernels.hexahedron import weights
-from hexmend.kernels.lanes import (
+from hexmend.numba_kernels import formula, parallel, serial, tetrahedron
+from hexmend.numba_kernels.couplings import PAIRS
+from hexmend.numba_kernels.hexahedron import weights
+from hexmend.numba_kernels.lanes import (
     ALL,
     CORNERS,
     KEEP,

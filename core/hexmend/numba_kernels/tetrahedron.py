@@ -13,8 +13,8 @@ by eta, |S| or sigma, so that collapsed and inverted tetrahedra are no special c
 
 from __future__ import annotations
 
-from hexmend.kernels import formula
-from hexmend.kernels.shape import barrier, determinant, power_minus_two_thirds
+from hexmend.numba_kernels import formula
+from hexmend.numba_kernels.shape import barrier, determinant, power_minus_two_thirds
 
 
 @formula

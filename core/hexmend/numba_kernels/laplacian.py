@@ -5,8 +5,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from hexmend.kernels import parallel, serial
-from hexmend.kernels.elements import load, quality
+from hexmend.numba_kernels import parallel, serial
+from hexmend.numba_kernels.elements import load, quality
 
 
 @serial

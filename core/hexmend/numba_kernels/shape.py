@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.kernels import exact, formula
+from hexmend.numba_kernels import exact, formula
 
 #: The upper half of the bits of 2^52 (1023 + 1023 * 2/3 - 0.0446): makes those of h^(-2/3) right to 4 %.
 MAGIC = 7678276173719137280 >> 32

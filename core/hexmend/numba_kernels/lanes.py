@@ -13,8 +13,8 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.kernels import formula, serial
-from hexmend.kernels.hexahedron import kept, left_out_count
+from hexmend.numba_kernels import formula, serial
+from hexmend.numba_kernels.hexahedron import kept, left_out_count
 
 #: Hexes in a block: a whole number of lines of the processor's nearest cache, but not a power of two, so that one
 #: lane's values in all rows do not compete for the same few sets of it.

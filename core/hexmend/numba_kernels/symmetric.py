@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.kernels import serial
+from hexmend.numba_kernels import serial
 
 
 @serial

@@ -1,0 +1,77 @@
+// How NumPy's arrays become the spans that kernels take, and what they make becomes arrays.
+//
+// A span is bound to an array of its very type, contiguous and of its width, without a copy: anything else is a
+// TypeError that says what was expected. What is written must be writable.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+
+#include "../rows.hpp"
+
+namespace nanobind::detail {
+
+template <class T> constexpr std::size_t WIDTH = 1;
+template <class T, std::size_t n> constexpr std::size_t WIDTH<std::array<T, n>> = n;
+
+template <class T> struct Scalar {
+    using type = T;
+};
+template <class T, std::size_t n> struct Scalar<std::array<T, n>> {
+    using type = T;
+};
+template <class T, std::size_t n> struct Scalar<const std::array<T, n>> {
+    using type = const T;
+};
+
+template <class T> struct type_caster<std::span<T>> {
+    using Number = typename Scalar<T>::type;
+    static constexpr std::size_t width = WIDTH<std::remove_const_t<T>>;
+    using Array = ndarray<Number, c_contig, device::cpu>;
+    using Shaped = std::conditional_t<width == 1, ndarray<Number, ndim<1>, c_contig, device::cpu>,
+                                      ndarray<Number, shape<-1, (ssize_t)width>, c_contig, device::cpu>>;
+
+    NB_TYPE_CASTER(std::span<T>, make_caster<Shaped>::Name)
+
+    bool from_python(handle source, uint8_t flags, cleanup_list *cleanup) noexcept {
+        if (!array_.from_python(source, flags & ~(uint8_t)cast_flags::convert, cleanup)) return false;
+        const Array &array = array_.value;
+        std::size_t numbers = 1;
+        for (std::size_t k = 1; k < array.ndim(); ++k) numbers *= array.shape(k);
+        if (array.ndim() == 0 || numbers != width) return false;
+        value = std::span<T>(reinterpret_cast<T *>(array.data()), array.shape(0));
+        return true;
+    }
+
+  private:
+    make_caster<Array> array_;
+};
+
+template <class T, std::size_t width> struct type_caster<hexmend::Made<T, width>> {
+    using Array = std::conditional_t<width == 1, ndarray<numpy, T, ndim<1>>, ndarray<numpy, T, shape<-1, (ssize_t)width>>>;
+
+    using Arrays = hexmend::Made<T, width>;
+    NB_TYPE_CASTER(Arrays, make_caster<Array>::Name)
+
+    static handle from_cpp(hexmend::Made<T, width> &&made, rv_policy, cleanup_list *cleanup) noexcept {
+        auto *kept = new std::vector<T>(std::move(made.values));
+        capsule owner(kept, [](void *p) noexcept { delete static_cast<std::vector<T> *>(p); });
+        std::size_t shape[2] = {kept->size() / width, width};
+        return make_caster<Array>::from_cpp(Array(kept->data(), width == 1 ? 1 : 2, shape, owner), rv_policy::reference,
+                                            cleanup);
+    }
+};
+
+}  // namespace nanobind::detail
+
+namespace hexmend {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+// Kernels run without the interpreter's lock, so that a window stays alive beside them.
+using Unlocked = nb::call_guard<nb::gil_scoped_release>;
+
+}  // namespace hexmend

@@ -1,0 +1,77 @@
+// The reference hexahedron, numbered as `hexmend.hexahedron` draws it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "vectors.hpp"
+
+namespace hexmend {
+
+using Node = std::int32_t;
+using Hex = std::array<Node, 8>;
+using Point = std::array<double, 3>;
+
+// Corner tetrahedra (a, b, c, d), apex a first: det [x_b - x_a, x_c - x_a, x_d - x_a] = +1 on the unit cube, Table 2.1.
+constexpr int CORNER_TETRAHEDRA[8][4] = {
+    {0, 3, 4, 1}, {1, 0, 5, 2}, {2, 1, 6, 3}, {3, 2, 7, 0}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3},
+};
+
+// Four edges along x, four along y, four along z.
+constexpr int EDGES[12][2] = {
+    {0, 1}, {3, 2}, {4, 5}, {7, 6}, {0, 3}, {1, 2}, {4, 7}, {5, 6}, {0, 4}, {1, 5}, {3, 7}, {2, 6},
+};
+
+constexpr int DIAGONALS[4][2] = {{0, 6}, {1, 7}, {2, 4}, {3, 5}};
+
+// Each seen counter-clockwise from outside: x-, x+, y-, y+, z-, z+.
+constexpr int FACES[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+
+// Coordinates of the corners of the unit cube.
+constexpr int UNIT_CUBE[8][3] = {
+    {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1},
+};
+
+// body(constant<0>), ..., body(constant<n - 1>): a loop whose number is known to the compiler.
+template <int n> using constant = std::integral_constant<int, n>;
+template <int n, class Body> inline __attribute__((always_inline)) void unrolled(Body &&body) {
+    [&]<int... i>(std::integer_sequence<int, i...>) __attribute__((always_inline)) { (body(constant<i>{}), ...); }
+    (std::make_integer_sequence<int, n>{});
+}
+
+// A vector at each of the eight corners.
+template <class T> struct Corners {
+    V3<T> at[8];
+
+    // The columns of S at corner tetrahedron t: edges from its apex.
+    template <int t> M3<T> edges() const {
+        constexpr auto &n = CORNER_TETRAHEDRA[t];
+        return {at[n[1]] - at[n[0]], at[n[2]] - at[n[0]], at[n[3]] - at[n[0]]};
+    }
+
+    // Add a derivative by the columns of S to the nodes that make them.
+    template <int t> void scatter(const M3<T> &g) {
+        constexpr auto &n = CORNER_TETRAHEDRA[t];
+        at[n[1]] += g.u;
+        at[n[2]] += g.v;
+        at[n[3]] += g.w;
+        at[n[0]] -= g.u + g.v + g.w;
+    }
+};
+
+// First and second derivative of max(energy, 0)^p.
+struct Weights {
+    double first, second;
+};
+
+inline Weights weights(double energy, double p) {
+    if (energy < 0) return {0.0, 0.0};
+    if (p == 2) return {2 * energy, 2.0};
+    if (p == 1) return {1.0, 0.0};
+    if (energy == 0) return {0.0, 0.0};
+    double first = p * std::pow(energy, p - 1);
+    return {first, (p - 1) * first / energy};
+}
+
+}  // namespace hexmend

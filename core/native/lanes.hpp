@@ -1,0 +1,105 @@
+// Hexes side by side: one number of each in a lane of a vector register.
+//
+// Formulas are templates over T, which is `Lanes` in the kernels and `double` where one hex is taken at a time. Vectors
+// are those of GCC and Clang, as wide as the processor's registers: this file is compiled once for each kind of them.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+#elif defined(__ARM_NEON)
+#include <arm_neon.h>
+#endif
+
+namespace hexmend {
+
+#if defined(__AVX512F__)
+constexpr int LANES = 8;
+#elif defined(__AVX__)
+constexpr int LANES = 4;
+#else
+constexpr int LANES = 2;
+#endif
+
+typedef double Lanes __attribute__((vector_size(8 * LANES)));
+typedef std::int64_t Bits __attribute__((vector_size(8 * LANES)));
+
+template <class T> constexpr int width = sizeof(T) / sizeof(double);
+template <class T> using bits_of = std::conditional_t<std::is_same_v<T, double>, std::int64_t, Bits>;
+
+constexpr double INF = std::numeric_limits<double>::infinity();
+
+template <class T> inline T all(double x) {
+    if constexpr (width<T> == 1) return x;
+    else return x - Lanes{};
+}
+
+template <class T> inline double lane(const T &x, int i) {
+    if constexpr (width<T> == 1) return x;
+    else return x[i];
+}
+
+inline double root(double x) { return __builtin_sqrt(x); }
+
+inline Lanes root(Lanes x) {
+#if defined(__AVX512F__)
+    return _mm512_sqrt_pd(x);
+#elif defined(__AVX__)
+    return _mm256_sqrt_pd(x);
+#elif defined(__SSE2__)
+    return _mm_sqrt_pd(x);
+#elif defined(__ARM_NEON)
+    return vsqrtq_f64(x);
+#else
+    for (int i = 0; i < LANES; ++i) x[i] = __builtin_sqrt(x[i]);
+    return x;
+#endif
+}
+
+template <class T> inline T least(T a, T b) { return a < b ? a : b; }
+template <class T> inline T greatest(T a, T b) { return a > b ? a : b; }
+template <class T> inline T magnitude(T a) { return greatest(a, -a); }
+
+// A number or vector as the bits that it is made of, and back.
+template <class To, class From> inline To as(From x) {
+    static_assert(sizeof(To) == sizeof(From));
+    To y;
+    std::memcpy(&y, &x, sizeof y);
+    return y;
+}
+
+// A product that is rounded on its own: never contracted with the sum that it stands in, so that the sum has the same
+// bits wherever it is computed. The compiler may look through anything but this.
+inline double rounded(double x) {
+#if defined(__SSE2__)
+    asm("" : "+x"(x));
+#elif defined(__ARM_NEON)
+    asm("" : "+w"(x));
+#else
+    volatile double y = x;
+    x = y;
+#endif
+    return x;
+}
+
+inline Lanes rounded(Lanes x) {
+#if defined(__AVX512F__)
+    asm("" : "+v"(x));
+#elif defined(__SSE2__)
+    asm("" : "+x"(x));
+#elif defined(__ARM_NEON)
+    asm("" : "+w"(x));
+#else
+    for (int i = 0; i < LANES; ++i) x[i] = rounded(x[i]);
+#endif
+    return x;
+}
+
+}  // namespace hexmend

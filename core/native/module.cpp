@@ -1,0 +1,29 @@
+// The compiled module: every family of kernels is a submodule of it. HEXMEND_MODULE names the processors that this
+// build is for.
+#include <nanobind/nanobind.h>
+
+#include "lanes.hpp"
+#include "threads.hpp"
+
+namespace nb = nanobind;
+
+#define HEXMEND_FAMILIES(family) family(objective)
+
+namespace hexmend {
+#define DECLARE(name) void bind_##name(nb::module_ &);
+HEXMEND_FAMILIES(DECLARE)
+}  // namespace hexmend
+
+NB_MODULE(HEXMEND_MODULE, m) {
+    using namespace nb::literals;
+    m.attr("LANES") = hexmend::LANES;
+    m.def("threads", &hexmend::threads, "How many threads share a loop of the calling thread.");
+    m.def("set_threads", &hexmend::set_threads, "count"_a, "Choose it for the calling thread.");
+    m.def("set_default_threads", &hexmend::set_default_threads, "count"_a, "Choose it for threads that have not.");
+#define BIND(name)                                \
+    {                                             \
+        nb::module_ family = m.def_submodule(#name); \
+        hexmend::bind_##name(family);             \
+    }
+    HEXMEND_FAMILIES(BIND)
+}

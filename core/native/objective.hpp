@@ -1,0 +1,23 @@
+// Sum of eta(H)^p over a mesh: energies, gradient, Hessian product.
+//
+// Every hex writes its share into a block of its own; a node's row is the sum over the corners that meet there, always
+// in the same order, so that results do not depend on the number of threads.
+#pragma once
+
+#include "rows.hpp"
+
+namespace hexmend {
+
+using Shares = std::span<std::array<double, 24>>;
+
+void energies(Points points, Hexes hexes, double delta, std::span<const std::uint8_t> left_out, std::span<double> eta);
+
+void gradient(Points points, Hexes hexes, double delta, double p, std::span<const std::uint8_t> left_out,
+              Shares shares);
+
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p,
+                     std::span<const std::uint8_t> left_out, Shares shares);
+
+void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows);
+
+}  // namespace hexmend

@@ -1,0 +1,27 @@
+// Arrays as kernels see them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hexahedron.hpp"
+
+namespace hexmend {
+
+// Row i of an (n, width) array is rows[i]. Read where T is const.
+template <class T, std::size_t width> using Rows =
+    std::span<std::conditional_t<std::is_const_v<T>, const std::array<std::remove_const_t<T>, width>, std::array<T, width>>>;
+
+using Points = std::span<const Point>;
+using Hexes = std::span<const Hex>;
+using Indices = std::span<const std::int32_t>;
+using Numbers = std::span<const double>;
+
+// What a kernel makes and hands over: an array (n,), or (n, width).
+template <class T, std::size_t width = 1> struct Made {
+    std::vector<T> values;
+};
+
+}  // namespace hexmend
