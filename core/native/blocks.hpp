@@ -85,6 +85,25 @@ template <class T> struct Counted {
     auto operator()(int t) const { return (left_out & (1LL << t)) == 0; }
 };
 
+// First and second derivatives of max(eta(H), 0)^p by eta(H), of each hex of a block.
+template <class T> struct BlockWeights {
+    T first{}, second{};
+
+    BlockWeights() = default;
+
+    BlockWeights(T energy, double p) {
+        if (p == 2) {
+            auto counts = energy >= 0.0;
+            first = counts ? 2.0 * energy : all<T>(0.0), second = counts ? all<T>(2.0) : all<T>(0.0);
+            return;
+        }
+        for (int i = 0; i < width<T>; ++i) {
+            auto [one, two] = weights(lane(energy, i), p);
+            set_lane(first, i, one), set_lane(second, i, two);
+        }
+    }
+};
+
 // body(first, count) for every block of the hexes, on all threads.
 template <class T, class Body> inline void blocks_of(std::int64_t hexes, const Body &body) {
     parallel_chunks(hexes, CHUNK, [&](std::int64_t begin, std::int64_t end) {

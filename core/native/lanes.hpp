@@ -46,6 +46,11 @@ template <class T> inline double lane(const T &x, int i) {
     else return x[i];
 }
 
+template <class T> inline void set_lane(T &x, int i, double value) {
+    if constexpr (width<T> == 1) x = value;
+    else x[i] = value;
+}
+
 inline double root(double x) { return __builtin_sqrt(x); }
 
 inline Lanes root(Lanes x) {
@@ -60,6 +65,20 @@ inline Lanes root(Lanes x) {
 #else
     for (int i = 0; i < LANES; ++i) x[i] = __builtin_sqrt(x[i]);
     return x;
+#endif
+}
+
+// In one order, whatever the compiler: halves are added to each other, and theirs.
+inline double sum_of_lanes(const Lanes &x) {
+#if defined(__AVX512F__)
+    auto four = __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
+    auto two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+    return two[0] + two[1];
+#elif defined(__AVX__)
+    auto two = __builtin_shufflevector(x, x, 0, 1) + __builtin_shufflevector(x, x, 2, 3);
+    return two[0] + two[1];
+#else
+    return x[0] + x[1];
 #endif
 }
 

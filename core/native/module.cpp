@@ -7,7 +7,7 @@
 
 namespace nb = nanobind;
 
-#define HEXMEND_FAMILIES(family) family(objective)
+#define HEXMEND_FAMILIES(family) family(assembly) family(conjugate_gradients) family(local) family(objective) family(ordering) family(plain) family(shape) family(symmetric)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_ &);

@@ -8,15 +8,19 @@
 
 namespace hexmend {
 
+// A byte a hex: bit t is set where its corner tetrahedron t is left out, as if it were perfect.
+using Left = std::span<const std::uint8_t>;
+
+// Vectors at the eight corners of each hex.
 using Shares = std::span<std::array<double, 24>>;
 
-void energies(Points points, Hexes hexes, double delta, std::span<const std::uint8_t> left_out, std::span<double> eta);
+void energies(Points points, Hexes hexes, double delta, Left left_out, std::span<double> eta);
 
-void gradient(Points points, Hexes hexes, double delta, double p, std::span<const std::uint8_t> left_out,
+void gradient(Points points, Hexes hexes, double delta, double p, Left left_out,
               Shares shares);
 
 void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p,
-                     std::span<const std::uint8_t> left_out, Shares shares);
+                     Left left_out, Shares shares);
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows);
 

@@ -5,7 +5,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.numba_kernels.shape import barrier, power_minus_two_thirds
+from hexmend.kernels import shape
+
+
+def power_minus_two_thirds(h):
+    powers = np.empty(1)
+    shape.power_minus_two_thirds(np.array([h]), powers)
+    return powers[0]
+
+
+def barrier(sigma, delta):
+    h, r = np.empty(1), np.empty(1)
+    shape.barrier(np.array([sigma]), delta, h, r)
+    return h[0], r[0]
 
 
 @given(st.floats(min_value=1e-300, max_value=1e300))

@@ -1,4 +1,4 @@
-"""Kernels that take a block of hexes at once, against the plain loops of one hex; tails of a block included."""
+"""Kernels that take hexes side by side, against the plain loops of one hex; tails of a block included."""
 
 import numpy as np
 import pytest
@@ -7,19 +7,17 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.numba_kernels import hexahedron, objective
-from hexmend.numba_kernels.lanes import CHUNK, LANES
-from hexmend.quality.measure import read_only
+from hexmend.kernels import LANES, local, objective, plain
 from tests.core.grids import grid, scrambled
 
-#: One hex, a part of a block, one block and a hex, more than a chunk.
-COUNTS = [1, LANES - 1, LANES + 1, CHUNK + 12]
+#: One hex, a part of a block, one block and a hex, more than a thread takes at a time.
+COUNTS = [1, LANES - 1, LANES + 1, 256 + 12]
 
 
 def some(count, amplitude, seed):
     """`count` hexes of a scrambled grid, and its points in mean edge lengths."""
     mesh = scrambled(grid(7), amplitude, seed)
-    return read_only(mesh.points / mesh.mean_edge_length), read_only(mesh.hexes[:count])
+    return mesh.points / mesh.mean_edge_length, mesh.hexes[:count]
 
 
 cases = {
@@ -41,36 +39,50 @@ def some_left_out(count, share, seed):
 def test_energy_and_gradient_are_those_of_the_plain_loop(count, case, p, seed, share):
     points, hexes = some(count, case[0], seed)
     delta, left_out = case[1], some_left_out(count, share, seed)
-    blocks, g = np.full((count, 8, 3), np.nan), np.empty((8, 3))
-    objective.gradient(points, hexes, delta, p, left_out, blocks)
-    eta = energies(points, hexes, delta, left_out)
+    shares, expected = np.full((2, count, 8, 3), np.nan)
+    eta, plain_eta = np.full((2, count), np.nan)
+    objective.gradient(points, hexes, delta, p, left_out, shares)
+    plain.gradient(points, hexes, delta, p, left_out, expected)
+    objective.energies(points, hexes, delta, left_out, eta)
+    plain.energies(points, hexes, delta, left_out, plain_eta)
+    np.testing.assert_allclose(eta, plain_eta, rtol=1e-12, atol=1e-14)
     for h in range(count):
-        energy = hexahedron.gradient(points[hexes[h]], delta, left_out[h], g)
-        expected = hexahedron.weights(energy, p)[0] * g
-        assert eta[h] == pytest.approx(max(energy, 0), rel=1e-12, abs=1e-14)
-        np.testing.assert_allclose(blocks[h], expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
+        np.testing.assert_allclose(shares[h], expected[h], rtol=1e-11, atol=1e-12 * np.abs(expected[h]).max())
 
 
 @given(**cases)
 def test_the_product_is_that_of_the_plain_loop(count, case, p, seed, share):
     points, hexes = some(count, case[0], seed)
     delta, left_out = case[1], some_left_out(count, share, seed)
-    random = np.random.default_rng(seed)
-    values = random.normal(size=(len(points) // 2, 3))
+    values = np.random.default_rng(seed).normal(size=(len(points) // 2, 3))
     slots = np.where(hexes % 2 == 0, hexes // 2, -1).astype(np.int32)  # odd nodes are fixed
     slots[slots >= len(values)] = -1
-    blocks, g, hv = np.full((count, 8, 3), np.nan), np.empty((8, 3)), np.empty((8, 3))
-    objective.hessian_product(points, hexes, slots, values, delta, p, left_out, blocks)
+    shares, expected = np.full((2, count, 8, 3), np.nan)
+    objective.hessian_product(points, hexes, slots, values, delta, p, left_out, shares)
+    plain.hessian_product(points, hexes, slots, values, delta, p, left_out, expected)
     for h in range(count):
-        v = np.where(slots[h][:, None] >= 0, values[slots[h]], 0.0)
-        hexahedron.product(points[hexes[h]], v, delta, p, left_out[h], g, hv)
-        np.testing.assert_allclose(blocks[h], hv, rtol=1e-10, atol=1e-11 * max(np.abs(hv).max(), 1e-300))
+        size = max(np.abs(expected[h]).max(), 1e-300)
+        np.testing.assert_allclose(shares[h], expected[h], rtol=1e-10, atol=1e-11 * size)
+
+
+@pytest.mark.parametrize("direction", ["STEEPEST_DESCENT", "NEWTON", "MODIFIED_NEWTON"])
+@given(seed=st.integers(0, 2**32 - 1), case=cases["case"], p=cases["p"])
+def test_a_local_sweep_is_that_of_the_plain_loop(direction, seed, case, p):
+    mesh = scrambled(grid(4), *(case[0], seed))
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
+    moved, expected = mesh.points.copy(), mesh.points.copy()
+    for sweep, points in ((local.sweep, moved), (plain.sweep, expected)):
+        sweep(
+            points, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
+            getattr(local, direction), case[1], p, 1.0, 0.7, 1e-4, 60,
+        )  # fmt: skip
+    np.testing.assert_allclose(moved, expected, atol=1e-7 * mesh.mean_edge_length)
 
 
 @given(st.floats(-150, 150), st.integers(0, 2**32 - 1))
 def test_lengths_of_any_power_of_ten_give_the_same_energy(power, seed):
     points, hexes = some(8, 0.2, seed)
-    scaled = read_only(points * 10.0 ** (power / 2))
+    scaled = points * 10.0 ** (power / 2)
     np.testing.assert_allclose(energies(scaled, hexes), energies(points, hexes), rtol=1e-9, atol=1e-12)
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hexmend.energy import MeshEnergy
 from hexmend.errors import MeshError
 from hexmend.gallery import make
-from hexmend.numba_kernels import local
+from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.node_step import Sweep, Verdict, explain
 from hexmend.quality import measure

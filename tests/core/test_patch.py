@@ -1,25 +1,25 @@
-"""The patch table against the energy of whole hexes, and its gradient against differences."""
+"""The energy of a node's patch against that of whole hexes, and its gradient against differences."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.spatial.distance import pdist
 
 from hexmend.energy import MeshEnergy, energies
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.numba_kernels import patch
+from hexmend.kernels import local
 from tests.core.grids import grid, scrambled
 
 
-def patch_of(mesh, node, delta):
-    rows = mesh.topology.node_corners
-    begin, size = rows.start[node], int(rows.start[node + 1] - rows.start[node])
-    table = np.empty(patch.TABLE * patch.blocks_of(size))
-    patch.load(mesh.points, mesh.hexes, rows.items, begin, size, table)
-    scale = patch.rescale(table, size)
-    patch.tabulate(table, size, delta)
-    return table, size, float(scale)
+def patch_of(mesh, node, delta, p=2.0):
+    """Its hexes' corners at the node, the factor of its lengths, value, gradient, second derivatives."""
+    star = mesh.topology.node_corners[node]
+    return star, *local.look(mesh.points, mesh.hexes, star, 0.0, delta, p)
+
+
+def value(mesh, star, scale, y, delta, p):
+    curve = np.array([[1.0, np.nan]])
+    local.along(mesh.points, mesh.hexes, star, scale, y, delta, p, curve)
+    return curve[0, 1]
 
 
 CASES = st.tuples(
@@ -33,13 +33,13 @@ def test_value_is_the_energy_of_the_attached_hexes(case):
     mesh = scrambled(grid(3), amplitude, seed)
     delta = 0.05 if soft else 0.0
     node = int(np.flatnonzero(mesh.free)[seed % 8])
-    table, size, scale = patch_of(mesh, node, delta)
+    star, scale, *_ = patch_of(mesh, node, delta)
     y = np.random.default_rng(seed).uniform(-0.2, 0.2, 3)
     points = mesh.points.copy()
     points[node] += y / scale
     attached = mesh.hexes[mesh.topology.node_corners[node] // 8]
     expected = (energies(points * scale, attached, delta) ** p).sum()
-    got = patch.value(table, size, *y, delta, p)
+    got = value(mesh, star, scale, y, delta, p)
     assert got == pytest.approx(expected, rel=1e-9)
 
 
@@ -49,14 +49,13 @@ def test_gradient_is_that_of_central_differences(case):
     mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
     delta = 0.05 if soft else 0.0
     node = int(np.flatnonzero(mesh.free)[seed % 8])
-    table, size, _ = patch_of(mesh, node, delta)
-    f, *gradient = patch.value_and_gradient(table, size, delta, p)
-    assert f == pytest.approx(patch.value(table, size, 0.0, 0.0, 0.0, delta, p))
+    star, scale, f, gradient, _ = patch_of(mesh, node, delta, p)
+    assert f == pytest.approx(value(mesh, star, scale, np.zeros(3), delta, p))
     step = 1e-6
     for k in range(3):
         y = np.zeros(3)
         y[k] = step
-        rise = patch.value(table, size, *y, delta, p) - patch.value(table, size, *-y, delta, p)
+        rise = value(mesh, star, scale, y, delta, p) - value(mesh, star, scale, -y, delta, p)
         assert rise / (2 * step) == pytest.approx(gradient[k], rel=1e-5, abs=1e-5 * max(1, f))
 
 
@@ -68,28 +67,22 @@ def test_gradient_and_hessian_are_rows_and_blocks_of_the_meshs(case):
     energy = MeshEnergy(mesh, p)
     node = int(energy.nodes[k])
     unit = 0.05 if soft else 0.0  # of the patch
-    table, size, scale = patch_of(mesh, node, unit)
+    _, scale, _, gradient, own = patch_of(mesh, node, unit, p)
     delta = unit / (scale * energy.unit) ** 3
-    _, *gradient = patch.value_and_gradient(table, size, unit, p)
-    xx, xy, xz, yy, yz, zz = patch.hessian(table, size, p)
     x, ratio = energy.scaled(mesh.points), scale * energy.unit
     np.testing.assert_allclose(np.multiply(gradient, ratio), energy.gradient(x, delta)[k], rtol=1e-9, atol=1e-9)
     block = energy.hessian(x, delta).assembled(np.float64).own_blocks[k]
-    own = np.array([xx, xy, xz, yy, yz, zz])
-    np.testing.assert_allclose(own * ratio**2, block, rtol=1e-8, atol=1e-9 * np.abs(block).max())
+    np.testing.assert_allclose(np.multiply(own, ratio**2), block, rtol=1e-8, atol=1e-9 * np.abs(block).max())
 
 
 def test_a_perfect_patch_has_no_gradient():
     mesh = grid(2)
-    table, size, _ = patch_of(mesh, 13, 0.0)
-    f, *gradient = patch.value_and_gradient(table, size, 0.0, 2.0)
+    _, _, f, gradient, _ = patch_of(mesh, 13, 0.0)
     assert f == pytest.approx(0, abs=1e-12)
     assert gradient == pytest.approx([0, 0, 0], abs=1e-12)
 
 
-def test_a_turned_hex_is_the_same_hex():
-    for corner, turned in enumerate(patch.TURNED):
-        assert turned[0] == corner
-        x, there = UNIT_CUBE[turned], UNIT_CUBE
-        np.testing.assert_array_equal(pdist(x), pdist(there))
-        assert np.linalg.det(x[[1, 3, 4]] - x[0]) == pytest.approx(1)  # turned, not mirrored
+def test_a_patch_without_extent_has_no_factor():
+    mesh = grid(2)
+    flat = mesh.with_points(np.zeros_like(mesh.points))
+    assert patch_of(flat, 13, 0.1)[1] == 0

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy.sparse
-import scipy.sparse.linalg
 
 from hexmend.energy.couplings import Couplings
-from hexmend.numba_kernels import conjugate_gradients as kernels
+from hexmend.energy.operator import SymmetricOperator
+from hexmend.kernels import conjugate_gradients as kernels
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +32,8 @@ class Solved:
     negative_curvature: bool
 
 
-class Assembled(scipy.sparse.linalg.LinearOperator):
-    """A symmetric matrix of 3 x 3 blocks, (3 k, 3 k): a linear operator, and a system to be solved.
+class Assembled(SymmetricOperator):
+    """A symmetric matrix of 3 x 3 blocks, (3 k, 3 k), and a system to be solved.
 
     Vectors are in the order of the free nodes by number, as those of `Hessian` are.
 
@@ -38,25 +41,21 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
     ----------
     couplings : Couplings
     off : (blocks + 1, 9) float32 or float64
-        Blocks above the diagonal, by rows; the last is no block (see `kernels.block_rows`).
+        Blocks above the diagonal, by rows; the last is no block (see `conjugate_gradients`).
     diagonal : (k, 6) of the same
         xx xy xz yy yz zz of each slot.
     """
 
     def __init__(self, couplings: Couplings, off: np.ndarray, diagonal: np.ndarray):
-        size = 3 * couplings.nodes.size
-        super().__init__(np.float64, (size, size))
+        super().__init__(3 * couplings.nodes.size)
         self.couplings, self.off, self.diagonal = couplings, off, diagonal
         self.order = np.argsort(couplings.nodes)  # the slot of each free node
 
-    def _matvec(self, v: np.ndarray) -> np.ndarray:
+    def matvec(self, v: np.ndarray) -> np.ndarray:
         x = self._slotted(v, np.float64)
         y = np.empty_like(x)
         kernels.product(*self.couplings.pattern, self.off, self.diagonal, x, y)
         return y[self.order, :3].ravel()
-
-    def _adjoint(self) -> Assembled:
-        return self
 
     def _slotted(self, v: np.ndarray, dtype: type) -> np.ndarray:
         """v (3 k,) by slots, (k, 4): the fourth is 0."""
@@ -92,9 +91,11 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
         """The 3 x 3 blocks that couple a node with itself, (k, 6): xx xy xz yy yz zz."""
         return self.diagonal[self.order]
 
-    def matrix(self) -> scipy.sparse.csr_array:
-        """The same as a sparse matrix of scipy's, (3 k, 3 k), some 243 entries a free node."""
-        _, start, columns = self.couplings.pattern[:3]
+    def matrix(self) -> csr_array:
+        """The same as a sparse matrix of SciPy's, (3 k, 3 k), some 243 entries a free node."""
+        from scipy.sparse import coo_array
+
+        _, start, columns = self.couplings.pattern
         slots = np.arange(self.order.size)
         rows, off = np.repeat(slots, np.diff(start)), self.off[:-1].reshape(-1, 3, 3)
         i, j = np.concatenate([slots, rows, columns]), np.concatenate([slots, columns, rows])
@@ -103,7 +104,7 @@ class Assembled(scipy.sparse.linalg.LinearOperator):
         row = 3 * free[i][:, None, None] + np.arange(3)[:, None]
         column = 3 * free[j][:, None, None] + np.arange(3)
         row, column = np.broadcast_arrays(row, column)
-        return scipy.sparse.coo_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=self.shape).tocsr()
+        return coo_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=self.shape).tocsr()
 
 
 def full(blocks: np.ndarray) -> np.ndarray:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-import scipy.sparse
-from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from hexmend.numba_kernels import couplings as kernels
+from hexmend.kernels import ordering
 from hexmend.mesh import Mesh
+from hexmend.numba_kernels import couplings as kernels
 
 #: Slots are divided into parts that threads solve side by side: from so many slots on into 2, 4 and 8.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
@@ -23,35 +22,38 @@ class Couplings:
     Parameters
     ----------
     mesh : Mesh
-    part : int, optional
-        Slots in a part; 1 makes the preconditioner block Jacobi.
+    parts : int, optional
+        In how many parts the slots are; by their number where it is not given.
 
     Attributes
     ----------
     nodes : (k,) int32
         The node in each slot.
+    bounds : (2 parts,) int32
+        Where the parts, and behind them the separators, begin and end.
     slots : (m, 8) int32
         Slot of each corner, -1 if it is fixed.
     target : (m, 28) int32
         The block that each pair of a hex's corners adds to.
-    pattern : tuple
-        What the kernels of `conjugate_gradients` begin with.
+    row_start, columns : (k + 1,) int32, (blocks,) int32
+        The blocks above the diagonal, as compressed rows.
     """
 
-    def __init__(self, mesh: Mesh, part: int | None = None):
-        corners = mesh.topology.node_corners
-        self.nodes = _near_each_other(mesh)
+    def __init__(self, mesh: Mesh, parts: int | None = None):
+        corners, rings = mesh.topology.node_corners, mesh.topology.rings
+        if parts is None:
+            free = np.count_nonzero(mesh.free)
+            parts = max((parts for least, parts in _PARTS if free >= least), default=1)
+        self.nodes, self.bounds = ordering.slots(
+            mesh.hexes, corners.start, corners.items, rings.start, rings.items, mesh.free, parts
+        )
         slot = np.full(mesh.n_nodes, -1, np.int32)
         slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
         self.slots = slot[mesh.hexes]
-        rows, columns = kernels.rows(self.slots, self.nodes, corners.start, corners.items)
+        self.row_start, self.columns = kernels.rows(self.slots, self.nodes, corners.start, corners.items)
         self.target = np.empty((mesh.n_hexes, kernels.PAIRS), np.int32)
-        kernels.targets(self.slots, rows, columns, self.target)
-        if part is None:
-            parts = max((parts for least, parts in _PARTS if self.nodes.size >= least), default=1)
-            part = max(-(-self.nodes.size // parts), 1)
+        kernels.targets(self.slots, self.row_start, self.columns, self.target)
         self._shares: dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
-        self.pattern = (part, rows, columns, *kernels.split(part, rows, columns))
 
     def shares(self, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The slots in `count` shares, and the hexes at the slots of each, as `assembly.assemble` takes them."""
@@ -66,17 +68,11 @@ class Couplings:
         return self._shares[count]
 
     @property
+    def pattern(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """What the kernels of `conjugate_gradients` begin with."""
+        return self.bounds, self.row_start, self.columns
+
+    @property
     def blocks(self) -> int:
         """Blocks above the diagonal."""
-        return self.pattern[2].size
-
-
-def _near_each_other(mesh: Mesh) -> np.ndarray:
-    """The free nodes in reverse Cuthill-McKee order, (k,) int32.
-
-    It knows no coordinates: a mesh that is turned is smoothed as it was before.
-    """
-    rings, n = mesh.topology.rings, mesh.n_nodes
-    graph = scipy.sparse.csr_matrix((np.ones(rings.items.size, np.int8), rings.items, rings.start), shape=(n, n))
-    order = reverse_cuthill_mckee(graph, symmetric_mode=True)
-    return order[mesh.free[order]].astype(np.int32)
+        return self.columns.size

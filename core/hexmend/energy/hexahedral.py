@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.numba_kernels import objective as kernels
-from hexmend.quality.measure import read_only
+from hexmend.kernels import objective as kernels
 
 
 def energies(
@@ -35,7 +34,7 @@ def energies(
     """
     eta = np.empty(len(hexes))
     out = np.zeros(len(hexes), np.uint8) if left_out is None else left_out
-    kernels.energies(read_only(points), read_only(hexes), float(delta), out, eta)
+    kernels.energies(points, hexes, float(delta), out, eta)
     return eta
 
 

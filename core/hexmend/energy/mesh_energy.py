@@ -5,17 +5,15 @@ from __future__ import annotations
 import copy
 from functools import cached_property
 
-import numba
 import numpy as np
-import scipy.sparse.linalg
 
 from hexmend.energy.assembled import Assembled
 from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import energies
-from hexmend.numba_kernels import assembly
-from hexmend.numba_kernels import objective as kernels
+from hexmend.energy.operator import SymmetricOperator
+from hexmend.kernels import assembly, threads
+from hexmend.kernels import objective as kernels
 from hexmend.mesh import Mesh
-from hexmend.quality.measure import read_only
 
 
 class MeshEnergy:
@@ -54,7 +52,7 @@ class MeshEnergy:
         self.left_out = np.zeros(mesh.n_hexes, np.uint8) if left_out is None else left_out
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
-        self._blocks = np.empty((mesh.n_hexes, 8, 3))
+        self._shares = np.empty((mesh.n_hexes, 8, 3))
 
     @cached_property
     def slots(self) -> np.ndarray:
@@ -97,37 +95,36 @@ class MeshEnergy:
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Derivative of `value` by the free nodes, (k, 3): (B.3), (B.21), (C.2)."""
-        kernels.gradient(read_only(x), self.mesh.hexes, delta, self.p, self.left_out, self._blocks)
-        return self._gathered(self._blocks)
+        kernels.gradient(x, self.mesh.hexes, delta, self.p, self.left_out, self._shares)
+        return self._gathered()
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
         """Second derivative of `value` by the free nodes, at points x (n, 3)."""
         return Hessian(self, x, delta)
 
-    def _gathered(self, blocks: np.ndarray) -> np.ndarray:
+    def _gathered(self) -> np.ndarray:
+        """What the shares of the hexes come to at each free node, (k, 3)."""
         corners = self.mesh.topology.node_corners
-        flat = blocks.reshape(8 * self.mesh.n_hexes, -1)
-        rows = np.empty((self.nodes.size, flat.shape[1]))
-        kernels.gather(flat, corners.start, corners.items, self.nodes, rows)
+        rows = np.empty((self.nodes.size, 3))
+        kernels.gather(self._shares.reshape(-1, 3), corners.start, corners.items, self.nodes, rows)
         return rows
 
 
-class Hessian(scipy.sparse.linalg.LinearOperator):
-    """Hessian of a `MeshEnergy` at one place, (3 k, 3 k): a linear operator that scipy's solvers take; symmetric.
+class Hessian(SymmetricOperator):
+    """Hessian of a `MeshEnergy` at one place, (3 k, 3 k).
 
     Unknowns are x, y, z of the first free node, then of the second... `shift` is added to the diagonal.
     """
 
     def __init__(self, energy: MeshEnergy, x: np.ndarray, delta: float, shift: float = 0.0):
-        size = 3 * energy.nodes.size
-        super().__init__(np.float64, (size, size))
-        self.energy, self.x, self.delta, self.shift = energy, read_only(x), float(delta), float(shift)
+        super().__init__(3 * energy.nodes.size)
+        self.energy, self.x, self.delta, self.shift = energy, x, float(delta), float(shift)
 
     def shifted(self, shift: float) -> Hessian:
         """H + shift I."""
         return Hessian(self.energy, self.x, self.delta, self.shift + shift)
 
-    def _matvec(self, v: np.ndarray) -> np.ndarray:
+    def matvec(self, v: np.ndarray) -> np.ndarray:
         energy, v = self.energy, np.ascontiguousarray(v, dtype=np.float64).reshape(-1, 3)
         kernels.hessian_product(
             self.x,
@@ -137,15 +134,12 @@ class Hessian(scipy.sparse.linalg.LinearOperator):
             self.delta,
             energy.p,
             energy.left_out,
-            energy._blocks,
+            energy._shares,
         )
-        product = energy._gathered(energy._blocks)
+        product = energy._gathered()
         if self.shift:
             product += self.shift * v
         return product.ravel()
-
-    def _adjoint(self) -> Hessian:
-        return self
 
     def assembled(self, dtype: type = np.float32) -> Assembled:
         """The same matrix, assembled: many products, and a system to be solved.
@@ -166,7 +160,7 @@ class Hessian(scipy.sparse.linalg.LinearOperator):
             energy.left_out,
             couplings.slots,
             couplings.target,
-            *couplings.shares(numba.get_num_threads()),
+            *couplings.shares(threads()),
             off,
             diagonal,
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.numba_kernels import local
+from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.node_step.patch import Patch, reach_of
 from hexmend.node_step.record import NodeStep, Verdict

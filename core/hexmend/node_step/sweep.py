@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hexmend.numba_kernels import local
+from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.node_step.local import local_step
 from hexmend.node_step.record import NodeStep

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from hexmend.energy import Hessian
 from hexmend.energy.assembled import full
@@ -129,6 +128,8 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
     The least is found as the greatest of lambda_max I - H, where it stands apart; where that does not converge in 50
     iterations it is taken to be zero (A.2).
     """
+    from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
+
     start = np.ones(hessian.shape[0])  # ARPACK's own would be random
     matrix = hessian.assembled()
 

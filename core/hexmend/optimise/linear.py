@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import scipy.sparse.linalg
 
 from hexmend.energy import Hessian
 
@@ -39,13 +38,15 @@ class Minres:
     precision: type = np.float32
 
     def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
+        from scipy.sparse.linalg import minres
+
         count = 0
 
         def tick(_: Vector) -> None:
             nonlocal count
             count += 1
 
-        solution, _ = scipy.sparse.linalg.minres(
+        solution, _ = minres(
             hessian.assembled(self.precision), right, rtol=self.tolerance, maxiter=self.iterations, callback=tick
         )
         return solution, count

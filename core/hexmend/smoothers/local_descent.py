@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from hexmend.energy import POLICIES
-from hexmend.numba_kernels import local
+from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter

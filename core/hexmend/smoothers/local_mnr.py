@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend.numba_kernels import local
+from hexmend.kernels import local
 from hexmend.smoothers.local_descent import LocalDescent
 from hexmend.smoothers.smoother import method
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.energy import MeshEnergy, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.numba_kernels import local
+from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.optimise.descent import Descent, descend

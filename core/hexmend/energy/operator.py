@@ -1,0 +1,37 @@
+"""What a Hessian is to whoever solves with it: something that vectors are multiplied by."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+
+class SymmetricOperator(ABC):
+    """A symmetric matrix of double precision, known by its products; SciPy's solvers take it as it is.
+
+    Parameters
+    ----------
+    size : int
+        Of its rows, and of its columns.
+    """
+
+    dtype = np.dtype(np.float64)
+
+    def __init__(self, size: int):
+        self.shape = size, size
+
+    @abstractmethod
+    def matvec(self, v: np.ndarray) -> np.ndarray:
+        """The product with v (size,) float64."""
+
+    def rmatvec(self, v: np.ndarray) -> np.ndarray:
+        """The product of the transpose, which it is itself."""
+        return self.matvec(v)
+
+    def __matmul__(self, v: np.ndarray) -> np.ndarray:
+        if v.shape[0] != self.shape[1]:
+            raise ValueError(f"a matrix of {self.shape[1]} columns times an array of {v.shape[0]} rows")
+        if v.ndim == 1:
+            return self.matvec(v)
+        return np.stack([self.matvec(column) for column in v.T], axis=1) if v.shape[1] else np.zeros(v.shape)

@@ -1,0 +1,294 @@
+#include "conjugate_gradients.hpp"
+
+#include <algorithm>
+
+#include "symmetric.hpp"
+#include "threads.hpp"
+
+namespace hexmend {
+namespace {
+
+// Vectors by slots have four numbers a slot, the fourth being 0: a row of a block is loaded as four numbers, the last of
+// which belongs to the row behind it, or to nobody, meets that 0 and counts nowhere. The array of blocks has one block
+// more than it needs.
+template <class Real> struct Four {
+    typedef Real type __attribute__((vector_size(4 * sizeof(Real))));
+};
+template <class Real> using Vector = typename Four<Real>::type;
+
+template <class Real> inline Vector<Real> loaded(const Real *from) {
+    Vector<Real> x;
+    std::memcpy(&x, from, sizeof x);
+    return x;
+}
+
+// A symmetric block, by its columns: times a vector without a sum across.
+template <class Real> struct Block {
+    Vector<Real> x, y, z;
+
+    Vector<Real> operator*(const Vector<Real> &v) const { return x * v[0] + y * v[1] + z * v[2]; }
+};
+
+template <class Real> Block<Real> block(const Symmetric &a) {
+    auto column = [](double x, double y, double z) {
+        return Vector<Real>{static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z), 0};
+    };
+    return {column(a.xx, a.xy, a.xz), column(a.xy, a.yy, a.yz), column(a.xz, a.yz, a.zz)};
+}
+
+inline Symmetric operator*(double k, const Symmetric &a) {
+    return {k * a.xx, k * a.xy, k * a.xz, k * a.yy, k * a.yz, k * a.zz};
+}
+
+template <class Real> Symmetric widened(const std::array<Real, 6> &a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
+
+// D: a diagonal block with its least eigenvalue raised as in Algorithm A.4; and D^-1.
+inline std::pair<Symmetric, Symmetric> positive(Symmetric a) {
+    auto [least, greatest] = extreme_eigenvalues(a);
+    double size = std::max(std::abs(least), std::abs(greatest));
+    if (size == 0) size = 1;
+    // So small a D beside the blocks off the diagonal would make the triangular solves grow without bound.
+    a.raise(least < 0 ? 0.5 * size - least : std::max(0.001 * size - least, 0.0));
+    double cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.xz * a.yz - a.xy * a.zz, cxz = a.xy * a.yz - a.xz * a.yy;
+    double det = a.xx * cxx + a.xy * cxy + a.xz * cxz;
+    if (!(det > 0)) {  // all but of rank 1 or 2: its scale alone
+        double one = 1 / size;
+        return {{size, 0, 0, size, 0, size}, {one, 0, 0, one, 0, one}};
+    }
+    Symmetric adjugate{cxx, cxy, cxz, a.xx * a.zz - a.xz * a.xz, a.xy * a.xz - a.xx * a.yz, a.xx * a.yy - a.xy * a.xy};
+    return {a, (1 / det) * adjugate};
+}
+
+template <class V> inline double dot(const V &a, const V &b) {
+    auto product = a * b;
+    return static_cast<double>(product[0] + product[1] + product[2]);
+}
+
+// A matrix of blocks of one precision, for vectors of the same or another.
+template <class Real, class Number = Real> class System {
+  public:
+    using V = Vector<Number>;
+
+    System(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off)
+        : bounds_(bounds), row_start_(row_start), columns_(columns), off_(off.data()->data()),
+          parts_(static_cast<int>(bounds.size()) / 2), size_(bounds.back()) {}
+
+    std::int64_t size() const { return size_; }
+
+    // Sum of what body(begin, end, range) returns for the parts, or for the separators, taken side by side; in order.
+    template <class Body> double over_parts(const Body &body) { return over(0, parts_, body); }
+    template <class Body> double over_separators(const Body &body) { return over(parts_, 2 * parts_ - 1, body); }
+
+    // The sum of the blocks of a row times t of their columns; the nearest, known last, comes last.
+    V row_times(std::int32_t i, const V *t) const {
+        V x{}, y{}, z{};
+        for (auto s = row_start_[i + 1] - 1; s >= row_start_[i]; --s) {
+            const V &of = t[columns_[s]];
+            x += row(s, 0) * of, y += row(s, 1) * of, z += row(s, 2) * of;
+        }
+        // Sums across, of the three at once.
+        V xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + __builtin_shufflevector(x, y, 2, 6, 3, 7);
+        V z0 = __builtin_shufflevector(z, V{}, 0, 4, 1, 5) + __builtin_shufflevector(z, V{}, 2, 6, 3, 7);
+        return __builtin_shufflevector(xy, z0, 0, 1, 4, 5) + __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
+    }
+
+    // The blocks of a row, transposed, times p: added to w in the slots of their columns.
+    void add_transposed(std::int32_t i, const V &p, V *w) const {
+        V x = p[0] - V{}, y = p[1] - V{}, z = p[2] - V{};
+        for (auto s = row_start_[i]; s < row_start_[i + 1]; ++s)
+            w[columns_[s]] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
+    }
+
+    // From the first slot to the last: body(i, sum of the blocks left of the diagonal times what it returned there)
+    // returns that for slot i, and what is to be summed over all. `w` is zero before and after; what two parts add to
+    // one separator has a vector each.
+    template <class Body> double forward(std::vector<V> (&w)[2], const Body &body) {
+        double total = over_parts([&](std::int32_t begin, std::int32_t end, int part) {
+            V *below = w[part % 2].data();
+            double sum = 0;
+            for (auto i = begin; i < end; ++i) {
+                auto [p, square] = body(i, std::exchange(below[i], V{}));
+                add_transposed(i, p, below);
+                sum += square;
+            }
+            return sum;
+        });
+        return total + over_separators([&](std::int32_t begin, std::int32_t end, int) {
+            V *below = w[0].data(), *other = w[1].data();
+            double sum = 0;
+            for (auto i = begin; i < end; ++i) {
+                auto [p, square] = body(i, std::exchange(below[i], V{}) + std::exchange(other[i], V{}));
+                add_transposed(i, p, below);
+                sum += square;
+            }
+            return sum;
+        });
+    }
+
+  private:
+    Indices bounds_, row_start_, columns_;
+    const Real *off_;
+    int parts_;
+    std::int64_t size_;
+    std::vector<double> sums_ = std::vector<double>(2 * parts_);
+
+    V row(std::int32_t s, int k) const {
+        auto four = loaded(off_ + 9 * static_cast<std::int64_t>(s) + 3 * k);
+        if constexpr (std::is_same_v<Real, Number>) return four;
+        else return __builtin_convertvector(four, V);
+    }
+
+    template <class Body> double over(int first, int last, const Body &body) {
+        parallel(last - first, [&](std::int64_t k) {
+            int range = first + static_cast<int>(k);
+            sums_[range] = body(bounds_[range], bounds_[range + 1], range);
+        });
+        double total = 0;
+        for (int range = first; range < last; ++range) total += sums_[range];
+        return total;
+    }
+};
+
+// What an iteration works with.
+template <class Real> class Solver {
+  public:
+    using V = Vector<Real>;
+
+    Solver(System<Real> &system, std::span<const std::array<Real, 6>> diagonal, double damping)
+        : system_(system), positive_(system.size()), inverse_(system.size()), rest_(system.size()) {
+        for (auto *vector : {&residual_, &v_, &t_, &product_, &w_[0], &w_[1]}) vector->resize(system.size());
+        everywhere([&](std::int32_t i) {
+            Symmetric own = widened(diagonal[i]);
+            auto [d, inverse] = positive(own);
+            positive_[i] = block<Real>((1 + damping) * d);
+            inverse_[i] = block<Real>((1 / (1 + damping)) * inverse);
+            double k = 2 + damping;
+            rest_[i] = block<Real>({own.xx - k * d.xx, own.xy - k * d.xy, own.xz - k * d.xz, own.yy - k * d.yy,
+                                    own.yz - k * d.yz, own.zz - k * d.zz});
+            return 0.0;
+        });
+    }
+
+    // The first residual, (D + L)^-1 right; its square.
+    double start(std::span<const std::array<Real, 4>> right) {
+        return system_.forward(w_, [&](std::int32_t i, const V &below) {
+            residual_[i] = inverse_[i] * (loaded(right[i].data()) - below);
+            return std::pair{residual_[i], dot(residual_[i], positive_[i] * residual_[i])};
+        });
+    }
+
+    // The next direction, v = D residual + beta v, and the solution of (D + U) t = v.
+    void turn(Real beta) {
+        auto back = [&](std::int32_t begin, std::int32_t end, int) {
+            for (auto i = end - 1; i >= begin; --i) {
+                V v = positive_[i] * residual_[i] + beta * v_[i];
+                v_[i] = v;
+                t_[i] = inverse_[i] * (v - system_.row_times(i, t_.data()));
+            }
+            return 0.0;
+        };
+        system_.over_separators(back);
+        system_.over_parts(back);
+    }
+
+    // product = t + (D + L)^-1 (v + rest t), that is (D + L)^-1 A t; its product with v.
+    double curvature() {
+        return system_.forward(w_, [&](std::int32_t i, const V &below) {
+            V p = inverse_[i] * (v_[i] + rest_[i] * t_[i] - below);
+            product_[i] = p + t_[i];
+            return std::pair{p, dot(v_[i], product_[i])};
+        });
+    }
+
+    // One step on; the square of the residual.
+    double advance(Real alpha, std::span<std::array<Real, 4>> x) {
+        return everywhere([&](std::int32_t i) {
+            V there = loaded(x[i].data()) + alpha * t_[i];
+            std::memcpy(x[i].data(), &there, sizeof there);
+            residual_[i] -= alpha * product_[i];
+            return dot(residual_[i], positive_[i] * residual_[i]);
+        });
+    }
+
+    // Where the first direction is one of negative curvature: that direction; or, M having left the range of numbers,
+    // block Jacobi's.
+    void give_up(bool finite, std::span<const std::array<Real, 4>> right, std::span<std::array<Real, 4>> x) {
+        everywhere([&](std::int32_t i) {
+            V there = finite ? t_[i] : inverse_[i] * loaded(right[i].data());
+            std::memcpy(x[i].data(), &there, sizeof there);
+            return 0.0;
+        });
+    }
+
+  private:
+    System<Real> &system_;
+    std::vector<Block<Real>> positive_, inverse_, rest_;
+    std::vector<V> residual_, v_, t_, product_;
+    // What rows have added to those below them; two parts that add to one separator have a vector each.
+    std::vector<V> w_[2];
+
+    template <class Body> double everywhere(const Body &body) {
+        auto over = [&](std::int32_t begin, std::int32_t end, int) {
+            double total = 0;
+            for (auto i = begin; i < end; ++i) total += body(i);
+            return total;
+        };
+        double total = system_.over_parts(over);
+        return total + system_.over_separators(over);
+    }
+};
+
+}  // namespace
+
+template <class Real>
+std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
+                          std::span<const std::array<Real, 6>> diagonal, double damping,
+                          std::span<const std::array<Real, 4>> right, double tolerance, int most,
+                          std::span<std::array<Real, 4>> x) {
+    System<Real> system(bounds, row_start, columns, off);
+    Solver<Real> solver(system, diagonal, damping);
+    std::fill(x.begin(), x.end(), std::array<Real, 4>{});
+    double square = solver.start(right);
+    double goal = tolerance * tolerance * square, beta = 0;
+    for (int count = 1; count <= most; ++count) {
+        solver.turn(static_cast<Real>(beta));
+        double curvature = solver.curvature();
+        if (!(curvature > 0)) {
+            if (count == 1) solver.give_up(std::isfinite(curvature), right, x);
+            return {count, NEGATIVE_CURVATURE};
+        }
+        double before = square;
+        square = solver.advance(static_cast<Real>(square / curvature), x);
+        if (square <= goal) return {count, DONE};
+        beta = square / before;
+    }
+    return {most, TOO_MANY};
+}
+
+template <class Real>
+void product(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
+             std::span<const std::array<Real, 6>> diagonal, std::span<const std::array<double, 4>> x,
+             std::span<std::array<double, 4>> y) {
+    using V = Vector<double>;
+    System<Real, double> system(bounds, row_start, columns, off);
+    std::vector<V> of(x.size()), w[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
+    for (std::size_t i = 0; i < x.size(); ++i) of[i] = loaded(x[i].data());
+    system.forward(w, [&](std::int32_t i, const V &below) {
+        V there = block<double>(widened(diagonal[i])) * of[i] + system.row_times(i, of.data()) + below;
+        std::memcpy(y[i].data(), &there, sizeof there);
+        return std::pair{of[i], 0.0};
+    });
+}
+
+#define FOR_REAL(Real)                                                                                               \
+    template std::pair<int, int> solve<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,        \
+                                             std::span<const std::array<Real, 6>>, double,                           \
+                                             std::span<const std::array<Real, 4>>, double, int,                      \
+                                             std::span<std::array<Real, 4>>);                                        \
+    template void product<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,                     \
+                                std::span<const std::array<Real, 6>>, std::span<const std::array<double, 4>>,        \
+                                std::span<std::array<double, 4>>);
+FOR_REAL(float)
+FOR_REAL(double)
+
+}  // namespace hexmend

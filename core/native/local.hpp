@@ -1,0 +1,32 @@
+// One line-searched step per free node: a sweep of local optimisation, colour by colour.
+#pragma once
+
+#include <tuple>
+
+#include "rows.hpp"
+
+namespace hexmend {
+
+enum Direction { STEEPEST_DESCENT, NEWTON, MODIFIED_NEWTON };
+
+// What a method does at a node; lengths are in mean edge lengths of the patch.
+struct LocalStep {
+    int direction;
+    double delta, p, first, shrink, c1;
+    int cuts;
+};
+
+void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
+           int direction, double delta, double p, double first, double shrink, double c1, int cuts);
+
+std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Points points, Hexes hexes, Indices star,
+                                                                              double factor, double delta, double p);
+
+std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(
+    Points points, Hexes hexes, Indices star, double factor, int direction, double delta, double p, double first,
+    double shrink, double c1, int cuts);
+
+void along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction, double delta,
+           double p, std::span<std::array<double, 2>> curve);
+
+}  // namespace hexmend

@@ -1,0 +1,79 @@
+// The loops of `objective`, over hexes side by side or, for T = double, one after another.
+#pragma once
+
+#include "blocks.hpp"
+#include "objective.hpp"
+#include "tetrahedron.hpp"
+
+namespace hexmend {
+
+template <bool soft, class T>
+void energies_of(Points points, Hexes hexes, double delta, Left left_out, std::span<double> eta) {
+    blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gathered<T>(points, hexes, first, count);
+        Counted<T> counted(left_out, first, count);
+        T sum{};
+        unrolled<8>([&](auto t) {
+            auto e = energy<soft>(x.template edges<t>(), delta, counted(t));
+            sum += counted(t) ? e.eta() : all<T>(1.0);
+        });
+        sum = greatest(sum * 0.125 - 1.0, all<T>(0.0));  // (B.20)
+        for (int i = 0; i < count; ++i) eta[first + i] = lane(sum, i);
+    });
+}
+
+// Write a block's vectors at corners, each hex weighted, to the shares of its hexes.
+template <class T> inline void store(const Corners<T> &g, std::int64_t first, int count, Shares shares) {
+    alignas(64) double buffer[24][width<T>];
+    std::memcpy(buffer, &g, sizeof g);
+    for (int i = 0; i < count; ++i)
+        for (int k = 0; k < 24; ++k) shares[first + i][k] = buffer[k][i];
+}
+
+template <bool soft, class T>
+void gradient_of(Points points, Hexes hexes, double delta, double p, Left left_out, Shares shares) {
+    blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gathered<T>(points, hexes, first, count);
+        Counted<T> counted(left_out, first, count);
+        Corners<T> g;
+        T sum{};
+        unrolled<8>([&](auto t) {
+            auto s = x.template edges<t>();
+            auto cof = cofactors(s);
+            auto d = derivatives<soft>(s, cof, delta, counted(t));
+            sum += counted(t) ? d.eta : all<T>(1.0);
+            g.template scatter<t>(gradient(d, s, cof));
+        });
+        BlockWeights<T> by(sum * 0.125 - 1.0, p);
+        for (auto &corner : g.at) corner = by.first * corner;
+        store(g, first, count, shares);
+    });
+}
+
+template <bool soft, class T>
+void product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p, Left left_out,
+                Shares shares) {
+    blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gathered<T>(points, hexes, first, count);
+        auto v = gathered_or_zero<T>(values, slots, first, count);
+        Counted<T> counted(left_out, first, count);
+        Corners<T> g, h;
+        T sum{}, slope{};
+        unrolled<8>([&](auto t) {
+            auto s = x.template edges<t>(), a = v.template edges<t>();
+            auto cof = cofactors(s);
+            auto d = derivatives<soft>(s, cof, delta, counted(t));
+            auto by_s = gradient(d, s, cof);
+            sum += counted(t) ? d.eta : all<T>(1.0);
+            slope += dot(by_s, a);
+            g.template scatter<t>(by_s);
+            h.template scatter<t>(product(d, s, cof, a));
+        });
+        BlockWeights<T> by(sum * 0.125 - 1.0, p);
+        T along = by.second * slope;
+        for (int c = 0; c < 8; ++c) h.at[c] = by.first * h.at[c] + along * g.at[c];
+        store(h, first, count, shares);
+    });
+}
+
+}  // namespace hexmend

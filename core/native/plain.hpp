@@ -1,0 +1,18 @@
+// What kernels are measured against: the same formulas, one hex after another, without vectors.
+#pragma once
+
+#include "objective.hpp"
+
+namespace hexmend::plain {
+
+void energies(Points points, Hexes hexes, double delta, Left left_out, std::span<double> eta);
+
+void gradient(Points points, Hexes hexes, double delta, double p, Left left_out, Shares shares);
+
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p, Left left_out,
+                     Shares shares);
+
+void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
+           int direction, double delta, double p, double first, double shrink, double c1, int cuts);
+
+}  // namespace hexmend::plain
