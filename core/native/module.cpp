@@ -7,7 +7,9 @@
 
 namespace nb = nanobind;
 
-#define HEXMEND_FAMILIES(family) family(objective)
+#define HEXMEND_FAMILIES(family)                                                                     \
+    family(objective) family(hexahedron) family(incidence) family(structure) family(couplings)      \
+    family(laplacian) family(element_step) family(getme) family(worst_first) family(reach)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_ &);

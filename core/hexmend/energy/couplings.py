@@ -8,7 +8,7 @@ import numpy as np
 import scipy.sparse
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from hexmend.numba_kernels import couplings as kernels
+from hexmend.kernels import couplings as kernels
 from hexmend.mesh import Mesh
 
 #: Slots are divided into parts that threads solve side by side: from so many slots on into 2, 4 and 8.
