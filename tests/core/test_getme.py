@@ -27,7 +27,7 @@ STAGES = ["getme", "getme-sequential"]
 def stepped(x, s=1.0, rho=1.0):
     """One element step of a hex by the kernel."""
     places = np.empty((1, 8, 3))
-    element_steps(x, ONE, s, rho, places)
+    element_steps(np.ascontiguousarray(x), ONE, s, rho, places)
     return places[0]
 
 
