@@ -16,8 +16,7 @@ template <class Item, class Key> inline Item *placed(Item *begin, int &size, con
     int j = size;
     while (j > 0 && key(begin[j - 1]) > key(item)) --j;
     if (j > 0 && key(begin[j - 1]) == key(item)) return begin + j - 1;
-    std::copy_backward(begin + j, begin + size, begin + size + 1);
-    ++size;
+    for (int t = size++; t > j; --t) begin[t] = begin[t - 1];  // a few: a call of memmove costs more
     begin[j] = item;
     return begin + j;
 }

@@ -19,33 +19,37 @@ RowsMade node_corners(Hexes hexes, std::int64_t nodes) {
 
 namespace {
 
-// A face by its nodes but the lowest, ascending.
-struct Face {
-    Node a, b, c;
-    std::int32_t number;
-
-    bool operator==(const Face &other) const { return a == other.a && b == other.b && c == other.c; }
+// What a face is to one of its corners: the three other corners, and which of these come after it in the face.
+struct Beside {
+    int face, corner[3], after[3];
 };
 
-// Whether corner c is the first of the lowest nodes of face f, so that it alone stands for the face.
-inline bool stands_for(const Hex &hex, int c, int f) {
-    int first = FACES[f][0];
-    for (int k = 1; k < 4; ++k)
-        if (hex[FACES[f][k]] < hex[first]) first = FACES[f][k];
-    return first == c;
-}
+constexpr auto BESIDE = [] {
+    std::array<std::array<Beside, 3>, 8> beside{};
+    for (int c = 0; c < 8; ++c)
+        for (int k = 0; k < 3; ++k) {
+            Beside &to = beside[c][k];
+            to.face = CORNER_FACES[c][k];
+            int size = 0, after = 0;
+            for (int corner : FACES[to.face]) {
+                if (corner == c) after = 1;
+                else to.corner[size] = corner, to.after[size++] = after;
+            }
+        }
+    return beside;
+}();
 
-inline Face face_of(const Hex &hex, std::int64_t h, int c, int f) {
-    Node other[3];
-    int size = 0;
-    for (int corner : FACES[f])
-        if (corner != c) other[size++] = hex[corner];
-    auto [a, b, d] = other;
-    if (a > b) std::swap(a, b);
-    if (b > d) std::swap(b, d);
-    if (a > b) std::swap(a, b);
-    return {a, b, d, static_cast<std::int32_t>(6 * h + f)};
-}
+// A face at its lowest node: the other three, ascending; how many hexes are met behind it, and the last of them.
+struct Face {
+    Node a, b, c;
+    std::int32_t number, met, hex;
+
+    void meet(Face &other) {
+        if (a != other.a || b != other.b || c != other.c) return;
+        ++met, ++other.met;
+        hex = other.number / 6, other.hex = number / 6;
+    }
+};
 
 }  // namespace
 
@@ -54,27 +58,24 @@ std::pair<Made<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indi
     const std::int64_t nodes = start.size() - 1;
     std::vector<std::int64_t> crowded((nodes + ROWS - 1) / ROWS);
     parallel_chunks(nodes, ROWS, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Face> faces;  // those whose lowest node is i: a dozen
-        std::vector<std::pair<int, std::int32_t>> met;
+        std::vector<Face> faces;  // those whose lowest node is i: half a dozen
         for (std::int64_t i = begin; i < end; ++i) {
             faces.clear();
             for (auto s = start[i]; s < start[i + 1]; ++s) {
-                std::int64_t h = corners[s] / 8;
-                int c = corners[s] % 8;
-                for (int f : CORNER_FACES[c])
-                    if (stands_for(hexes[h], c, f)) faces.push_back(face_of(hexes[h], h, c, f));
+                int h = corners[s] / 8;
+                for (auto &[f, corner, after] : BESIDE[corners[s] % 8]) {
+                    Node a = hexes[h][corner[0]], b = hexes[h][corner[1]], c = hexes[h][corner[2]];
+                    // Of corners that are one node, the first stands for the face.
+                    if (!((a + after[0] > i) & (b + after[1] > i) & (c + after[2] > i))) continue;
+                    Node low = std::min(a, b), high = std::max(a, b);
+                    faces.push_back({std::min(low, c), std::max(low, std::min(high, c)), std::max(high, c), 6 * h + f, 0, -1});
+                }
             }
-            met.assign(faces.size(), {0, -1});
             for (std::size_t s = 0; s < faces.size(); ++s)
-                for (std::size_t t = 0; t < s; ++t)
-                    if (faces[s] == faces[t]) {
-                        met[s] = {met[s].first + 1, faces[t].number / 6};
-                        met[t] = {met[t].first + 1, faces[s].number / 6};
-                    }
-            for (std::size_t s = 0; s < faces.size(); ++s) {
-                auto [others, hex] = met[s];
-                neighbours[faces[s].number] = others == 1 ? hex : -1;
-                crowded[begin / ROWS] += others > 1;
+                for (std::size_t t = 0; t < s; ++t) faces[s].meet(faces[t]);
+            for (const Face &face : faces) {
+                neighbours[face.number] = face.met == 1 ? face.hex : -1;
+                crowded[begin / ROWS] += face.met > 1;
             }
         }
     });
@@ -92,6 +93,7 @@ std::int64_t parts(Hexes hexes, std::span<const bool> used) {
     for (const Hex &hex : hexes) {
         Node first = root(hex[0]);
         for (Node i : hex) {
+            if (parent[i] == first) continue;
             Node other = root(i);
             parent[std::max(first, other)] = std::min(first, other);
             first = std::min(first, other);
