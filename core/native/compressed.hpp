@@ -11,7 +11,7 @@ namespace hexmend {
 // Rows that one thread takes at a time.
 constexpr std::int64_t ROWS = 1024;
 
-// Put an item at its place in an ascending row of `size`, at begin, unless there is one of its key; returns where it is.
+// Put an item at its place in an ascending row of `size` unless there is one of its key; returns where it is.
 template <class Item, class Key> inline Item *placed(Item *begin, int &size, const Item &item, const Key &key) {
     int j = size;
     while (j > 0 && key(begin[j - 1]) > key(item)) --j;

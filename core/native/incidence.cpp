@@ -67,8 +67,10 @@ std::pair<Made<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indi
                     Node a = hexes[h][corner[0]], b = hexes[h][corner[1]], c = hexes[h][corner[2]];
                     // Of corners that are one node, the first stands for the face.
                     if (!((a + after[0] > i) & (b + after[1] > i) & (c + after[2] > i))) continue;
-                    Node low = std::min(a, b), high = std::max(a, b);
-                    faces.push_back({std::min(low, c), std::max(low, std::min(high, c)), std::max(high, c), 6 * h + f, 0, -1});
+                    if (a > b) std::swap(a, b);
+                    if (b > c) std::swap(b, c);
+                    if (a > b) std::swap(a, b);
+                    faces.push_back({a, b, c, 6 * h + f, 0, -1});
                 }
             }
             for (std::size_t s = 0; s < faces.size(); ++s)

@@ -81,7 +81,8 @@ class OneHex {
         constexpr auto c = [](int i) { return CORNER_TETRAHEDRA[first + i][end]; };
         constexpr int last = 8 / LANES - 1;
         if constexpr (LANES == 8) {
-            return __builtin_shufflevector(of(corners_[0]), of(corners_[0]), c(0), c(1), c(2), c(3), c(4), c(5), c(6), c(7));
+            Lanes all = of(corners_[0]);
+            return __builtin_shufflevector(all, all, c(0), c(1), c(2), c(3), c(4), c(5), c(6), c(7));
         } else if constexpr (LANES == 4) {
             return __builtin_shufflevector(of(corners_[0]), of(corners_[last]), c(0), c(1), c(2), c(3));
         } else {

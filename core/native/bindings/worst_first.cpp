@@ -17,8 +17,8 @@ void bind_worst_first(nb::module_ &m) {
           "A step that would invert a sound hex is taken back. The hex that took a step pays a penalty, lest it be\n"
           "chosen for ever: it counts as better by `penalty` where the step was kept, by `setback` where it was taken\n"
           "back. points (n, 3), changed, end at the best state on the way: fewest inverted hexes, then highest q_min,\n"
-          "then highest q_mean. free (n,) bool; candidates (k,) int32: the hexes that have a free node. q (m,) float64\n"
-          "and sound (m,) bool, as measured at points, are changed to those of the last state, which need not be the\n"
+          "then highest q_mean. free (n,) bool; candidates (k,) int32: the hexes that have a free node. q (m,)\n"
+          "float64 and sound (m,) bool, as measured at points, are changed to those of the last state, which need not be the\n"
           "best. start, corners: `Topology.node_corners`.");
 }
 
