@@ -18,8 +18,8 @@ void bind_worst_first(nb::module_ &m) {
           "chosen for ever: it counts as better by `penalty` where the step was kept, by `setback` where it was taken\n"
           "back. points (n, 3), changed, end at the best state on the way: fewest inverted hexes, then highest q_min,\n"
           "then highest q_mean. free (n,) bool; candidates (k,) int32: the hexes that have a free node. q (m,)\n"
-          "float64 and sound (m,) bool, as measured at points, are changed to those of the last state, which need not be the\n"
-          "best. start, corners: `Topology.node_corners`.");
+          "float64 and sound (m,) bool, as measured at points, are changed to those of the last state, which need\n"
+          "not be the best. start, corners: `Topology.node_corners`.");
 }
 
 }  // namespace hexmend
