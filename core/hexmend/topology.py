@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.hexahedron import FACES
-from hexmend.numba_kernels import incidence, structure
+from hexmend.kernels import incidence, structure
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,8 @@ class Topology:
 
     @cached_property
     def _faces(self) -> tuple[np.ndarray, int]:
-        return incidence.face_neighbours(self.hexes, self.n)
+        rows = self.node_corners
+        return incidence.face_neighbours(self.hexes, rows.start, rows.items)
 
     @property
     def face_neighbours(self) -> np.ndarray:
@@ -180,6 +181,6 @@ class Topology:
         chosen : (n,) bool
         """
         rows = self.node_corners
-        colour = incidence.greedy_colours(self.hexes, rows.start, rows.items, chosen)
+        colour = incidence.greedy_colours(rows.start, rows.items, chosen)
         count = int(colour.max(initial=-1)) + 1
         return Rows(*incidence.grouped(colour, count))

@@ -3,12 +3,9 @@
 // A product with it takes a fraction of the time of the formulas, and a preconditioner can look into it.
 #pragma once
 
-#include "rows.hpp"
+#include "couplings.hpp"
 
 namespace hexmend {
-
-// Pairs of corners of a hex, in the order 01, 02... 07, 12...
-constexpr int PAIRS = 28;
 
 // Where the blocks of hexes go; see `assemble`.
 struct Pattern {

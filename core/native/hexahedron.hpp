@@ -33,6 +33,17 @@ constexpr int UNIT_CUBE[8][3] = {
     {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1},
 };
 
+// The three faces (i, j, k) that meet at each corner: the normal of their centroids' triangle points outward.
+constexpr auto CORNER_FACES = [] {
+    std::array<std::array<int, 3>, 8> faces{};
+    for (int c = 0; c < 8; ++c) {
+        auto [x, y, z] = UNIT_CUBE[c];
+        bool mirrored = (x + y + z) % 2 == 0;
+        faces[c] = {x, mirrored ? z + 4 : y + 2, mirrored ? y + 2 : z + 4};
+    }
+    return faces;
+}();
+
 // body(constant<0>), ..., body(constant<n - 1>): a loop whose number is known to the compiler.
 template <int n> using constant = std::integral_constant<int, n>;
 template <int n, class Body> inline __attribute__((always_inline)) void unrolled(Body &&body) {

@@ -7,7 +7,11 @@
 
 namespace nb = nanobind;
 
-#define HEXMEND_FAMILIES(family) family(assembly) family(conjugate_gradients) family(local) family(objective) family(ordering) family(plain) family(shape) family(symmetric)
+#define HEXMEND_FAMILIES(family)                                                                      \
+    family(assembly) family(conjugate_gradients) family(couplings) family(element_step) family(getme) \
+    family(hexahedron) family(incidence) family(laplacian) family(local) family(objective)            \
+    family(ordering) family(plain) family(reach) family(shape) family(structure) family(symmetric)    \
+    family(worst_first)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_ &);

@@ -19,9 +19,9 @@ using Hexes = std::span<const Hex>;
 using Indices = std::span<const std::int32_t>;
 using Numbers = std::span<const double>;
 
-// What a kernel makes and hands over: an array (n,), or (n, width).
+// What a kernel makes and hands over: an array (n,), or (n, width). Truths are bytes: std::vector<bool> is no array.
 template <class T, std::size_t width = 1> struct Made {
-    std::vector<T> values;
+    std::vector<std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>> values;
 };
 
 }  // namespace hexmend

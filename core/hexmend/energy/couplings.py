@@ -6,9 +6,9 @@ import itertools
 
 import numpy as np
 
+from hexmend.kernels import couplings as kernels
 from hexmend.kernels import ordering
 from hexmend.mesh import Mesh
-from hexmend.numba_kernels import couplings as kernels
 
 #: Slots are divided into parts that threads solve side by side: from so many slots on into 2, 4 and 8.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))

@@ -6,14 +6,13 @@ import itertools
 
 import numpy as np
 
-from hexmend.numba_kernels.element_step import element_steps
+from hexmend.kernels.element_step import element_steps
 from hexmend.mesh import Mesh
 from hexmend.node_step.explain import explained
 from hexmend.node_step.record import NodeStep, Pull, Verdict
 from hexmend.node_step.straight import straight_step
 from hexmend.optimise import Step
 from hexmend.quality import measure
-from hexmend.quality.measure import read_only
 from hexmend.smoothers.general import General
 from hexmend.smoothers.getme import GETMe
 from hexmend.smoothers.getme_sequential import SequentialGETMe
@@ -55,7 +54,7 @@ def _next(smoother: Smoother, mesh: Mesh) -> Step:
 def _places(smoother: GETMe | SequentialGETMe, mesh: Mesh, node: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The hexes of a node, (k,); where each of them wants it, (k, 3); their q(H), (k,)."""
     corners = mesh.topology.node_corners[node]
-    hexes = read_only(np.ascontiguousarray(mesh.hexes[corners // 8]))
+    hexes = np.ascontiguousarray(mesh.hexes[corners // 8])
     places = np.empty((len(hexes), 8, 3))
     element_steps(mesh.points, hexes, smoother.scaling, smoother.relaxation, places)
     return corners // 8, places[np.arange(len(hexes)), corners % 8], measure(mesh.points, hexes).q

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.numba_kernels import laplacian as kernels
+from hexmend.kernels import laplacian as kernels
 from hexmend.mesh import Mesh
 from hexmend.node_step.explain import explained
 from hexmend.node_step.record import NodeStep, Pull

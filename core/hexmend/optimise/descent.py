@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.energy import MeshEnergy, energies
-from hexmend.numba_kernels.reach import shorten
+from hexmend.kernels.reach import shorten
 from hexmend.optimise.direction import Direction, Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
-from hexmend.quality.measure import read_only
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +81,7 @@ def descend(
     found = find(value, gradient, hessian)  # A.2, A.3, A.4
     if np.isfinite(reach):
         ring = energy.mesh.topology.rings
-        shorten(found.p, read_only(x), ring.start, ring.items, energy.nodes, reach)
+        shorten(found.p, x, ring.start, ring.items, energy.nodes, reach)
         _restrain(energy, x, delta, found.p)
     if not np.vdot(found.p, gradient) < 0:
         found = steepest_descent(value, gradient, hessian)

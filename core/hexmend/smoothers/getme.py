@@ -6,13 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.numba_kernels import getme as kernels
-from hexmend.numba_kernels.element_step import element_steps
+from hexmend.kernels import getme as kernels
+from hexmend.kernels.element_step import element_steps
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
-from hexmend.quality.measure import read_only
 from hexmend.smoothers.smoother import Smoother, Steps, method
 
 #: A rise of q_min or q_mean that is less than this is none.
@@ -81,7 +80,7 @@ def _without_harm(
     after = measure(moved, mesh.hexes)
     harmed = np.flatnonzero(after.inverted & ~figures.inverted).astype(np.int32)
     if not harmed.size:
-        return read_only(moved), after, 0
+        return moved, after, 0
     attached = mesh.topology.node_corners
     relaxed = kernels.relax(points, mesh.hexes, attached.start, attached.items, ~figures.inverted, harmed, moved)
-    return read_only(moved), measure(moved, mesh.hexes), relaxed
+    return moved, measure(moved, mesh.hexes), relaxed

@@ -56,11 +56,12 @@ template <class T, std::size_t width> struct type_caster<hexmend::Made<T, width>
     NB_TYPE_CASTER(Arrays, make_caster<Array>::Name)
 
     static handle from_cpp(hexmend::Made<T, width> &&made, rv_policy, cleanup_list *cleanup) noexcept {
-        auto *kept = new std::vector<T>(std::move(made.values));
-        capsule owner(kept, [](void *p) noexcept { delete static_cast<std::vector<T> *>(p); });
+        using Values = decltype(made.values);
+        auto *kept = new Values(std::move(made.values));
+        capsule owner(kept, [](void *p) noexcept { delete static_cast<Values *>(p); });
         std::size_t shape[2] = {kept->size() / width, width};
-        return make_caster<Array>::from_cpp(Array(kept->data(), width == 1 ? 1 : 2, shape, owner), rv_policy::reference,
-                                            cleanup);
+        auto *data = reinterpret_cast<T *>(kept->data());
+        return make_caster<Array>::from_cpp(Array(data, width == 1 ? 1 : 2, shape, owner), rv_policy::reference, cleanup);
     }
 };
 

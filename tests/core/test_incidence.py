@@ -1,0 +1,152 @@
+"""Incidence kernels against plain NumPy, over meshes of many chunks, of no hexes, and of hexes that are none."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend import kernels
+from hexmend.energy.couplings import Couplings
+from hexmend.hexahedron import EDGES, FACES
+from hexmend.kernels import couplings, incidence, structure
+from hexmend.mesh import Mesh
+from hexmend.topology import Topology
+from tests.core.grids import grid
+
+
+@pytest.fixture(params=[1, 3], autouse=True, scope="module")
+def threads(request):
+    before = kernels.threads()
+    kernels.set_threads(request.param)
+    yield request.param
+    kernels.set_threads(before)
+
+
+def shuffled(nx, ny, nz, seed=0):
+    """A grid whose nodes are numbered anyhow."""
+    mesh = grid(nx, ny, nz)
+    order = np.random.default_rng(seed).permutation(mesh.n_nodes)
+    points = np.empty_like(mesh.points)
+    points[order] = mesh.points
+    return Mesh(points, order[mesh.hexes])
+
+
+MESH = shuffled(14, 13, 12)
+
+
+def by_node(pairs, n):
+    """Pairs of numbers as compressed rows, each pair once."""
+    pairs = np.unique(pairs, axis=0)
+    return np.searchsorted(pairs[:, 0], np.arange(n + 1)), pairs[:, 1]
+
+
+def test_node_corners_are_the_places_of_each_node():
+    rows = MESH.topology.node_corners
+    order = np.argsort(MESH.hexes.ravel(), kind="stable")
+    np.testing.assert_array_equal(rows.items, order)
+    np.testing.assert_array_equal(rows.start, np.searchsorted(MESH.hexes.ravel()[order], np.arange(MESH.n_nodes + 1)))
+
+
+def test_rings_and_edges_are_those_of_the_hexes():
+    topology = Topology(MESH.hexes, MESH.n_nodes)
+    edges = MESH.hexes[:, EDGES].reshape(-1, 2)
+    start, ring = by_node(np.vstack([edges, edges[:, ::-1]]), MESH.n_nodes)
+    np.testing.assert_array_equal(topology.rings.start, start)
+    np.testing.assert_array_equal(topology.rings.items, ring)
+    ends, valence = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    np.testing.assert_array_equal(topology.edges, ends)
+    np.testing.assert_array_equal(topology.edge_valence, valence)
+    assert topology.edge_on_boundary.dtype == bool
+    np.testing.assert_array_equal(topology.edge_on_boundary, valence < 4)
+
+
+def test_hexes_behind_faces_are_those_with_the_same_nodes():
+    topology = Topology(MESH.hexes, MESH.n_nodes)
+    faces = np.sort(MESH.hexes[:, FACES].reshape(-1, 4), axis=1)
+    order = np.lexsort(faces.T)
+    same = (faces[order[1:]] == faces[order[:-1]]).all(axis=1)
+    expected = np.full(faces.shape[0], -1)
+    one, other = order[1:][same], order[:-1][same]
+    expected[one], expected[other] = other // 6, one // 6
+    np.testing.assert_array_equal(topology.face_neighbours.ravel(), expected)
+    assert topology.crowded_faces == 0
+
+
+@given(st.integers(1, 8), st.integers(2, 12), st.integers(0, 2**32 - 1))
+def test_faces_of_collapsed_hexes_are_paired_by_their_nodes(m, n, seed):
+    hexes = np.random.default_rng(seed).integers(n, size=(m, 8), dtype=np.int32)
+    topology = Topology(hexes, n)
+    faces = [tuple(sorted(face)) for h in hexes for face in h[FACES].tolist()]
+    count = Counter(faces)
+    assert topology.crowded_faces == sum(k for k in count.values() if k > 2)
+    for i, face in enumerate(faces):
+        partners = [j // 6 for j, other in enumerate(faces) if j != i and other == face]
+        assert topology.face_neighbours.ravel()[i] == (partners[0] if len(partners) == 1 else -1)
+
+
+def test_more_than_64_colours_are_given_as_greedily_as_the_first():
+    hexes = np.random.default_rng(0).integers(90, size=(4000, 8), dtype=np.int32)
+    corners = Topology(hexes, 90).node_corners
+    colour = incidence.greedy_colours(corners.start, corners.items, np.ones(90, bool))
+    together = np.zeros((90, 90), bool)
+    together[hexes[:, :, None], hexes[:, None, :]] = True
+    np.fill_diagonal(together, False)
+    expected = np.full(90, -1)
+    for i in range(90):
+        expected[i] = min(set(range(90)) - set(expected[together[i]].tolist()))
+    np.testing.assert_array_equal(colour, expected)
+    assert colour.max() > 64
+
+
+def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
+    at = Couplings(MESH, part=100)
+    part, rows, columns, inner_end, across_start, across_block, across_slot = at.pattern
+    pairs = at.slots[:, [(a, b) for a in range(8) for b in range(8)]].reshape(-1, 2)
+    pairs = pairs[(pairs[:, 0] >= 0) & (pairs[:, 1] > pairs[:, 0])]
+    start, expected = by_node(pairs, at.nodes.size)
+    np.testing.assert_array_equal(rows, start)
+    np.testing.assert_array_equal(columns, expected)
+
+    low, high = (np.array(k) for k in zip(*((a, b) for a in range(8) for b in range(a + 1, 8)), strict=True))
+    ends = np.sort(np.stack([at.slots[:, low], at.slots[:, high]], axis=-1), axis=-1)
+    free = ends[..., 0] >= 0
+    row = np.repeat(np.arange(at.nodes.size), np.diff(rows))
+    np.testing.assert_array_equal(at.target[~free], -1)
+    np.testing.assert_array_equal(row[at.target[free]], ends[free][:, 0])
+    np.testing.assert_array_equal(columns[at.target[free]], ends[free][:, 1])
+
+    inside = row // part == columns // part
+    np.testing.assert_array_equal(inner_end - rows[:-1], np.bincount(row[inside], minlength=at.nodes.size))
+    blocks = np.flatnonzero(~inside)
+    across = np.vstack([np.column_stack([row, columns])[blocks], np.column_stack([columns, row])[blocks]])
+    order = np.lexsort(across.T[::-1])
+    np.testing.assert_array_equal(across_start, np.searchsorted(across[order, 0], np.arange(at.nodes.size + 1)))
+    np.testing.assert_array_equal(np.sort(across_block), np.sort(np.tile(blocks, 2)))
+    mine = np.repeat(np.arange(at.nodes.size), np.diff(across_start))
+    np.testing.assert_array_equal(np.minimum(mine, across_slot), row[across_block])
+    np.testing.assert_array_equal(np.maximum(mine, across_slot), columns[across_block])
+
+
+def test_two_corners_that_are_one_node_add_to_its_own_block():
+    slots = np.array([[3, 3, -1, 0, 0, -1, -1, -1]], np.int32)
+    target = np.empty((1, couplings.PAIRS), np.int32)
+    couplings.targets(slots, np.array([0, 1, 1, 1, 1], np.int32), np.array([3], np.int32), target)
+    assert Counter(target[0].tolist()) == {-5: 1, -2: 1, 0: 4, -1: 22}
+
+
+def test_no_hexes_are_no_trouble():
+    hexes = np.empty((0, 8), np.int32)
+    for n in (0, 5):
+        start, corners = incidence.node_corners(hexes, n)
+        assert start.tolist() == [0] * (n + 1)
+        neighbours, crowded = incidence.face_neighbours(hexes, start, corners)
+        assert neighbours.shape == (0, 6)
+        assert crowded == 0
+        assert incidence.node_rings(hexes, start, corners)[1].size == 0
+        assert incidence.layers(neighbours).size == 0
+        assert incidence.greedy_colours(start, corners, np.zeros(n, bool)).tolist() == [-1] * n
+        ends, valence, outside = structure.edges(hexes, start, corners, neighbours)
+        assert (ends.shape, valence.size, outside.dtype) == ((0, 2), 0, bool)
+    rows, columns = couplings.rows(hexes, np.empty(0, np.int32), start, corners)
