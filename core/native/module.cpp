@@ -7,7 +7,9 @@
 
 namespace nb = nanobind;
 
-#define HEXMEND_FAMILIES(family) family(objective)
+#define HEXMEND_FAMILIES(family) \
+    family(objective) family(elements) family(metrics) family(faces) family(corner_values) family(binning) \
+    family(skin) family(sides) family(polygons)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_ &);

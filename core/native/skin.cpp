@@ -1,0 +1,71 @@
+#include "skin.hpp"
+
+#include <algorithm>
+
+namespace hexmend {
+namespace {
+
+// Whether a face can be seen: no kept hex is behind it.
+bool open(Node behind, Kept keep) { return behind < 0 || !keep[behind]; }
+
+}  // namespace
+
+std::tuple<Made<Node>, Made<Node, 4>, Made<Node>> visible(std::int64_t nodes, Hexes hexes, Rows<const Node, 6> neighbours,
+                                                        Kept keep) {
+    std::size_t count = 0;
+    for (std::size_t h = 0; h < hexes.size(); ++h)
+        if (keep[h])
+            for (Node behind : neighbours[h]) count += open(behind, keep);
+    Made<Node> used, owners;
+    Made<Node, 4> quads;
+    quads.values.reserve(4 * count), owners.values.reserve(count), used.values.reserve(count);
+    std::vector<Node> place(nodes, -1);  // of a node among those that are used
+    for (std::size_t h = 0; h < hexes.size(); ++h) {
+        if (!keep[h]) continue;
+        for (int f = 0; f < 6; ++f) {
+            if (!open(neighbours[h][f], keep)) continue;
+            for (int corner : FACES[f]) {
+                Node node = hexes[h][corner];
+                if (place[node] < 0) {
+                    place[node] = static_cast<Node>(used.values.size());
+                    used.values.push_back(node);
+                }
+                quads.values.push_back(place[node]);
+            }
+            owners.values.push_back(static_cast<Node>(h));
+        }
+    }
+    return {std::move(used), std::move(quads), std::move(owners)};
+}
+
+void outer(Rows<const Node, 6> neighbours, Kept keep, std::span<bool> answer) {
+    for (std::size_t h = 0; h < keep.size(); ++h) {
+        bool seen = false;
+        if (keep[h])
+            for (Node behind : neighbours[h]) seen |= open(behind, keep);
+        answer[h] = seen;
+    }
+}
+
+void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places) {
+    for (std::size_t first = 0; first + 8 <= nodes.size(); first += 8)
+        for (int k = 0; k < 3; ++k) {
+            double mean = 0;
+            for (int c = 0; c < 8; ++c) mean += points[nodes[first + c]][k];
+            mean /= 8;
+            for (int c = 0; c < 8; ++c) places[first + c][k] = shrink * mean + (1 - shrink) * points[nodes[first + c]][k];
+        }
+}
+
+void edges_kept(Hexes hexes, Indices start, Indices corners, Rows<const Node, 2> edges, Kept keep,
+                std::span<bool> answer) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        auto [one, other] = edges[e];
+        answer[e] = std::any_of(&corners[start[one]], &corners[start[one + 1]], [&](Node corner) {
+            const Hex &hex = hexes[corner / 8];
+            return keep[corner / 8] && std::find(hex.begin(), hex.end(), other) != hex.end();
+        });
+    }
+}
+
+}  // namespace hexmend

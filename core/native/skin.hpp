@@ -1,0 +1,22 @@
+// What is seen of a mesh of which some hexes are kept; on one thread, because a window's thread asks.
+#pragma once
+
+#include <tuple>
+
+#include "rows.hpp"
+
+namespace hexmend {
+
+using Kept = std::span<const bool>;
+
+std::tuple<Made<Node>, Made<Node, 4>, Made<Node>> visible(std::int64_t nodes, Hexes hexes, Rows<const Node, 6> neighbours,
+                                                        Kept keep);
+
+void outer(Rows<const Node, 6> neighbours, Kept keep, std::span<bool> answer);
+
+void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places);
+
+void edges_kept(Hexes hexes, Indices start, Indices corners, Rows<const Node, 2> edges, Kept keep,
+                std::span<bool> answer);
+
+}  // namespace hexmend
