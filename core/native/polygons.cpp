@@ -8,21 +8,19 @@
 namespace hexmend {
 namespace {
 
-// Write what lies before one plane to `then`, at most so many corners. By rounding an edge may cross it where none of
-// the formulas below would have it: `most` is what there is room for.
-void cut_off(const std::vector<Point> &now, const Point &normal, double offset, std::vector<Point> &then,
-             std::size_t most) {
+// Write what lies before one plane to `then`.
+void cut_off(const std::vector<Point> &now, const Point &normal, double offset, std::vector<Point> &then) {
     then.clear();
     const Point *last = &now.back();
     double below = height(*last, normal) - offset;
     for (const Point &corner : now) {
         double above = height(corner, normal) - offset;
-        if ((above > 0) != (below > 0) && then.size() < most) {
+        if ((above > 0) != (below > 0)) {
             double share = below / (below - above);
             Point &crossing = then.emplace_back();
             for (int k = 0; k < 3; ++k) crossing[k] = (*last)[k] + share * (corner[k] - (*last)[k]);
         }
-        if (above <= 0 && then.size() < most) then.push_back(corner);
+        if (above <= 0) then.push_back(corner);
         last = &corner, below = above;
     }
 }
@@ -33,8 +31,6 @@ void cut_off(const std::vector<Point> &now, const Point &normal, double offset, 
 std::tuple<Made<double, 3>, Made<std::int64_t>, Made<std::int64_t>> before(Points points, Places start, Places places,
                                                                           Places owner, Points normals,
                                                                           Numbers offsets) {
-    // A plane adds one corner to a convex polygon, two to a quad that is bent like a saddle.
-    std::size_t more = 2 * normals.size();
     Made<double, 3> kept;
     Made<std::int64_t> begin{{0}}, whose;
     kept.values.reserve(3 * places.size());
@@ -43,9 +39,8 @@ std::tuple<Made<double, 3>, Made<std::int64_t>, Made<std::int64_t>> before(Point
     for (std::size_t i = 0; i < owner.size(); ++i) {
         now.clear();
         for (std::int64_t at = start[i]; at < start[i + 1]; ++at) now.push_back(points[places[at]]);
-        std::size_t most = now.size() + more;
         for (std::size_t p = 0; p < normals.size() && now.size() >= 3; ++p) {
-            cut_off(now, normals[p], offsets[p], then, most);
+            cut_off(now, normals[p], offsets[p], then);
             std::swap(now, then);
         }
         if (now.size() < 3) continue;

@@ -1,6 +1,7 @@
 #include "skin.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hexmend {
 namespace {
@@ -10,35 +11,48 @@ bool open(Node behind, Kept keep) { return behind < 0 || !keep[behind]; }
 
 }  // namespace
 
-std::tuple<Made<Node>, Made<Node, 4>, Made<Node>> visible(std::int64_t nodes, Hexes hexes, Rows<const Node, 6> neighbours,
-                                                        Kept keep) {
-    std::size_t count = 0;
-    for (std::size_t h = 0; h < hexes.size(); ++h)
-        if (keep[h])
-            for (Node behind : neighbours[h]) count += open(behind, keep);
+Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, Kept keep) {
     Made<Node> used, owners;
     Made<Node, 4> quads;
-    quads.values.reserve(4 * count), owners.values.reserve(count), used.values.reserve(count);
     std::vector<Node> place(nodes, -1);  // of a node among those that are used
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         if (!keep[h]) continue;
         for (int f = 0; f < 6; ++f) {
             if (!open(neighbours[h][f], keep)) continue;
-            for (int corner : FACES[f]) {
-                Node node = hexes[h][corner];
+            std::array<Node, 4> quad;
+            for (int k = 0; k < 4; ++k) {
+                Node node = hexes[h][FACES[f][k]];
                 if (place[node] < 0) {
                     place[node] = static_cast<Node>(used.values.size());
                     used.values.push_back(node);
                 }
-                quads.values.push_back(place[node]);
+                quad[k] = place[node];
             }
+            quads.values.insert(quads.values.end(), quad.begin(), quad.end());
             owners.values.push_back(static_cast<Node>(h));
         }
     }
     return {std::move(used), std::move(quads), std::move(owners)};
 }
 
-void outer(Rows<const Node, 6> neighbours, Kept keep, std::span<bool> answer) {
+Faces faces_of(Hexes hexes, Neighbours neighbours, Kept keep, Kept chosen, bool hidden) {
+    Made<Node> nodes, owners;
+    Made<Node, 4> quads;
+    for (std::size_t h = 0; h < hexes.size(); ++h) {
+        if (!chosen[h]) continue;
+        Node first = static_cast<Node>(nodes.values.size());
+        nodes.values.insert(nodes.values.end(), hexes[h].begin(), hexes[h].end());
+        for (int f = 0; f < 6; ++f) {
+            if (!hidden && !open(neighbours[h][f], keep)) continue;
+            auto [a, b, c, d] = FACES[f];
+            quads.values.insert(quads.values.end(), {first + a, first + b, first + c, first + d});
+            owners.values.push_back(static_cast<Node>(h));
+        }
+    }
+    return {std::move(nodes), std::move(quads), std::move(owners)};
+}
+
+void outer(Neighbours neighbours, Kept keep, std::span<bool> answer) {
     for (std::size_t h = 0; h < keep.size(); ++h) {
         bool seen = false;
         if (keep[h])
@@ -61,7 +75,7 @@ void edges_kept(Hexes hexes, Indices start, Indices corners, Rows<const Node, 2>
                 std::span<bool> answer) {
     for (std::size_t e = 0; e < edges.size(); ++e) {
         auto [one, other] = edges[e];
-        answer[e] = std::any_of(&corners[start[one]], &corners[start[one + 1]], [&](Node corner) {
+        answer[e] = std::any_of(corners.begin() + start[one], corners.begin() + start[one + 1], [&](Node corner) {
             const Hex &hex = hexes[corner / 8];
             return keep[corner / 8] && std::find(hex.begin(), hex.end(), other) != hex.end();
         });

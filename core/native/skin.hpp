@@ -9,10 +9,16 @@ namespace hexmend {
 
 using Kept = std::span<const bool>;
 
-std::tuple<Made<Node>, Made<Node, 4>, Made<Node>> visible(std::int64_t nodes, Hexes hexes, Rows<const Node, 6> neighbours,
-                                                        Kept keep);
+using Neighbours = Rows<const Node, 6>;
 
-void outer(Rows<const Node, 6> neighbours, Kept keep, std::span<bool> answer);
+// Nodes that faces use, faces as places among them, and the hex of each face.
+using Faces = std::tuple<Made<Node>, Made<Node, 4>, Made<Node>>;
+
+Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, Kept keep);
+
+Faces faces_of(Hexes hexes, Neighbours neighbours, Kept keep, Kept chosen, bool hidden);
+
+void outer(Neighbours neighbours, Kept keep, std::span<bool> answer);
 
 void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places);
 

@@ -11,6 +11,9 @@ void bind_skin(nb::module_ &m) {
           "Faces of kept hexes that no kept hex is behind.\n\n"
           "nodes is how many the mesh has; neighbours (m, 6) int32 the hex behind each face, -1 for none. Makes the nodes\n"
           "that such faces use (u,), the faces as places among them (k, 4), and the hex of each (k,), all int32.");
+    m.def("faces_of", &faces_of, "hexes"_a, "neighbours"_a, "keep"_a, "chosen"_a, "hidden"_a, Unlocked(),
+          "Faces of chosen hexes, chosen (m,) bool, each of which has eight nodes of its own; makes what visible makes.\n\n"
+          "Without hidden they are those that no kept hex is behind.");
     m.def("outer", &outer, "neighbours"_a, "keep"_a, "answer"_a, Unlocked(),
           "Whether a hex is kept and has a face that no kept hex is behind; writes answer (m,) bool.");
     m.def("shrunk", &shrunk, "points"_a, "nodes"_a, "shrink"_a, "places"_a, Unlocked(),
