@@ -11,11 +11,10 @@ void count(Numbers values, std::span<const bool> inverted, double low, double sc
     std::fill(counts.begin(), counts.end(), 0);
     for (std::size_t i = 0; i < values.size(); ++i) {
         double place = (values[i] - low) * scale;
-        std::size_t bin = inverted[i] || std::isnan(place)            ? none
-                          : place < 0                                 ? first
-                          : place >= static_cast<double>(bins)        ? last
-                                                                      : static_cast<std::size_t>(place);
-        ++counts[bin];
+        if (inverted[i] || std::isnan(place)) ++counts[none];
+        else if (place < 0) ++counts[first];
+        else if (place >= static_cast<double>(bins)) ++counts[last];
+        else ++counts[static_cast<std::size_t>(place)];
     }
 }
 

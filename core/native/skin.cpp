@@ -67,7 +67,10 @@ void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places
             double mean = 0;
             for (int c = 0; c < 8; ++c) mean += points[nodes[first + c]][k];
             mean /= 8;
-            for (int c = 0; c < 8; ++c) places[first + c][k] = shrink * mean + (1 - shrink) * points[nodes[first + c]][k];
+            for (int c = 0; c < 8; ++c) {
+                double x = points[nodes[first + c]][k];
+                places[first + c][k] = shrink * mean + (1 - shrink) * x;
+            }
         }
 }
 
