@@ -72,6 +72,18 @@ template <class T> inline Corners<T> gathered_or_zero(Points values, Hexes slots
     return x;
 }
 
+// The same corners less the first: sums of them are as exact far from the origin.
+template <class T> inline Corners<T> from_first_corner(const Corners<T> &x) {
+    Corners<T> less;
+    for (int c = 0; c < 8; ++c) less.at[c] = x.at[c] - x.at[0];
+    return less;
+}
+
+// Write the lanes of a block, a number of each hex.
+inline void put(const Lanes &x, std::int64_t first, int count, std::span<double> values) {
+    for (int i = 0; i < count; ++i) values[first + i] = x[i];
+}
+
 // Which corner tetrahedra count: bit t of a hex is set where number t is left out, as if it were perfect.
 template <class T> struct Counted {
     bits_of<T> left_out;

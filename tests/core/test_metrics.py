@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend.hexahedron import EDGES, UNIT_CUBE
+from hexmend.hexahedron import CORNER_TETRAHEDRA, DIAGONALS, EDGES, FACES, UNIT_CUBE
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, measure, spreads
 from hexmend.quality.spread import Spread
@@ -80,6 +80,51 @@ def test_known_values(name):
     x, expected = KNOWN[name]
     values = every(np.array(x, float))
     assert {key: values[key] for key in expected} == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+def by_plain_arithmetic(x):
+    """Every metric of one hex that is no flat one, straight from the manual."""
+    edges, diagonals = (np.linalg.norm(x[pairs[:, 1]] - x[pairs[:, 0]], axis=1) for pairs in (EDGES, DIAGONALS))
+    sides = (2 * UNIT_CUBE - 1).T
+    axes, crossing = sides @ x, sides * sides[[1, 2, 0]] @ x
+    long, other = np.linalg.norm(axes, axis=1), np.linalg.norm(crossing, axis=1)
+    skew = [abs(axes[i] @ axes[j]) / (long[i] * long[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
+    taper = [other[i] / min(long[i], long[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
+    S = [np.column_stack([x[k] - x[t[0]] for k in t[1:]]) for t in CORNER_TETRAHEDRA]
+    sound = min(map(np.linalg.det, S)) > 0
+    shape = [3 * np.linalg.det(s) ** (2 / 3) / np.square(s).sum() if sound else 0 for s in S]
+    condition = [np.linalg.norm(s) * np.linalg.norm(np.linalg.inv(s)) / 3 if sound else math.inf for s in S]
+    warpage, angles, volume = [], [], 0
+    for face in FACES:
+        y = x[face]
+        ahead, back = np.roll(y, -1, axis=0) - y, np.roll(y, 1, axis=0) - y
+        normals = np.cross(ahead, back)
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        warpage.append(1 - min(normals[0] @ normals[2], normals[1] @ normals[3]) ** 3)
+        lengths = np.linalg.norm(ahead, axis=1) * np.linalg.norm(back, axis=1)
+        angles += np.degrees(np.arccos((ahead * back).sum(axis=1) / lengths)).tolist()
+        middle = y.mean(axis=0)  # (a + b + c + d)/4: four tetrahedra with it and the origin
+        volume += sum(np.linalg.det([y[k], y[(k + 1) % 4], middle]) for k in range(4)) / 6
+    return {
+        "edge-ratio": edges.max() / edges.min(), "stretch": math.sqrt(3) * edges.min() / diagonals.max(),
+        "diagonal": diagonals.min() / diagonals.max(), "aspect-ratio": long.max() / long.min(), "skew": max(skew),
+        "taper": max(taper), "shape": min(shape), "condition": max(condition), "warpage": max(warpage),
+        "min-angle": min(angles), "max-angle": max(angles), "volume": volume,
+    }  # fmt: skip
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0.2, 0.7]))
+def test_metrics_are_those_of_plain_arithmetic(seed, amplitude):
+    x = UNIT_CUBE + np.random.default_rng(seed).uniform(-amplitude, amplitude, (8, 3))
+    expected = by_plain_arithmetic(x)
+    values = every(x)
+    assert {name: values[name] for name in expected} == pytest.approx(expected, rel=1e-9, abs=1e-9)
+
+
+def test_a_mesh_of_no_hexes_has_no_values():
+    none = np.empty((0, 8), np.int32)
+    figures = measure(UNIT_CUBE, none)
+    assert {metric.of(UNIT_CUBE, none, figures).shape for metric in METRICS.values()} == {(0,)}
 
 
 def test_a_prism_has_an_edge_of_no_length():

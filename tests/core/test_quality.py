@@ -9,7 +9,7 @@ from scipy.stats import special_ortho_group
 from hexmend.energy import energies, objective
 from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh import Mesh
-from hexmend.quality import corner_qualities, locked, measure, summarise
+from hexmend.quality import corner_determinants, corner_qualities, locked, measure, summarise
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]
@@ -75,6 +75,54 @@ def test_figures_are_those_of_the_book(seed, amplitude):
         assert figures.eta[0] == pytest.approx(eta, rel=1e-8, abs=1e-12)
     assert 0 <= figures.q[0] <= 1 + 1e-14
     assert -1 - 1e-14 <= figures.scaled_jacobian[0] <= 1 + 1e-14
+
+
+def determinants_term_by_term(x):
+    """sigma at the eight corners of hexes (k, 8, 3): u . (v x w), every operation rounded on its own."""
+    a, b, c, d = np.moveaxis(x[:, CORNER_TETRAHEDRA], (2, 3), (0, 1))  # each (3, k, 8)
+    (ux, uy, uz), (vx, vy, vz), (wx, wy, wz) = b - a, c - a, d - a
+    return ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx)
+
+
+@given(
+    st.integers(0, 2**32 - 1),
+    st.sampled_from([1e-100, 1e-8, 1.0, 1e5, 1e90]),
+    st.sampled_from(["any", "flat", "thirds"]),
+)
+def test_determinants_are_those_of_plain_arithmetic_to_the_last_bit(seed, scale, kind):
+    random = np.random.default_rng(seed)
+    x = {
+        "any": lambda: UNIT_CUBE + random.uniform(-1, 1, (21, 8, 3)),
+        "flat": lambda: (
+            (UNIT_CUBE * [1, 1, 0] + random.integers(-1, 2, (21, 8, 3)) * [1, 1, 0]) @ random.normal(size=(3, 3))
+        ),
+        "thirds": lambda: random.integers(-2, 3, (21, 8, 3)) / 3,  # many corners are flat, or would be but for rounding
+    }[kind]()
+    points, hexes = (x * scale).reshape(-1, 3), np.arange(21 * 8, dtype=np.int32).reshape(21, 8)
+    expected = determinants_term_by_term(x * scale)
+    sigma = corner_determinants(points, hexes)
+    np.testing.assert_array_equal(sigma, expected)
+    np.testing.assert_array_equal(measure(points, hexes).sigma, sigma.min(axis=1))
+    np.testing.assert_array_equal(measure(points, hexes).inverted, (expected <= 0).any(axis=1))
+    which = np.flatnonzero(random.random(21) < 0.3)
+    np.testing.assert_array_equal(corner_determinants(points, hexes, which), expected[which])
+
+
+@pytest.mark.parametrize("scale", [1e-320, 1e-110, 1e102, 1e103, 1e150, 1e200, 1e307])
+def test_figures_of_finite_points_are_numbers_in_range_however_large_or_small(scale):
+    for seed in range(100):
+        x = (UNIT_CUBE + np.random.default_rng(seed).uniform(-1, 1, (8, 3))) * scale
+        figures = measure(x, ONE)
+        assert 0 <= figures.q[0] <= 1 + 1e-14
+        assert -1 - 1e-14 <= figures.scaled_jacobian[0] <= 1 + 1e-14
+        assert figures.eta[0] >= 0
+        assert not np.isnan(figures.sigma[0])
+
+
+def test_a_mesh_of_no_hexes_has_no_figures():
+    none = np.empty((0, 8), np.int32)
+    assert measure(UNIT_CUBE, none).q.shape == (0,)
+    assert corner_determinants(UNIT_CUBE, none).shape == (0, 8)
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(-60, 60))

@@ -6,15 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.hexahedron import FACES
-from hexmend.numba_kernels import serial
+from hexmend.kernels import skin
 from hexmend.mesh import Mesh
 
 #: Elements up to which all are drawn where they are shrunk; of more, those in sight. So many take 50 ms a frame without
 #: a graphics card.
 WHOLE = 4_000
-
-_NONE = np.empty((0, 6), np.int32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +40,11 @@ class Faces:
 
     def places(self, points: np.ndarray) -> np.ndarray:
         """Where the nodes are drawn, (u, 3), of a mesh whose nodes are at (n, 3) float64 `points`."""
-        return _shrunk(points, self.nodes, self.shrink) if self.shrink else points[self.nodes]
+        if not self.shrink:
+            return points[self.nodes]
+        places = np.empty((len(self.nodes), 3))
+        skin.shrunk(points, self.nodes, self.shrink, places)
+        return places
 
 
 class Skin:
@@ -58,7 +59,7 @@ class Skin:
         self._hexes = mesh.hexes
         self._neighbours = mesh.topology.face_neighbours
         self._all = np.ones(mesh.n_hexes, dtype=bool)
-        self._place = np.empty(mesh.n_nodes, dtype=np.int32)
+        self._n_nodes = mesh.n_nodes
 
     def visible(self, keep: np.ndarray | None = None) -> Faces:
         """Faces of kept hexes that have no kept hex behind them.
@@ -68,89 +69,17 @@ class Skin:
         keep : (m,) bool, optional
             None keeps all.
         """
-        return Faces(*_visible(self._hexes, self._neighbours, self._all if keep is None else keep, self._place))
+        keep = self._all if keep is None else keep
+        return Faces(*skin.visible(self._n_nodes, self._hexes, self._neighbours, keep))
 
     def shrunk(self, shrink: float, keep: np.ndarray | None = None, fine: bool = True) -> Faces:
         """All six faces of kept hexes; of more than `WHOLE`, of those that have a visible face, and not `fine` that."""
         keep = self._all if keep is None else keep
         if np.count_nonzero(keep) <= WHOLE:
-            return Faces(*_faces_of(self._hexes, np.flatnonzero(keep), _NONE, keep), shrink)
-        chosen = np.flatnonzero(_outer(self._neighbours, keep))
-        return Faces(*_faces_of(self._hexes, chosen, _NONE if fine else self._neighbours, keep), shrink, True)
+            return Faces(*self._faces_of(keep, keep, True), shrink)
+        outer = np.empty(len(keep), bool)
+        skin.outer(self._neighbours, keep, outer)
+        return Faces(*self._faces_of(keep, outer, fine), shrink, True)
 
-
-@serial
-def _outer(neighbours, keep):
-    """Kept hexes with a face that no kept hex is behind, (m,) bool."""
-    answer = np.zeros(keep.size, np.bool_)
-    for h in range(keep.size):
-        if keep[h]:
-            for f in range(6):
-                other = neighbours[h, f]
-                if other < 0 or not keep[other]:
-                    answer[h] = True
-    return answer
-
-
-@serial
-def _faces_of(hexes, chosen, neighbours, keep):
-    """Faces of chosen hexes with nodes of their own; of none that a kept hex is behind where `neighbours` are given."""
-    nodes = np.empty(8 * chosen.size, np.int32)
-    quads = np.empty((6 * chosen.size, 4), np.int32)
-    owners = np.empty(6 * chosen.size, np.int32)
-    row = 0
-    for at in range(chosen.size):
-        h = chosen[at]
-        for c in range(8):
-            nodes[8 * at + c] = hexes[h, c]
-        for f in range(6):
-            if neighbours.size and neighbours[h, f] >= 0 and keep[neighbours[h, f]]:
-                continue
-            for k in range(4):
-                quads[row, k] = 8 * at + FACES[f, k]
-            owners[row] = h
-            row += 1
-    return nodes, quads[:row].copy(), owners[:row].copy()
-
-
-@serial
-def _shrunk(points, nodes, shrink):
-    answer = np.empty((nodes.size, 3))
-    for first in range(0, nodes.size, 8):
-        for x in range(3):
-            mean = 0.0
-            for c in range(8):
-                mean += points[nodes[first + c], x]
-            for c in range(8):
-                answer[first + c, x] = shrink * (mean / 8) + (1 - shrink) * points[nodes[first + c], x]
-    return answer
-
-
-@serial
-def _visible(hexes, neighbours, keep, place):
-    count = 0
-    for h in range(hexes.shape[0]):
-        if keep[h]:
-            for f in range(6):
-                other = neighbours[h, f]
-                count += other < 0 or not keep[other]
-    quads = np.empty((count, 4), np.int32)
-    owners = np.empty(count, np.int32)
-    nodes = np.empty(min(4 * count, place.size), np.int32)
-    place[:] = -1
-    row, used = 0, 0
-    for h in range(hexes.shape[0]):
-        if keep[h]:
-            for f in range(6):
-                other = neighbours[h, f]
-                if other < 0 or not keep[other]:
-                    for k in range(4):
-                        i = hexes[h, FACES[f, k]]
-                        if place[i] < 0:
-                            place[i] = used
-                            nodes[used] = i
-                            used += 1
-                        quads[row, k] = place[i]
-                    owners[row] = h
-                    row += 1
-    return nodes[:used].copy(), quads, owners
+    def _faces_of(self, keep: np.ndarray, chosen: np.ndarray, hidden: bool) -> tuple[np.ndarray, ...]:
+        return skin.faces_of(self._hexes, self._neighbours, keep, chosen, hidden)

@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.numba_kernels import serial
+from hexmend.kernels import skin
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
 from hexmend.structure import Structure as Found
@@ -143,7 +143,7 @@ class StructureLayers:
         rows = self._mesh.topology.node_corners
         answer = np.ones(len(edges), bool)
         if self._keep is not None:
-            answer = _edges_kept(self._mesh.hexes, rows.start, rows.items, edges, self._keep)
+            skin.edges_kept(self._mesh.hexes, rows.start, rows.items, edges, self._keep, answer)
         return answer & uncut(self._look, points[edges].mean(axis=1))
 
     def _choose_nodes(self, points: np.ndarray, figures: ElementQuality) -> None:
@@ -198,19 +198,6 @@ def uncut(look: Look, points: np.ndarray) -> np.ndarray | bool:
         return True
     beyond = [plane.signed_distance(points) > 0 for plane in clip.planes]
     return ~(np.all(beyond, axis=0) if clip.notch else np.any(beyond, axis=0))
-
-
-@serial
-def _edges_kept(hexes, start, corners, edges, keep):
-    """True for the edges, (k, 2), that a kept hex has."""
-    answer = np.zeros(len(edges), np.bool_)
-    for e in range(len(edges)):
-        for s in range(start[edges[e, 0]], start[edges[e, 0] + 1]):
-            h = corners[s] // 8
-            if keep[h]:
-                for c in range(8):
-                    answer[e] |= hexes[h, c] == edges[e, 1]
-    return answer
 
 
 def _rgb(colour: str) -> np.ndarray:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.numba_kernels import serial
-from hexmend.quality.measure import read_only
+from hexmend.kernels import binning
 
 
 def bin_counts(
@@ -35,22 +34,7 @@ def bin_counts(
     >>> bin_counts(np.array([-1.0, 0.0, 0.3, 1.0, 7.0]), np.zeros(5, bool), (0.0, 1.0), 2, open_high=True).tolist()
     [3, 0, 2, 0, 0]
     """
-    counts = np.zeros(bins + 3, dtype=np.int64)
+    counts = np.empty(bins + 3, dtype=np.int64)
     low, high = ends
-    _count(read_only(values), read_only(inverted), float(low), bins / (high - low), open_low, open_high, counts)
+    binning.count(values, inverted, float(low), bins / (high - low), open_low, open_high, counts)
     return counts
-
-
-@serial
-def _count(values, inverted, low, scale, open_low, open_high, counts):
-    bins = counts.shape[0] - 3
-    for i in range(values.shape[0]):
-        place = (values[i] - low) * scale
-        if inverted[i] or np.isnan(place):
-            counts[bins + 2] += 1
-        elif place < 0:
-            counts[bins + 1 if open_low else 0] += 1
-        elif place >= bins:
-            counts[bins if open_high else bins - 1] += 1
-        else:
-            counts[int(place)] += 1

@@ -7,10 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.numba_kernels import serial
+from hexmend.kernels import corner_values
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, Metric
-from hexmend.quality.measure import read_only
 
 #: Changes of q, and ways in mean edge lengths, that are rounding.
 NOTHING = 1e-9
@@ -118,11 +117,9 @@ class Movement:
             if name == "q-change":
                 self._known[name] = self.figures.q - self.before.figures.q
             else:
-                of_hexes = np.empty(self.mesh.n_hexes)
-                _gather(
-                    read_only(self.mesh.hexes), read_only(self.distances / self.unit), name == "moved-mean", of_hexes
-                )
-                self._known[name] = of_hexes
+                of_corners = corner_values.mean if name == "moved-mean" else corner_values.largest
+                self._known[name] = np.empty(self.mesh.n_hexes)
+                of_corners(self.mesh.hexes, self.distances / self.unit, self._known[name])
         return self._known[name]
 
     @cached_property
@@ -171,14 +168,3 @@ class Counts:
     worse: int
     newly_inverted: int
     mended: int
-
-
-@serial
-def _gather(hexes, of_nodes, mean, of_hexes):
-    for h in range(hexes.shape[0]):
-        total, most = 0.0, 0.0
-        for c in range(8):
-            one = of_nodes[hexes[h, c]]
-            total += one
-            most = max(most, one)
-        of_hexes[h] = total / 8 if mean else most

@@ -1,5 +1,6 @@
 """Smallest and largest angle of the faces; 0 and 180 degrees where an edge has no length."""
 
+from hexmend.kernels import faces
 from hexmend.quality.metric import METRICS, Metric, by_kernel
 
 MIN_ANGLE = METRICS.add(
@@ -13,7 +14,7 @@ MIN_ANGLE = METRICS.add(
         acceptable=(45.0, 90.0),
         better=1,
         meaning="Small angles mean sheared faces: the stiffness matrix is worse conditioned.",
-        of=by_kernel("faces.angles", rows=2, row=0, worst=0.0),
+        of=by_kernel(faces.angles, rows=2, row=0, worst=0.0),
         unit="degrees",
     ),
 )
@@ -29,7 +30,7 @@ MAX_ANGLE = METRICS.add(
         acceptable=(90.0, 135.0),
         better=-1,
         meaning="Angles near 180 degrees make gradients inaccurate: the element is nearly flat at a corner.",
-        of=by_kernel("faces.angles", rows=2, row=1, worst=180.0),
+        of=by_kernel(faces.angles, rows=2, row=1, worst=180.0),
         unit="degrees",
     ),
 )

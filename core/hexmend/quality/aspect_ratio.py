@@ -2,6 +2,7 @@
 
 import math
 
+from hexmend.kernels import metrics
 from hexmend.quality.metric import METRICS, Metric, by_kernel
 
 ASPECT_RATIO = METRICS.add(
@@ -18,6 +19,6 @@ ASPECT_RATIO = METRICS.add(
             "High values suit a solution that changes along the short axis only, as in a boundary layer; "
             "elsewhere they cost accuracy."
         ),
-        of=by_kernel("metrics.axes", rows=3, row=0, worst=math.inf),
+        of=by_kernel(metrics.axes, rows=3, row=0, worst=math.inf),
     ),
 )

@@ -2,6 +2,7 @@
 
 import math
 
+from hexmend.kernels import metrics
 from hexmend.quality.metric import METRICS, Metric, by_kernel
 
 EDGE_RATIO = METRICS.add(
@@ -18,6 +19,6 @@ EDGE_RATIO = METRICS.add(
             "High values resolve the solution unevenly: gradients along the long edges are lost, and the "
             "short ones set the time step."
         ),
-        of=by_kernel("metrics.lengths", rows=3, row=0, worst=math.inf),
+        of=by_kernel(metrics.lengths, rows=3, row=0, worst=math.inf),
     ),
 )

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.hexahedron import EDGES
-from hexmend.numba_kernels.objective import gradient
+from hexmend.kernels.objective import gradient
 from hexmend.mesh import Mesh
-from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure, read_only
+from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure
 from hexmend.quality.metric import METRICS
 
 
@@ -121,7 +121,7 @@ def node(mesh: Mesh, number: int) -> Node:
     energy, downhill = float(np.square(measure(x, hexes).eta).sum()), np.zeros(3)
     if np.isfinite(energy):
         shares = np.empty((ring.size, 8, 3))
-        gradient(read_only(x), read_only(hexes), 0.0, 2.0, np.zeros(ring.size, np.uint8), shares)
+        gradient(x, hexes, 0.0, 2.0, np.zeros(ring.size, np.uint8), shares)
         downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
     kind = "boundary" if mesh.topology.boundary[number] else "pinned" if mesh.fixed[number] else "free"
     return Node(number, mesh.points[number], kind, ring, energy, downhill)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.numba_kernels import elements
+from hexmend.kernels import elements
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,7 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
     array([1.])
     """
     q, sigma, jacobian, eta = np.empty((4, len(hexes)))
-    elements.measure(read_only(points), read_only(hexes), q, sigma, jacobian, eta)
+    elements.measure(points, hexes, q, sigma, jacobian, eta)
     return ElementQuality(q, sigma, jacobian, eta)
 
 
@@ -95,9 +95,9 @@ def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray
     which : (k,) int, optional
         Numbers of hexes; all without it.
     """
-    numbers = np.arange(len(hexes)) if which is None else np.asarray(which, np.int64)
-    sigma = np.empty((numbers.size, 8))
-    elements.corner_determinants(read_only(points), read_only(hexes), read_only(numbers), sigma)
+    chosen = hexes if which is None else hexes[which]
+    sigma = np.empty((len(chosen), 8))
+    elements.corner_determinants(points, chosen, sigma)
     return sigma
 
 

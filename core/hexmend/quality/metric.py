@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.quality.measure import ElementQuality, read_only
+from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry
 
 #: Values (m,) from points (n, 3), hexes (m, 8) and the figures measured of them.
@@ -55,14 +54,13 @@ class Metric:
         return ~(values >= low) & (self.better >= 0) | ~(values <= high) & (self.better <= 0)
 
 
-def by_kernel(kernel: str, rows: int, row: int, worst: float) -> Values:
+def by_kernel(kernel: Callable[..., None], rows: int, row: int, worst: float) -> Values:
     """Values by a kernel that writes several figures in one pass.
 
     Parameters
     ----------
-    kernel : str
-        Its module in `hexmend.numba_kernels` and its name; it takes points, hexes and so many arrays (m,) as it writes. It is
-        imported as it is first used: a command that shows no metric does not wait for it.
+    kernel : callable
+        One of `hexmend.kernels`; it takes points, hexes and so many arrays (m,) as it writes.
     rows, row : int
         How many these are, and which of them is meant.
     worst : float
@@ -70,10 +68,8 @@ def by_kernel(kernel: str, rows: int, row: int, worst: float) -> Values:
     """
 
     def of(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
-        module, name = kernel.split(".")
         values = np.empty((rows, len(hexes)))
-        write = getattr(importlib.import_module(f"hexmend.numba_kernels.{module}"), name)
-        write(read_only(points), read_only(hexes), *values)
+        kernel(points, hexes, *values)
         values[row][np.isnan(values[row])] = worst
         return values[row]
 

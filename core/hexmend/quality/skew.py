@@ -1,5 +1,6 @@
 """Skew: how far the principal axes are from right angles; 1 where an axis has no length."""
 
+from hexmend.kernels import metrics
 from hexmend.quality.metric import METRICS, Metric, by_kernel
 
 SKEW = METRICS.add(
@@ -13,6 +14,6 @@ SKEW = METRICS.add(
         acceptable=(0.0, 0.5),
         better=-1,
         meaning="High values mean a sheared element: gradients across it are less accurate.",
-        of=by_kernel("metrics.axes", rows=3, row=1, worst=1.0),
+        of=by_kernel(metrics.axes, rows=3, row=1, worst=1.0),
     ),
 )

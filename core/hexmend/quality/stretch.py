@@ -2,6 +2,7 @@
 
 import math
 
+from hexmend.kernels import metrics
 from hexmend.quality.metric import METRICS, Metric, by_kernel
 
 STRETCH = METRICS.add(
@@ -18,6 +19,6 @@ STRETCH = METRICS.add(
             "Low values mean an edge that is short for the element's size, which limits the time step of "
             "explicit solvers."
         ),
-        of=by_kernel("metrics.lengths", rows=3, row=1, worst=0.0),
+        of=by_kernel(metrics.lengths, rows=3, row=1, worst=0.0),
     ),
 )

@@ -2,6 +2,7 @@
 
 import math
 
+from hexmend.kernels import metrics
 from hexmend.quality.metric import METRICS, Metric, by_kernel
 
 TAPER = METRICS.add(
@@ -18,6 +19,6 @@ TAPER = METRICS.add(
             "High values mean opposite faces of different size: the map to the element is far from linear, "
             "and quadrature errs."
         ),
-        of=by_kernel("metrics.axes", rows=3, row=2, worst=math.inf),
+        of=by_kernel(metrics.axes, rows=3, row=2, worst=math.inf),
     ),
 )

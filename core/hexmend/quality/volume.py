@@ -2,6 +2,7 @@
 
 import math
 
+from hexmend.kernels import faces
 from hexmend.quality.metric import METRICS, Metric, by_kernel
 
 VOLUME = METRICS.add(
@@ -17,7 +18,7 @@ VOLUME = METRICS.add(
         meaning=(
             "Below 0 the element is inside out; a jump from one element to the next reflects waves and costs accuracy."
         ),
-        of=by_kernel("faces.volume", rows=1, row=0, worst=-math.inf),
+        of=by_kernel(faces.volume, rows=1, row=0, worst=-math.inf),
         unit="mesh unit³",
     ),
 )

@@ -3,10 +3,12 @@
 from collections import Counter
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.hexahedron import FACES
+from hexmend.hexahedron import EDGES, FACES
+from hexmend.kernels import skin
 from hexmend_app.scene.skin import Skin
 from tests.core.grids import grid
 
@@ -44,6 +46,40 @@ def test_any_mask_leaves_a_closed_surface_that_faces_outwards(size, seed):
     assert (np.einsum("ij,ij->i", normals, outwards) > 0).all()
     assert keep[faces.hexes].all()
     assert sorted(faces.nodes.tolist()) == sorted(set(quads.ravel().tolist()))
+
+
+@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([0, 10, 10_000]), st.booleans())
+def test_shrunk_hexes_have_nodes_of_their_own_nearer_to_their_mean(size, seed, whole, fine):
+    mesh, shrink = grid(*size), 0.3
+    keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.7
+    few = keep.sum() <= whole
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("hexmend_app.scene.skin.WHOLE", whole)
+        faces = Skin(mesh).shrunk(shrink, keep, fine)
+    behind = mesh.topology.face_neighbours
+    seen = keep[:, None] & ((behind < 0) | ~keep[behind])
+    chosen = keep if few else seen.any(axis=1)
+    drawn = chosen[:, None] & (seen | fine | few)
+    hexes = np.flatnonzero(chosen)
+    np.testing.assert_array_equal(faces.nodes, mesh.hexes[hexes].ravel())
+    np.testing.assert_array_equal(faces.hexes, np.nonzero(drawn)[0])
+    np.testing.assert_array_equal(faces.nodes[faces.quads], mesh.hexes[:, FACES][drawn])
+    assert (hexes[faces.quads // 8] == faces.hexes[:, None]).all()
+    assert faces.many == (not few)
+    x = mesh.points[mesh.hexes[hexes]]
+    places = x + shrink * (x.mean(axis=1, keepdims=True) - x)
+    np.testing.assert_allclose(faces.places(mesh.points), places.reshape(-1, 3), atol=1e-14)
+
+
+@given(SIZES, st.integers(0, 2**32 - 1))
+def test_edges_are_kept_with_a_hex_that_has_them(size, seed):
+    mesh = grid(*size)
+    keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.4
+    rows, edges = mesh.topology.node_corners, mesh.topology.edges
+    kept = np.empty(len(edges), bool)
+    skin.edges_kept(mesh.hexes, rows.start, rows.items, edges, keep, kept)
+    expected = {frozenset(edge) for edge in mesh.hexes[keep][:, EDGES].reshape(-1, 2).tolist()}
+    assert {frozenset(edge) for edge in edges[kept].tolist()} == expected
 
 
 def test_nothing_kept_is_nothing_seen():
