@@ -15,7 +15,7 @@ os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
 if sys.platform == "linux":
     os.environ["QT_QPA_PLATFORM"] = "xcb"  # 3D needs a screen: pytest-xvfb makes one, and Wayland's is left alone
 
-# Kernels compile in the first example, and machines are shared: no example has a deadline.
+# Machines are shared: no example has a deadline.
 # CI draws the same examples every time, so that a change is judged by what it changed.
 settings.register_profile("hexmend", deadline=None, max_examples=40)
 settings.register_profile("ci", settings.get_profile("hexmend"), derandomize=True, print_blob=True)

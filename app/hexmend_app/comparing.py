@@ -224,8 +224,7 @@ class Comparing:
             further = f"iteration {at.iteration:,}, {at.seconds:.1f} s"
             self._panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): {further}")
         else:
-            once = "; its kernels are compiled, once" if comparison.compiling else ""
-            self._panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): preparing{once}…")
+            self._panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): preparing…")
 
     # What the user asks for
 

@@ -56,8 +56,6 @@ class Debugging:
         self._asked: tuple | None = None
         self._shown: NodeStep | None = None
         self._isolation: Isolation | None = None
-        self._ready: set[type[Smoother]] = set()  # methods whose kernels are there
-        self._pending: str | None = None  # what is to be done as soon as they are
         self._soon, self._patience = QTimer(panel), QTimer(panel)
         for timer, wait, act in ((self._soon, 0, self._refresh), (self._patience, _PATIENCE, self._say_it_takes_time)):
             timer.setSingleShot(True)
@@ -108,9 +106,6 @@ class Debugging:
         if not self._panel.isVisible():
             self._draw(None)
             return
-        if self._pending and not self._why_no_sweep():
-            return  # the method gets ready
-        self._pending = None
         self._list_nodes()
         smoother, node = self._smoother(), self._selection.node
         reason = why_no_step(self._session, smoother)
@@ -128,33 +123,19 @@ class Debugging:
         if question != self._asked:
             self._asked = question
             self._explainer.ask(*question)
-            if type(question[1]) in self._ready:
-                self._patience.start()
-            else:
-                self._say_it_takes_time()
-        elif self._explainer.step is not None and not self._pending:
+            self._patience.start()
+        elif self._explainer.step is not None:
             self._show(self._explainer.step, made=False)
 
     def _on_answered(self) -> None:
         self._patience.stop()
-        pending, self._pending = self._pending, None
         if self._explainer.error is not None:
             self._say(f"This could not be worked out: {self._explainer.error}.")
             return
-        self._ready.add(type(self._asked[1]))
-        if pending:
-            self._asked = None
-            self._go(pending)
-        else:
-            self._refresh()
+        self._refresh()
 
     def _say_it_takes_time(self) -> None:
-        prepared = type(self._asked[1]) in self._ready
-        self._draw_message(
-            "Working it out… A global method takes some seconds for it on a large mesh."
-            if prepared
-            else "Preparing the method…"
-        )
+        self._draw_message("Working it out… A global method takes some seconds for it on a large mesh.")
 
     def _say(self, sentence: str) -> None:
         """Show no step, and why."""
@@ -240,11 +221,7 @@ class Debugging:
         self._dock.raise_()
         if self._why_no_sweep():
             return
-        smoother, mesh = self._smoother(), self._document.now.mesh
-        if type(smoother) not in self._ready:
-            self._pending = what
-            self._ask(mesh, smoother, int(np.flatnonzero(mesh.free)[0]))
-            return
+        smoother = self._smoother()
         if what == "finish":
             self._stepping.finish(smoother)
         else:

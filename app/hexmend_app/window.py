@@ -217,15 +217,13 @@ class Window(Shell):
         self._enable()
 
     def _show_preparing(self, phase: Phase) -> None:
-        once = " Its kernels are compiled, which takes about a minute, once." if self.smoothing.compiling else ""
         if phase is Phase.STOPPING:
             self.busy.show_work("Stopping…")
-            sentence = f"Stopping: the run ends as soon as the method is ready, before its first iteration.{once}"
+            sentence = "Stopping: the run ends as soon as the method is ready, before its first iteration."
         else:
-            what = "Compiling the method…" if once else "Preparing the method…"
             help = "End the run before its first iteration (Shift+F5)."
-            self.busy.show_work(what, "Stop", help, self.smoothing.stop)
-            sentence = f"Preparing the method.{once}"
+            self.busy.show_work("Preparing the method…", "Stop", help, self.smoothing.stop)
+            sentence = "Preparing the method."
         self.smoothing_panel.set_status(sentence=sentence)
 
     def _on_iterated(self, frame: Frame) -> None:

@@ -6,26 +6,27 @@
 >>> result.after.q_mean > result.before.q_mean
 True
 
-Names are imported when they are first used: a command that compiles nothing does not wait for the compiler. Beside
-those of `__all__` the class of every registered method is here under its own name, such as `hx.LocalSteepestDescent`.
+Names are imported when they are first used: a command that computes nothing does not wait for NumPy. Beside those of
+`__all__` the class of every registered method is here under its own name, such as `hx.LocalSteepestDescent`.
 """
 
 import importlib as _importlib
-from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 __version__ = "0.1.0"
 
-if _TYPE_CHECKING:
-    from hexmend import gallery
+TYPE_CHECKING = False  # which type checkers take for true; `typing` alone would cost as much as `--version` does
+if TYPE_CHECKING:
+    from hexmend import energy, gallery
     from hexmend.advice import advise
     from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
     from hexmend.io import read, read_recipe, write, write_recipe
     from hexmend.mesh import Cells, Mesh
-    from hexmend.optimise import Iteration, Outcome, Result
+    from hexmend.optimise import Iteration, Outcome, Result, Step
+    from hexmend.parameters import parameter
     from hexmend.quality import METRICS, Summary, measure, summarise
     from hexmend.recipe import Recipe, Stage
     from hexmend.run import Run, Stop, iterate, smooth
-    from hexmend.smoothers import METHODS, Smoother
+    from hexmend.smoothers import METHODS, Smoother, method
     from hexmend.study.compare import Comparison, compare
 
 _HOMES = {
@@ -33,11 +34,12 @@ _HOMES = {
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
     "io": ("read", "read_recipe", "write", "write_recipe"),
     "mesh": ("Cells", "Mesh"),
-    "optimise": ("Iteration", "Outcome", "Result"),
+    "optimise": ("Iteration", "Outcome", "Result", "Step"),
+    "parameters": ("parameter",),
     "quality": ("METRICS", "Summary", "measure", "summarise"),
     "recipe": ("Recipe", "Stage"),
     "run": ("Run", "Stop", "iterate", "smooth"),
-    "smoothers": ("METHODS", "Smoother"),
+    "smoothers": ("METHODS", "Smoother", "method"),
     "study.compare": ("Comparison", "compare"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -59,13 +61,17 @@ __all__ = [
     "Run",
     "Smoother",
     "Stage",
+    "Step",
     "Stop",
     "Summary",
     "advise",
     "compare",
+    "energy",
     "gallery",
     "iterate",
     "measure",
+    "method",
+    "parameter",
     "read",
     "read_recipe",
     "smooth",
@@ -76,8 +82,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    if name == "gallery":
-        return _importlib.import_module("hexmend.gallery")
+    if name in ("energy", "gallery"):
+        return _importlib.import_module(f"hexmend.{name}")
     if name in _HOME_OF:
         return getattr(_importlib.import_module(f"hexmend.{_HOME_OF[name]}"), name)
     for smoother in () if name.startswith("_") else _importlib.import_module("hexmend.smoothers").METHODS.values():

@@ -19,12 +19,9 @@ change. Only data is read: nothing in a file is ever run.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
-
-import tomli_w
 
 from hexmend.errors import ParameterError
 from hexmend.optimise import Stop
@@ -110,6 +107,8 @@ def _stage(part: Stage | Smoother | str) -> Stage:
 
 def to_toml(recipe: Recipe) -> str:
     """The recipe as TOML text that names every value."""
+    import tomli_w
+
     stages = [stage.values() for stage in recipe.stages]
     return _HEAD + tomli_w.dumps({"format": FORMAT, "title": recipe.title, "stage": stages})
 
@@ -134,6 +133,8 @@ def from_toml(text: str) -> Recipe:
 
 
 def _parsed(text: str) -> dict[str, Any]:
+    import tomllib
+
     try:
         return tomllib.loads(text)
     except RecursionError:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Generic, TypeVar
 
 from hexmend.errors import ParameterError
@@ -18,6 +18,9 @@ class Registry(Mapping[str, T], Generic[T]):
     ----------
     kind : str
         What an entry is called in an error message ("method", "format").
+    others : callable, optional
+        Adds entries from elsewhere. Called once, as soon as a name is asked for that is not there or all of them are:
+        who uses what is there does not pay for the search.
 
     Examples
     --------
@@ -29,8 +32,9 @@ class Registry(Mapping[str, T], Generic[T]):
     hexmend.errors.ParameterError: there is no shape 'cub': did you mean cube? (known: cube)
     """
 
-    def __init__(self, kind: str):
+    def __init__(self, kind: str, others: Callable[[], None] | None = None):
         self.kind = kind
+        self._others = others
         self._entries: dict[str, T] = {}
 
     def add(self, name: str, entry: T) -> T:
@@ -42,7 +46,7 @@ class Registry(Mapping[str, T], Generic[T]):
 
     def __getitem__(self, name: str) -> T:
         try:
-            return self._entries[name]
+            return self._entries[name] if name in self._entries else self._all()[name]
         except KeyError:
             near = difflib.get_close_matches(str(name), self._entries, n=1)
             hint = f"did you mean {near[0]}? " if near else ""
@@ -50,10 +54,16 @@ class Registry(Mapping[str, T], Generic[T]):
             raise ParameterError(f"there is no {self.kind} {name!r}: {hint}(known: {known})") from None
 
     def __contains__(self, name: object) -> bool:
-        return name in self._entries
+        return name in self._entries or name in self._all()
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._entries)
+        return iter(self._all())
 
     def __len__(self) -> int:
-        return len(self._entries)
+        return len(self._all())
+
+    def _all(self) -> dict[str, T]:
+        if self._others is not None:
+            add, self._others = self._others, None
+            add()
+        return self._entries

@@ -7,13 +7,13 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 LEFT = Qt.MouseButton.LeftButton
 
 
 def open_and_wait(qtbot, window, path):
-    with qtbot.waitSignal(window.opener.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.opener.ended, timeout=PATIENCE):
         window.open(path)
 
 

@@ -14,14 +14,13 @@ from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
-from hexmend import compiling
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state import opener, worker
 from hexmend_app.state.recent import MOST
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.hint import Hint
 from tests.app.driving import LEFT, click, open_and_wait, phase
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 # Recent files
 
@@ -139,26 +138,18 @@ def slow_method(monkeypatch):
     go_on.set()
 
 
-@pytest.mark.parametrize("compiled", [False, True], ids=["loaded", "compiled"])
-def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_method, monkeypatch, compiled):
-    monkeypatch.setattr(compiling, "listeners", [])
+def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_method):
     before = window.document.now
     click(window, "Run")
     assert window.smoothing.phase is Phase.PREPARING
-    if compiled:
-        compiling.tell()
-        qtbot.waitUntil(lambda: "minute" in sentence(window), timeout=2000)
-        assert "Compiling" in window.busy.text()
-    else:
-        qtbot.wait(100)
-        assert "Preparing" in sentence(window)
-        assert "minute" not in sentence(window)
+    qtbot.wait(100)
+    assert "Preparing" in sentence(window)
     click(window, "Stop")
     assert window.smoothing.phase is Phase.STOPPING
     assert "as soon as the method is ready" in sentence(window)
     assert not window.actions_by_id["stop"].isEnabled()
     slow_method.set()
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.document.now is before
     assert window.document.undo_title is None
     assert "Stopped" in sentence(window)

@@ -22,7 +22,7 @@ from hexmend_app.widgets.captions import CaptionRow, WipeRow
 from hexmend_app.widgets.comparison_table import METHOD, VIEW
 from hexmend_app.widgets.wipe_handle import STEP, WipeHandle
 from tests.app.driving import LEFT, click, drag, open_and_wait, pixels, seen_at
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 COLUMN = {figure.key: at for at, figure in enumerate(FIGURES, 2)}
 
@@ -70,7 +70,7 @@ def compared(comparing, qtbot):
     """Three methods' results in the table."""
     choose_methods(comparing, "laplacian", "getme", "local-sd")
     press(comparing, "Run the comparison")
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
     return comparing
 
 
@@ -117,7 +117,7 @@ def test_cancel_ends_within_an_iteration_and_keeps_what_was_reached(comparing, q
     comparing.smoothing_panel.stop_form.set_values({"max_iterations": 100_000, "tolerance": 0.0})
     choose_methods(comparing, "local-sd", "mend")
     press(comparing, "Run the comparison")
-    qtbot.waitUntil(lambda: comparison.progress is not None and comparison.progress.iteration > 2, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: comparison.progress is not None and comparison.progress.iteration > 2, timeout=PATIENCE)
     assert not comparing.actions_by_id["compare"].isEnabled()
     reached = comparison.progress.iteration
     press(comparing, "Cancel the comparison")
@@ -138,7 +138,7 @@ def test_a_method_that_fails_has_its_row_and_the_others_go_on(comparing, qtbot, 
     monkeypatch.setattr(METHODS["getme"], "steps", broken)
     choose_methods(comparing, "getme", "laplacian")
     press(comparing, "Run the comparison")
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
     failed, well = (model(comparing).entries[row(comparing, name)] for name in ("getme", "laplacian"))
     assert failed.record["outcome"] == "failed"
     assert "no memory" in failed.help
@@ -164,7 +164,7 @@ def test_the_window_closes_while_methods_run(comparing, qtbot):
     comparing.smoothing_panel.stop_form.set_values({"max_iterations": 100_000, "tolerance": 0.0})
     choose_methods(comparing, "local-sd")
     press(comparing, "Run the comparison")
-    qtbot.waitUntil(lambda: comparing.session.comparison.progress.iteration > 0, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: comparing.session.comparison.progress.iteration > 0, timeout=PATIENCE)
     comparing.close()
     assert not comparing.session.comparison.busy
 
@@ -215,7 +215,7 @@ def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(com
     assert captions(compared) == ["now", "mine", "getme", "initial"]
     press(compared, "Run the comparison")
     assert captions(compared) == ["now", "mine"]
-    qtbot.waitUntil(lambda: not compared.session.comparison.busy, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: not compared.session.comparison.busy, timeout=PATIENCE)
     assert not any(one.shown for one in model(compared).entries)
 
 
@@ -282,7 +282,7 @@ def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared,
 
 def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):
     tick(compared, "getme", VIEW)
-    with qtbot.waitSignal(compared.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(compared.smoothing.ended, timeout=PATIENCE):
         click(compared, "Run")
     first, second = compared.canvas.panes.all
     np.testing.assert_array_equal(first.mesh.points, compared.document.now.mesh.points)
@@ -312,7 +312,7 @@ def test_methods_run_with_the_values_that_were_set_for_them(comparing, qtbot):
     comparing.smoothing_panel.set_method("laplacian")
     choose_methods(comparing, "getme")
     press(comparing, "Run the comparison")
-    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
     assert comparing.session.comparison.of("getme").row.parameters["relaxation"] == 0.25
 
 

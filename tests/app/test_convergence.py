@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, phase
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def panel(window, qtbot):
 def run(window, qtbot, method="local-sd", iterations=8):
     window.smoothing_panel.set_method(method)
     window.smoothing_panel.stop_form.set_values({"max_iterations": iterations, "tolerance": 0})
-    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     qtbot.wait(150)
     return window.smoothing.record
@@ -74,10 +74,10 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
     window.smoothing_panel.stop_form.set_values({"max_iterations": 100_000, "tolerance": 0})
     window.smoothing_panel.set_method("local-sd")
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     drawn.clear()
     began = perf_counter()
-    qtbot.waitUntil(lambda: len(drawn) >= 6, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: len(drawn) >= 6, timeout=PATIENCE)
     assert perf_counter() - began > 0.45
     assert drawn == sorted(drawn)
     assert drawn[-1] > drawn[0]

@@ -15,7 +15,7 @@ from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation, Look, ValueRange
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.inside_panel import InsidePanel
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 LEFT = Qt.MouseButton.LeftButton
 BOX = QPoint(8, 8)
@@ -202,7 +202,7 @@ def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtb
     before = window.canvas.viewport._faces
     window.smoothing_panel.set_method("laplacian")
     window.smoothing_panel.step()
-    qtbot.waitUntil(lambda: window.smoothing.phase is Phase.PAUSED, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: window.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     drawn = window.canvas.viewport
     assert drawn._faces is before  # nothing depends on quality, so no face is looked for anew
     corners = drawn._points[drawn.mesh.hexes[chosen]]

@@ -14,7 +14,7 @@ from hexmend.quality import METRICS
 from hexmend_app.widgets.command_palette import CommandPalette
 from hexmend_app.widgets.histogram_legend import KEPT_COLOURS
 from tests.app.driving import LEFT, click, drag
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 
 def centre(window):
@@ -58,7 +58,7 @@ def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
     QTest.keyClick(window, Qt.Key.Key_N)
     worst = window.selection.hex
     window.smoothing_panel.stop_form.set_values({"tolerance": 1e-2})
-    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     assert window.selection.hex == worst
     assert not window.document.now.figures.inverted[worst]
@@ -88,7 +88,7 @@ def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
     assert window.document.now.mesh.pinned[inner]
     assert window.document.undo_title == "pin"
     window.smoothing_panel.set_method("laplacian")
-    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     np.testing.assert_array_equal(window.document.now.mesh.points[inner], mesh.points[inner])
     window.commands.undo()

@@ -20,7 +20,7 @@ from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, open_and_wait, phase
 from tests.app.test_clip import seen_at
 from tests.core.grids import grid, scrambled
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 
 def middle(window):
@@ -31,7 +31,7 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
     io.write(tmp_path / "small.vtu", scrambled(grid(3), 0.3))
     window.selection.choose(7)
     window.commands.tag("before", [7])
-    with qtbot.waitSignal(window.opener.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.opener.ended, timeout=PATIENCE):
         window.open(tmp_path / "small.vtu")
         before = window.document.now
         assert not any(window.actions_by_id[id].isEnabled() for id in ("run", "step", "reset", "undo", "tag"))
@@ -62,7 +62,7 @@ def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
     window.commands.tag("one", [1])
     window.smoothing_panel.set_method("laplacian")
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     table = window.tag_panel.findChild(QTableWidget)
     assert table.editTriggers() == QTableWidget.EditTrigger.NoEditTriggers
     table.item(0, 0).setText("two")  # in an editor that was open before

@@ -15,7 +15,7 @@ from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, RangeMode, Since
 from hexmend_app.state.shots import shots
 from tests.app.driving import LEFT, open_and_wait, pixels
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -27,7 +27,7 @@ def panel(window, qtbot):
 
 @pytest.fixture
 def record(window, qtbot):
-    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
         window.smoothing.start(METHODS["laplacian"](), Stop(max_iterations=6, tolerance=0))
     return window.smoothing.record
 
@@ -164,7 +164,7 @@ def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
     seen = set()
     window.document.points_moved.connect(lambda: seen.add(window.canvas.viewport.colouring.title))
     window.smoothing.start(METHODS["local-sd"](), Stop(max_iterations=100_000, tolerance=0))
-    qtbot.waitUntil(lambda: len(seen) > 3, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: len(seen) > 3, timeout=PATIENCE)
     window.smoothing.end_now()
     assert all(title.startswith("mean edge lengths moved since") for title in seen)
 

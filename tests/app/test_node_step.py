@@ -20,7 +20,7 @@ from hexmend_app.state.run import Phase
 from hexmend_app.state.theme import SEARCH, UPHILL, Choice
 from hexmend_app.widgets import theming
 from tests.app.driving import LEFT, click, phase, pixels
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 BOX = QPoint(8, 8)
 
@@ -48,7 +48,7 @@ def wait_for_step(window, qtbot, method, node=None):
             and shown(window).method == method
             and shown(window).node == (window.selection.node if node is None else node)
         ),
-        timeout=FIRST_RUN,
+        timeout=PATIENCE,
     )
     return shown(window)
 
@@ -72,7 +72,7 @@ def texts(window):
 
 
 def said(window, qtbot, words):
-    qtbot.waitUntil(lambda: words in texts(window), timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: words in texts(window), timeout=PATIENCE)
 
 
 @pytest.fixture
@@ -134,7 +134,7 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
     assert "Shift" in texts(window)
     window.smoothing_panel.form.set_values({"p": 3.0})
     window.smoothing_panel.form.changed.emit()
-    qtbot.waitUntil(lambda: shown(window).p == 3, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: shown(window).p == 3, timeout=PATIENCE)
     assert shown(window).energy != step.energy
 
 
@@ -184,15 +184,15 @@ def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
 
 def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_made(at_work, qtbot):
     window = at_work
-    with qtbot.waitSignal(window.smoothing.phase_changed, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.smoothing.phase_changed, timeout=PATIENCE):
         click(window, "Run")
     window.debugging._refresh()
     if window.smoothing.phase in (Phase.RUNNING, Phase.PREPARING):
         assert "A run is under way" in texts(window)
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     choose(window, "local-sd")
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     wait_for_step(window, qtbot, "local-sd")
     assert not button(window, "Next node").isEnabled()
     assert "paused" in button(window, "Next node").toolTip()
@@ -200,7 +200,7 @@ def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_mad
     key(window, Qt.Key.Key_F11)
     assert window.document.now is now
     click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     qtbot.waitUntil(button(window, "Next node").isEnabled, timeout=5000)
 
 
@@ -324,9 +324,9 @@ def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, t
     if what == "run":
         window.smoothing_panel.set_method("laplacian")
         click(window, "Step")
-        qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+        qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
         click(window, "Stop")
-        qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+        qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
         window.commands.undo()
     elif what == "method":
         choose(window, "local-nr")
@@ -353,9 +353,9 @@ def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qt
     window = at_work
     window.smoothing_panel.set_method("laplacian")
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     choose(window, "local-sd")
     wait_for_step(window, qtbot, "local-sd")
     key(window, Qt.Key.Key_F11)
@@ -387,7 +387,7 @@ def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
 def test_a_sweep_can_be_begun_before_anything_was_explained(window, qtbot):
     choose(window, "local-nr")
     key(window, Qt.Key.Key_F11)
-    qtbot.waitUntil(lambda: window.session.stepping.sweep is not None, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: window.session.stepping.sweep is not None, timeout=PATIENCE)
     step = wait_for_step(window, qtbot, "local-nr")
     assert step.node == window.session.stepping.sweep.nodes[0]
     np.testing.assert_array_equal(window.document.now.mesh.points[step.node], step.after)

@@ -12,14 +12,14 @@ from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, open_and_wait, phase
 from tests.core.grids import grid
 from tests.core.test_mend import with_locked_corner
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 
 def run(window, qtbot, method, values=None, **stop):
     """Run a method from its button to its end."""
     window.smoothing_panel.choose(method, values or {}, Stop(**stop).values())
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
 
 
 def said(window):
@@ -75,7 +75,7 @@ def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
     click(window, "Run")
     qtbot.waitUntil(lambda: window.smoothing.busy, timeout=5000)
     assert not button(window, "Choose: Mend").isEnabled()
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.document.now.summary.inverted == 0
     assert "Why mend stopped" in said(window)
 
@@ -84,7 +84,7 @@ def test_while_a_run_goes_on_it_says_so(window, qtbot):
     window.docks["outcome"].raise_()
     window.smoothing_panel.choose("laplacian", {}, Stop(tolerance=0, max_iterations=1_000_000).values())
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     assert "A run is under way" in said(window)
     click(window, "Stop")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=5000)
@@ -112,7 +112,7 @@ def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
     np.testing.assert_array_equal(window.document.now.mesh.points, start)
     assert window.smoothing_panel.method() == "smart-laplacian"
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.document.now.summary.inverted == 0
 
 
@@ -141,7 +141,7 @@ def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_pa
     press(window, "Choose: Unpin, then Mend")
     assert window.document.undo_title == "unpin"
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.document.now.summary.inverted == 0
 
 

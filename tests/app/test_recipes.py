@@ -15,7 +15,7 @@ from hexmend_app.state.breakpoints import Breakpoints
 from hexmend_app.state.chain import Chain
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, open_and_wait, phase
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 SHORT = Stop(max_iterations=3, tolerance=0)
 
@@ -127,7 +127,7 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     seen = set()
     window.smoothing.iterated.connect(lambda frame: seen.add(window.smoothing_panel._sentence.text()))
     press(panel, "Run recipe")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     np.testing.assert_array_equal(window.document.now.mesh.points, smooth(mesh, recipe).mesh.points)
     assert [row["method"] for row in window.smoothing.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
     assert window.document.undo_title == recipe.title
@@ -141,14 +141,14 @@ def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, q
     add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
     QTest.keyClick(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
     window.smoothing.pause()
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     click(window, "Step")
     qtbot.waitUntil(lambda: window.smoothing_panel._sentence.text() == "Stage 1 of 2: GETMe, simultaneous.")
     shown = panel.findChild(QListWidget)
     assert [shown.item(at).font().bold() for at in range(2)] == [True, False]
     assert not any(button(panel, name).isEnabled() for name in ("Add", "Run recipe", "Load"))
     click(window, "Resume")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert not any(shown.item(at).font().bold() for at in range(2))
     assert button(panel, "Add").isEnabled()
 
@@ -159,7 +159,7 @@ def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel
     window.smoothing_panel.set_method("laplacian")
     window.smoothing.break_at(Breakpoints(node=free_node(window), move=0.0))
     press(panel, "Run recipe")
-    qtbot.waitUntil(lambda: paused_after(window, 1), timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: paused_after(window, 1), timeout=PATIENCE)
     assert window.smoothing_panel.method() == "local-sd"  # the stage at work, not what was shown before
     for number in (2, 3):
         click(window, "Resume")

@@ -22,7 +22,7 @@ from tests.app.driving import LEFT, click, open_and_wait
 from tests.app.driving import pixels as drawn
 from tests.core.grids import grid
 from tests.core.test_structure import tetrahedron
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 KEYS = {"irregular": "S", "boundary": "B", "sharp": "H", "fixed": "X", "free": "M", "locked": "L"}
 
@@ -42,7 +42,7 @@ def panel(qtbot):
 def five(window, qtbot, tmp_path):
     """The window with a mesh of five blocks in it."""
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500))
-    with qtbot.waitSignal(window.finder.found, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "five.vtu")
     return window
 
@@ -172,7 +172,7 @@ def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five,
 
 def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
-    with qtbot.waitSignal(window.finder.found, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "five.vtu")
     press(window.structure_panel._layers["irregular"].box)
     marks = window.canvas.viewport._structure._irregular_inside
@@ -180,7 +180,7 @@ def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     start = window.document.now
     window.smoothing_panel.set_method("laplacian")
     click(window, "Step")
-    qtbot.waitUntil(lambda: window.document.now is not start, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: window.document.now is not start, timeout=PATIENCE)
     now = np.array(marks._poly.points)
     assert not np.array_equal(now, before)
     np.testing.assert_array_equal(now, window.document.now.mesh.points[marks._nodes])
@@ -208,7 +208,7 @@ def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
     points = mesh.points.copy()
     points[15] += [-1.5, 0, 0]
     io.write(tmp_path / "locked.vtu", Mesh(points, mesh.hexes))
-    with qtbot.waitSignal(window.finder.found, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "locked.vtu")
     QTest.keyClick(window.windowHandle(), KEYS["locked"])
     assert count(pixels(window), LOCKED) > 20
@@ -247,7 +247,7 @@ def begin_searching(window):
 @pytest.mark.parametrize("searching", [False, True])
 def test_closing_before_it_is_found_leaves_no_thread(window, qtbot, mesh_file, searching):
     if window.finder.structure is None:
-        qtbot.waitSignal(window.finder.found, timeout=FIRST_RUN).wait()
+        qtbot.waitSignal(window.finder.found, timeout=PATIENCE).wait()
     window.document.replace(window.document.start, mesh_file)
     if searching:
         begin_searching(window)
@@ -262,6 +262,6 @@ def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(w
     window.document.replace(first, None)
     begin_searching(window)
     window.document.replace(last, None)
-    with qtbot.waitSignal(window.finder.found, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
         pass
     assert len(window.finder.structure.sharp) == 24

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableW
 
 from hexmend import io
 from tests.app.driving import LEFT, click
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -116,7 +116,7 @@ def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, pan
 def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot):
     window.commands.tag("kept", [5])
     window.smoothing_panel.set_method("laplacian")
-    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     assert tags(window) == {"kept": [5]}
     window.commands.tag("later", [6])

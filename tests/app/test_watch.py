@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QCheckBox, QPushButton, QSpinBox
 from hexmend_app.filming import WIDTH
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, drag, open_and_wait, phase, pixels
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 ENDLESS = {"tolerance": 0.0, "max_iterations": 1_000_000}
 
@@ -32,7 +32,7 @@ def stepped(window, qtbot, iterations=12, method="local-sd"):
     box.selectAll()
     QTest.keyClicks(box, str(iterations))
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     return window.smoothing.record
 
 
@@ -121,9 +121,9 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
     qtbot.waitUntil(at(window, 4), timeout=2000)
     window.smoothing_panel.stop_form.set_values({"max_iterations": 3})
     window.smoothing_panel.set_method("laplacian")
-    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):  # of the run that is left
+    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):  # of the run that is left
         key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier)
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     second = window.smoothing.record
     assert (second.name, second.parent.record, second.parent.number, second.newest) == ("laplacian", first, 4, 3)
     runs = window.timeline_bar._runs
@@ -144,7 +144,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     check(window, "An element inverts")
     window.smoothing_panel.set_method("laplacian")
     window.smoothing_panel.stop_form.set_values(ENDLESS)
-    with qtbot.waitSignal(window.smoothing.hit, timeout=FIRST_RUN) as hit:
+    with qtbot.waitSignal(window.smoothing.hit, timeout=PATIENCE) as hit:
         click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
     frame = hit.args[0]
@@ -168,7 +168,7 @@ def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, me
     form._cuts.setValue(0)
     window.selection.choose(None)
     window.smoothing_panel.set_method(method)
-    with qtbot.waitSignal(window.smoothing.hit, timeout=FIRST_RUN) as hit:
+    with qtbot.waitSignal(window.smoothing.hit, timeout=PATIENCE) as hit:
         click(window, "Run")
     assert hit.args[0].hit.sentence in window.smoothing_panel._sentence.text()
     assert window.selection.node == (node if chooses else None)
@@ -230,7 +230,7 @@ def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbo
     assert panel.method() == "laplacian"
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
     click(window, "Step")
-    qtbot.waitUntil(at(window, 12), timeout=FIRST_RUN)
+    qtbot.waitUntil(at(window, 12), timeout=PATIENCE)
     assert [row["method"] for row in record.rows[1:]] == ["local-sd"] * 8 + ["laplacian"] * 4
     panel.stop_form.set_values({"max_iterations": 15})
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)

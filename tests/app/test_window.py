@@ -17,7 +17,7 @@ from hexmend_app.state.document import State
 from hexmend_app.state.look import ColourScale, RangeMode, ValueRange
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, drag, open_and_wait, phase, pixels
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 
 def test_an_opened_mesh_is_shown_with_its_figures(window):
@@ -40,7 +40,7 @@ def test_run_pause_step_stop_reset_by_mouse(window, qtbot):
     endless(window)
     start = window.document.now
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     qtbot.waitUntil(lambda: window.document.now is not start, timeout=20000)
     click(window, "Pause")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=20000)
@@ -60,7 +60,7 @@ def test_run_pause_step_stop_reset_by_mouse(window, qtbot):
 
 def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
     window.smoothing_panel.stop_form.set_values({"tolerance": 1e-2})
-    with qtbot.waitSignal(window.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
         QTest.keyClick(window.windowHandle(), Qt.Key.Key_F5)
     assert window.document.start.summary.inverted > 0
     assert window.document.now.summary.inverted == 0
@@ -70,7 +70,7 @@ def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
 def test_keys_step_undo_and_redo(window, qtbot):
     start = window.document.now
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_F10)
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_F5, Qt.KeyboardModifier.ShiftModifier)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=20000)
     after = window.document.now
@@ -86,7 +86,7 @@ def test_keys_step_undo_and_redo(window, qtbot):
 def test_the_picture_follows_the_iterations(window, qtbot):
     before = pixels(window)
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     qtbot.waitUntil(lambda: (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002, timeout=5000)
 
 
@@ -109,7 +109,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot):
     assert not panel._low.isEnabled()
     start = window.document.now
     click(window, "Step")
-    qtbot.waitUntil(lambda: window.document.now is not start, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: window.document.now is not start, timeout=PATIENCE)
     now = window.document.now.figures
     values = now.scaled_jacobian[~now.inverted]
     assert (panel._low.value(), panel._high.value()) == pytest.approx((values.min(), values.max()), abs=0.01)
@@ -188,7 +188,7 @@ def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbo
     assert 0 < shown == inside() < 4000
     assert window.histogram._text.text().startswith(f"{shown:,} of 4,000 elements in ")
     click(window, "Step")
-    qtbot.waitUntil(lambda: window.document.now is not start, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: window.document.now is not start, timeout=PATIENCE)
     assert viewport.shown == inside() != shown
     choose(window.histogram.head.metric, "volume")  # what it hides could no longer be told from the plot
     assert window.view.look.quality_range is None
@@ -218,7 +218,7 @@ def test_distributions_are_kept_under_the_name_of_the_moment_for_any_metric(wind
     window.smoothing_panel.set_method("local-sd")
     start = window.document.now
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     qtbot.waitUntil(lambda: window.document.now is not start, timeout=20000)
     (keep,) = (b for b in histogram.findChildren(QToolButton) if b.text() == "Keep")
     QTest.mouseClick(keep, LEFT)
@@ -298,7 +298,7 @@ def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
 
 def test_saving_writes_the_mesh_as_it_is_now(window, qtbot, tmp_path):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_F10)
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     window.smoothing.stop()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=20000)
     assert window.saving.mesh(tmp_path / "out.vtk")
@@ -321,7 +321,7 @@ def test_a_picture_has_the_size_asked_for_whatever_the_window(window, tmp_path, 
 def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
     endless(window)
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     open_and_wait(qtbot, window, mesh_file)
     assert not window.smoothing.busy
     assert window.document.undo_title is None
@@ -330,7 +330,7 @@ def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
 def test_closing_while_running_leaves_no_thread(window, qtbot):
     endless(window)
     click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     worker = window.smoothing._worker
     assert isinstance(worker, QThread)
     window.close()
@@ -340,7 +340,7 @@ def test_closing_while_running_leaves_no_thread(window, qtbot):
 
 def test_cancelling_keeps_the_window_and_its_run(window, qtbot, monkeypatch):
     click(window, "Step")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     with monkeypatch.context() as patched:
         patched.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Cancel)
         window.close()

@@ -99,7 +99,6 @@ def test_a_method_that_fails_has_its_row_and_the_others_go_on(mesh, monkeypatch)
         yield
 
     monkeypatch.setattr(METHODS["smart-laplacian"], "steps", steps)
-    # With a parameter that no other test uses, so that the method is not known to be warm.
     failing = METHODS["smart-laplacian"](guard="quality")
     answer = compare(mesh, ["laplacian", failing, "local-sd"], FEW)
     assert [row.outcome for row in answer.rows] == ["max-iterations", "failed", "max-iterations"]

@@ -1,22 +1,183 @@
-"""How threads of kernels wait for each other."""
+"""How loops are shared: how many threads, what they are told by, and that nothing depends on their number."""
 
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
-PROGRAM = "import os, hexmend.numba_kernels; print(os.environ['OMP_WAIT_POLICY'], os.environ['GOMP_SPINCOUNT'])"
+import numpy as np
+import pytest
+
+from hexmend import gallery, kernels
+from hexmend.kernels import objective
+
+VARIABLES = ("HEXMEND_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT")
+posix = pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
 
 
-def policy(**settings):
-    names = "OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "KMP_BLOCKTIME"
-    environment = {key: value for key, value in os.environ.items() if key not in names} | settings
-    done = subprocess.run([sys.executable, "-c", PROGRAM], env=environment, capture_output=True, text=True, check=True)
+def program(text, **variables):
+    """Run a program with these variables, and none of the others, set; what it printed, as words."""
+    environment = {key: value for key, value in os.environ.items() if key not in VARIABLES} | variables
+    done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, ""), done.stderr
     return done.stdout.split()
 
 
-def test_threads_that_wait_leave_their_core_to_others():
-    assert policy() == ["PASSIVE", "1000"]
+def available():
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
 
-def test_what_the_user_has_set_stands():
-    assert policy(OMP_WAIT_POLICY="ACTIVE") == ["ACTIVE", "1000"]
+@pytest.mark.parametrize(("variables", "threads"), [
+    ({}, available()),
+    ({"HEXMEND_THREADS": "3"}, 3),
+    ({"HEXMEND_THREADS": " 5 ", "OMP_NUM_THREADS": "2", "OMP_THREAD_LIMIT": "1"}, 5),
+    ({"HEXMEND_THREADS": ""}, available()),
+    ({"OMP_NUM_THREADS": "3"}, 3),
+    ({"OMP_NUM_THREADS": "4,2"}, 4),
+    ({"OMP_NUM_THREADS": "4", "OMP_THREAD_LIMIT": "2"}, 2),
+    ({"OMP_THREAD_LIMIT": "1"}, 1),
+    ({"OMP_NUM_THREADS": "many"}, available()),  # which is not ours to judge
+])  # fmt: skip
+def test_variables_say_how_many(variables, threads):
+    assert program("from hexmend import kernels; print(kernels.threads())", **variables) == [str(threads)]
+
+
+@posix
+def test_by_default_there_are_as_many_as_processors_that_the_process_may_use():
+    text = "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}); from hexmend import kernels; print(kernels.threads())"
+    assert program(text) == ["1"]
+
+
+@pytest.mark.parametrize("word", ["0", "-2", "two", "1.5", "²", "9" * 30])
+def test_a_number_that_is_none_is_said_plainly(word, tmp_path):
+    out = tmp_path / "cube.vtk"
+    done = subprocess.run(
+        [sys.executable, "-m", "hexmend", "gallery", "cube", "--size", "8", "-o", out],
+        env=os.environ | {"HEXMEND_THREADS": word}, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert done.stderr == (
+        f"hexmend: HEXMEND_THREADS = {word!r} cannot be used: expected a whole number of at least 1\n"
+    )
+    assert not out.exists()
+
+
+def test_a_number_is_chosen_for_a_thread_alone():
+    most = kernels.threads()
+
+    def chosen(count):
+        kernels.set_threads(count)
+        return kernels.threads()
+
+    with ThreadPoolExecutor(1) as other:
+        assert other.submit(chosen, 7).result() == 7
+        assert kernels.threads() == most
+        assert other.submit(kernels.threads).result() == 7
+        assert other.submit(chosen, 0).result() == 1
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return gallery.make("five-side", size=3000, scramble=0.3)
+
+
+def figures(mesh):
+    """Energies and gradient shares: two loops over all hexes."""
+    left_out = np.zeros(mesh.n_hexes, np.uint8)
+    eta, shares = np.empty(mesh.n_hexes), np.empty((mesh.n_hexes, 8, 3))
+    objective.energies(mesh.points, mesh.hexes, 0.1, left_out, eta)
+    objective.gradient(mesh.points, mesh.hexes, 0.1, 2.0, left_out, shares)
+    return eta.tobytes() + shares.tobytes()
+
+
+def test_results_are_the_same_to_the_last_bit_with_any_number(mesh):
+    def with_threads(count):
+        kernels.set_threads(count)
+        return figures(mesh)
+
+    with ThreadPoolExecutor(1) as own:
+        assert len(set(own.map(with_threads, (1, 2, 3, 5, 2)))) == 1
+
+
+def test_threads_that_call_kernels_side_by_side_do_not_disturb_each_other(mesh):
+    right = figures(mesh)
+    with ThreadPoolExecutor(6) as pool:
+        assert set(pool.map(lambda _: figures(mesh), range(60))) == {right}
+
+
+BEGIN = """
+import os, sys, time
+import numpy as np
+from hexmend import gallery, kernels
+from hexmend.kernels import objective
+kernels.set_threads(3)
+mesh = gallery.make("five-side", size=3000)
+left_out, eta = np.zeros(mesh.n_hexes, np.uint8), np.empty(mesh.n_hexes)
+def call():
+    objective.energies(mesh.points, mesh.hexes, 0.1, left_out, eta)
+    return eta.sum()
+first = call()
+"""
+
+
+@posix
+def test_a_forked_child_has_threads_of_its_own():
+    child = """
+child = os.fork()
+if child == 0:
+    os._exit(0 if call() == first and call() == first else 1)
+_, status = os.waitpid(child, 0)
+print(os.waitstatus_to_exitcode(status), call() == first)
+"""
+    assert program(BEGIN + child) == ["0", "True"]
+
+
+def test_threads_that_wait_sleep():
+    idle = """
+time.sleep(0.05)
+before = time.process_time()
+time.sleep(0.3)
+print(time.process_time() - before)
+"""
+    (spent,) = program(BEGIN + idle)
+    assert float(spent) < 0.03
+
+
+def test_a_process_ends_quietly_while_threads_wait_or_work():
+    assert program(BEGIN) == []
+    beside = """
+import threading
+threading.Thread(target=lambda: [call() for _ in range(10**6)], daemon=True).start()
+time.sleep(0.1)
+print("end")
+"""
+    assert program(BEGIN + beside) == ["end"]
+
+
+@posix
+def test_control_c_during_a_kernel_is_a_keyboard_interrupt():
+    interrupted = """
+import signal, threading
+for delay in (0.01, 0.013, 0.021, 0.034, 0.05):
+    threading.Timer(delay, os.kill, (os.getpid(), signal.SIGINT)).start()
+    try:
+        while True:
+            call()
+    except KeyboardInterrupt:
+        print("interrupted", call() == first)
+"""
+    assert program(BEGIN + interrupted) == ["interrupted", "True"] * 5
+
+
+def test_the_bench_says_threads_and_build():
+    from hexmend.study.bench import machine
+
+    assert (machine()["threads"], machine()["kernels"]) == (kernels.threads(), kernels.BUILD)
+
+
+def test_a_build_that_there_is_not_is_said_plainly():
+    done = subprocess.run(
+        [sys.executable, "-c", "import hexmend.kernels"],
+        env=os.environ | {"HEXMEND_KERNELS": "v9"}, capture_output=True, text=True,
+    )  # fmt: skip
+    assert "HEXMEND_KERNELS = 'v9' names no build that this processor can run: expected" in done.stderr

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
+from hexmend import kernels
 from hexmend.gallery import make
 from hexmend.parameters import declared, from_strings
 from hexmend.quality import measure
@@ -74,16 +75,13 @@ def test_the_result_moves_turns_and_scales_with_the_mesh(name, seed, exponent):
 
 
 def test_runs_are_bitwise_repeatable_whatever_the_number_of_threads(name):
-    import numba
-
-    mesh = scrambled(grid(8), 0.4)
-    most = numba.get_num_threads()
-    results = []
-    for threads in {1, most}:
-        numba.set_num_threads(threads)
+    mesh, most, results = scrambled(grid(8), 0.4), kernels.threads(), []
+    for threads in (1, 2, 3, 5):
+        kernels.set_threads(threads)
         results.append(points_after(mesh, METHODS[name](), 3)[-1])
-    numba.set_num_threads(most)
-    np.testing.assert_array_equal(results[0], results[-1])
+    kernels.set_threads(most)
+    for result in results[1:]:
+        np.testing.assert_array_equal(results[0], result)
 
 
 def test_numbering_of_hexes_does_not_matter_much(name):

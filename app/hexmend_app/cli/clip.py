@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from hexmend.mesh import Mesh
 from hexmend_app.cli.numbers import direction, numbers, wrong
-from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, PlaneClip
+
+if TYPE_CHECKING:
+    from hexmend.mesh import Mesh
+    from hexmend_app.state.clip import BoxClip, Clip, ClipPlane
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
@@ -38,6 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def clip_of(args: argparse.Namespace, mesh: Mesh) -> Clip | None:
     """The cut that the options ask for; None for none."""
+    from hexmend_app.state.clip import PlaneClip
+
     if args.clip_box:
         return box(args.clip_box, mesh, crinkle=not args.smooth, notch=args.notch)
     if not args.clip:
@@ -48,6 +51,8 @@ def clip_of(args: argparse.Namespace, mesh: Mesh) -> Clip | None:
 
 def plane(text: str, mesh: Mesh) -> ClipPlane:
     """The plane that `--clip` names: an axis or a normal, and how far through the mesh it stands."""
+    from hexmend_app.state.clip import ClipPlane
+
     axis, _, position = text.partition(":")
     normal = _AXES.get(axis.lower()) or direction(axis, "--clip")
     (share,) = numbers(position, 1, "--clip") if position else (0.5,)
@@ -60,6 +65,10 @@ def plane(text: str, mesh: Mesh) -> ClipPlane:
 
 def box(text: str, mesh: Mesh, *, crinkle: bool, notch: bool) -> BoxClip:
     """The box that `--clip-box` names."""
+    import numpy as np
+
+    from hexmend_app.state.clip import BoxClip
+
     shares = np.array(numbers(text, 6, "--clip-box")).reshape(3, 2)
     if shares.min() < 0 or shares.max() > 1 or (shares[:, 0] > shares[:, 1]).any():
         raise wrong("--clip-box", text, "for each axis two positions from 0 to 1, the lower first")

@@ -9,7 +9,6 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QThread, QTimer, Signal
 
-from hexmend import compiling
 from hexmend.quality import measure
 from hexmend.run import Run, Stop
 from hexmend.smoothers import Smoother
@@ -102,7 +101,7 @@ class Comparison(QObject):
         self._document = document
         self._worker: _Worker | None = None
         self._stop = Stop()
-        self._asked = self._compiled = 0
+        self._asked = 0
         self.initial: State | None = None
         self.results: tuple[Compared, ...] = ()
         self._timer = QTimer(self)
@@ -126,11 +125,6 @@ class Comparison(QObject):
         return self._worker is not None and self._worker.ended.is_set()
 
     @property
-    def compiling(self) -> bool:
-        """Whether kernels had to be compiled since the work began."""
-        return compiling.begun > self._compiled
-
-    @property
     def interrupted(self) -> bool:
         """Whether the user ended the work before the last method was done."""
         return not self.busy and (
@@ -142,7 +136,7 @@ class Comparison(QObject):
         if self.busy or not self._document.is_open or not smoothers:
             return
         self.initial, self.results = self._document.now, ()
-        self._stop, self._asked, self._compiled = stop, len(smoothers), compiling.begun
+        self._stop, self._asked = stop, len(smoothers)
         self._worker = _Worker(self.initial, tuple(smoothers), stop)
         self._worker.start()
         self._timer.start()

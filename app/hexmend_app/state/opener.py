@@ -4,18 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QThread, QTimer, Signal
+from PySide6.QtCore import QObject, QThread, Signal
 
-from hexmend import compiling
 from hexmend.errors import HexmendError
 from hexmend.io import read
-from hexmend.mesh import Mesh
-from hexmend.quality import element, node
-from hexmend_app.state.binning import bin_counts
 from hexmend_app.state.document import Document, State
-
-#: Milliseconds between two looks at whether kernels are being compiled.
-_PERIOD = 200
 
 
 class _Reading(QThread):
@@ -45,25 +38,10 @@ class _Reading(QThread):
             self.state = State.of(mesh)
             self.began.emit(f"Preparing the view of {self.path.name}…")
             _ = self.state.mesh.topology.face_neighbours, self.state.mesh.topology.layers  # what the view draws from
-            bin_counts(self.state.figures.q, self.state.figures.inverted, (0.0, 1.0), 1)  # compiled here the first time
         except HexmendError as error:
             self.error = error
         except Exception as error:  # a reader that fails in a way of its own must not take the window down
             self.error = HexmendError(f"{self.path.name}: cannot be read ({type(error).__name__}: {error}).")
-
-
-class _Preparing(QThread):
-    """Loads what a click on an element needs: kernels that are compiled the first time, while the mesh is seen."""
-
-    def __init__(self, mesh: Mesh):
-        super().__init__()
-        self.setObjectName(f"reading {mesh.name}: what a click needs")
-        self._mesh = mesh
-
-    def run(self) -> None:
-        """What the thread does."""
-        element(self._mesh, 0)
-        node(self._mesh, int(self._mesh.hexes[0, 0]))
 
 
 class Opener(QObject):
@@ -92,13 +70,8 @@ class Opener(QObject):
         super().__init__(parent)
         self._document = document
         self._reading: _Reading | None = None
-        self._preparing: _Preparing | None = None
         self._next: Path | None = None
         self._dropped: list[_Reading] = []
-        self._compiled = 0
-        self._look = QTimer(self)
-        self._look.setInterval(_PERIOD)
-        self._look.timeout.connect(self._look_for_kernels)
 
     @property
     def busy(self) -> bool:
@@ -113,8 +86,6 @@ class Opener(QObject):
         self._reading = _Reading(Path(path))
         self._reading.finished.connect(self._finish)
         self._reading.began.connect(self.told)
-        self._compiled = compiling.begun
-        self._look.start()
         self.began.emit(self._reading.path)
         self._reading.start()
 
@@ -123,15 +94,9 @@ class Opener(QObject):
         if self._reading is None:
             return
         reading, self._reading, self._next = self._reading, None, None
-        self._look.stop()
         reading.began.disconnect(self.told)
         self._dropped.append(reading)
         self.cancelled.emit(reading.path)
-
-    def _look_for_kernels(self) -> None:
-        if compiling.begun > self._compiled:
-            self._look.stop()
-            self.told.emit("Compiling what meshes are measured with, which takes up to a minute, once…")
 
     def shut_down(self) -> None:
         """Wait until the thread is gone; nothing is opened any more."""
@@ -140,9 +105,6 @@ class Opener(QObject):
             reading.finished.disconnect(self._finish)
             reading.wait()
         self._dropped.clear()
-        if self._preparing is not None:
-            self._preparing.wait()
-            self._preparing = None
 
     def _finish(self) -> None:
         for dropped in [one for one in self._dropped if one.isFinished()]:
@@ -152,7 +114,6 @@ class Opener(QObject):
             return  # what has finished was dropped
         reading, self._reading = self._reading, None
         reading.wait()
-        self._look.stop()
         if self._next is not None:
             path, self._next = self._next, None
             self.open(path)
@@ -160,7 +121,4 @@ class Opener(QObject):
             self.failed.emit(reading.path, reading.error)
         else:
             self._document.replace(reading.state, reading.path)
-            if self._preparing is None:
-                self._preparing = _Preparing(reading.state.mesh)
-                self._preparing.start()
             self.ended.emit(reading.path)

@@ -9,7 +9,6 @@ from functools import partial
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from hexmend import compiling
 from hexmend.optimise import Result
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
@@ -76,7 +75,6 @@ class Smoothing(QObject):
         self.record: Record | None = None
         self.following = True
         self.phase = Phase.IDLE
-        self._compiled, self._said = 0, False
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
         self._timer.timeout.connect(self._look)
@@ -86,11 +84,6 @@ class Smoothing(QObject):
     def busy(self) -> bool:
         """Whether a run is under way, paused or not."""
         return self._worker is not None
-
-    @property
-    def compiling(self) -> bool:
-        """Whether kernels had to be compiled since the run was asked for."""
-        return compiling.begun > self._compiled
 
     def start(self, smoother: Smoother | Recipe, stop: Stop | None, iterations: float = math.inf) -> None:
         """Begin a run on the document's mesh and make that many iterations of it; a recipe has limits of its own."""
@@ -103,7 +96,6 @@ class Smoothing(QObject):
         self._worker = Worker(self._before.mesh, smoother, stop, partial(self._history.add, self.record))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
         self._worker.grant(iterations)
-        self._compiled, self._said = compiling.begun, False
         self._set_phase(Phase.PREPARING)
         self._worker.start()
         self._timer.start()
@@ -184,9 +176,6 @@ class Smoothing(QObject):
             self._show(frame)
         if over:
             self._finish(worker)
-        elif self.phase is Phase.PREPARING and self.compiling and not self._said:
-            self._said = True
-            self.phase_changed.emit()
         elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
             self._set_phase(Phase.PAUSED if waits else Phase.RUNNING)
 

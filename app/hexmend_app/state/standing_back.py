@@ -6,7 +6,7 @@ import contextlib
 import os
 import threading
 
-import numba
+from hexmend.kernels import set_threads, threads
 
 #: How far such a thread stands back behind the window, as `nice` counts.
 _NICE = 10
@@ -15,9 +15,10 @@ _NICE = 10
 def stand_back() -> None:
     """Let the window go first, from the thread that calls this on: a frame that waits is seen, a step is not.
 
-    One core stays with the window; results do not depend on the number of threads.
+    One core stays with the window; results do not depend on the number of threads. To be called before the thread's
+    first kernel: the threads that help it have its priority as it was when they were made.
     """
-    numba.set_num_threads(max(1, numba.config.NUMBA_NUM_THREADS - 1))
+    set_threads(max(1, threads() - 1))
     if hasattr(os, "setpriority"):
         with contextlib.suppress(OSError):  # where the system does not know priorities of threads
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)

@@ -158,5 +158,5 @@ class Worker(QThread):
             change, self._change = self._change, None
             ended = self._ended
         if change is not None and run.outcome is None and not ended:
-            run.go_on_with(change.smoother, change.stop)  # which may have to compile: the window must not wait for it
+            run.go_on_with(change.smoother, change.stop)  # which may take a while: the window must not wait for it
         return run.outcome is None and not ended

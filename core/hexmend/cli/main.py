@@ -2,21 +2,25 @@
 
 Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used; 4 done, and hexes are still inverted;
 130 interrupted.
+
+A command pays for what it uses: modules are imported where they are needed, here and in the commands.
 """
 
 from __future__ import annotations
 
-import argparse
 import atexit
 import gc
 import importlib
 import os
-import pkgutil
 import sys
-from collections.abc import Callable, Sequence
 
-from hexmend import cli
-from hexmend.cli.command import Command
+from hexmend import __version__
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from hexmend.cli.command import Command
 
 _NOT_COMMANDS = {"main", "command", "tables"}
 
@@ -26,7 +30,20 @@ _DEFAULT = "view"
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
-    words = list(sys.argv[1:] if argv is None else argv)
+    try:
+        return _main(list(sys.argv[1:] if argv is None else argv))
+    except KeyboardInterrupt:
+        print("hexmend: interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:  # the reader (head, less) has gone: nothing more to say
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _main(words: list[str]) -> int:
+    if words and words[0] == "--version":
+        print(f"hexmend {__version__}")
+        return 0
     loaders = _own_commands()
     if words and words[0] in loaders:
         atexit.register(gc.freeze)  # all goes with the process: looking it through for garbage takes 0.1 s
@@ -34,11 +51,6 @@ def main(argv: Sequence[str] | None = None) -> int:
         loaders = commands()
     if words and words[0] in ("-h", "--help"):
         return _help(loaders)
-    if words and words[0] == "--version":
-        from hexmend import __version__
-
-        print(f"hexmend {__version__}")
-        return 0
     if not words or words[0] not in loaders:
         if words and _looks_like_a_command(words[0]):
             return _unknown(words[0], loaders)
@@ -60,6 +72,10 @@ def commands() -> dict[str, Callable[[], Command]]:
 
 
 def _own_commands() -> dict[str, Callable[[], Command]]:
+    import pkgutil
+
+    from hexmend import cli
+
     loaders: dict[str, Callable[[], Command]] = {}
     for module in pkgutil.iter_modules(cli.__path__):
         if module.name not in _NOT_COMMANDS:
@@ -68,11 +84,10 @@ def _own_commands() -> dict[str, Callable[[], Command]]:
 
 
 def _run(load: Callable[[], Command], words: list[str]) -> int:
-    from hexmend.compiling import listeners
+    import argparse
+
     from hexmend.errors import FileError, HexmendError, MeshError
 
-    if _compiling not in listeners:
-        listeners.append(_compiling)
     try:
         command = load()
         parser = argparse.ArgumentParser(prog=f"hexmend {command.name}", description=command.help, allow_abbrev=False)
@@ -85,16 +100,6 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
     except HexmendError as error:
         print(f"hexmend: {error}".replace("\n", " "), file=sys.stderr)
         return 3 if isinstance(error, FileError | MeshError) else 2
-    except KeyboardInterrupt:
-        print("hexmend: interrupted", file=sys.stderr)
-        return 130
-    except BrokenPipeError:  # the reader (head, less) has gone: nothing more to say
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
-
-
-def _compiling() -> None:
-    print("hexmend: compiling the numerical kernels. This takes about a minute, once.", file=sys.stderr, flush=True)
 
 
 def _looks_like_a_command(word: str) -> bool:

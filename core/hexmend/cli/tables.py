@@ -1,4 +1,4 @@
-"""Tables of the command line, drawn by rich."""
+"""Small tables of the command line, drawn without a library: loading one takes longer than most commands do."""
 
 from __future__ import annotations
 
@@ -36,35 +36,36 @@ def figure(value: float | int | None) -> str:
 
 def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summary]) -> None:
     """Print one or several summaries side by side."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, show_header=len(heads) > 1)
-    table.add_column("")
-    for head in heads:
-        table.add_column(head, justify="right")
-    for field, label in ROWS:
-        table.add_row(label, *(figure(getattr(summary, field)) for summary in summaries))
     print(title)
-    Console(highlight=False).print(table)
+    rows = [[label, *(figure(getattr(summary, field)) for summary in summaries)] for field, label in ROWS]
+    print_columns(["", *heads] if len(heads) > 1 else None, rows)
 
 
 def print_spreads(spreads: Mapping[str, Spread]) -> None:
     """Print what every metric's values are, and how many hexes have one that is not acceptable."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-
     from hexmend.quality import METRICS
 
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    table.add_column("Metric", no_wrap=True)
-    for head in ("Min", "Mean", "Max", "Acceptable", "Outside", "Infinite"):
-        table.add_column(head, justify="right", no_wrap=True)
+    rows = []
     for name, spread in spreads.items():
         low, high = METRICS[name].acceptable
         values = ("–" if value is None else f"{value:.3g}" for value in (spread.min, spread.mean, spread.max))
         acceptable = f"{low:g} to {high:g}".replace("inf", "∞")
-        table.add_row(name, *values, acceptable, figure(spread.unacceptable), figure(spread.infinite))
-    Console(highlight=False).print(table)
+        rows.append([name, *values, acceptable, figure(spread.unacceptable), figure(spread.infinite)])
+    print_columns(["Metric", "Min", "Mean", "Max", "Acceptable", "Outside", "Infinite"], rows)
+
+
+def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> None:
+    """Print rows in columns, the first from the left and the others from the right, with a line below the head."""
+    every = [*([head] if head else []), *rows]
+    widths = [max(map(len, column)) for column in zip(*every, strict=True)]
+
+    def line(row: Sequence[str]) -> str:
+        cells = (cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))
+        return "  " + "   ".join([row[0].ljust(widths[0]), *cells])
+
+    print()
+    if head:
+        print(line(head))
+        print(" " + "─" * (len(line(head)) - 1))
+    print("\n".join(map(line, rows)))
+    print()

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_matrix
 
 from hexmend.gallery.aeroplane import PARTS, onto_aeroplane
 from hexmend.gallery.blocks import box_hexes, extruded
@@ -205,18 +204,22 @@ def _off(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     a, b, c, d = (points[quads[:, i]] for i in range(4))
     normal = -np.cross(c - a, d - b)
     double_area = np.linalg.norm(normal, axis=1)
-    row = np.arange(0, quads.size + 1, 4)
-    at = csr_matrix((np.ones(quads.size), quads.ravel(), row), (len(quads), len(points))).T  # (n, k): 1 at its corners
-    mean = at @ (normal / double_area[:, None])
-    width = (at @ np.sqrt(double_area / 2)) / np.bincount(quads.ravel())
+    corners = quads.ravel()
+    mean = _summed(corners, np.repeat(normal / double_area[:, None], 4, axis=0), len(points))
+    width = np.bincount(corners, np.repeat(np.sqrt(double_area / 2), 4)) / np.bincount(corners)
     return mean * (width / np.linalg.norm(mean, axis=1))[:, None]
 
 
 def _spread(move: np.ndarray, held: np.ndarray, hexes: np.ndarray, sweeps: int) -> np.ndarray:
     """Let each node that is not held make the mean move of its edge neighbours, so many times."""
     ring = Topology(hexes.astype(np.int32), len(move)).rings
-    mean = csr_matrix((np.ones(len(ring.items)), ring.items, ring.start), (len(move), len(move)))
-    degree = np.maximum(np.diff(ring.start), 1)[:, None]
+    degree = np.diff(ring.start)
+    node, count = np.repeat(np.arange(len(move)), degree), np.maximum(degree, 1)[:, None]
     for _ in range(sweeps):
-        move = np.where(held[:, None], move, mean @ move / degree)
+        move = np.where(held[:, None], move, _summed(node, move[ring.items], len(move)) / count)
     return move
+
+
+def _summed(at: np.ndarray, values: np.ndarray, n: int) -> np.ndarray:
+    """The sum of the rows of values (k, 3) that belong to each of n nodes, (n, 3); row i belongs to node at[i]."""
+    return np.column_stack([np.bincount(at, column, n) for column in values.T])

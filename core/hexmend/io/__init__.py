@@ -4,10 +4,15 @@
 ['medit', 'medit-binary', 'vtk', 'vtu']
 """
 
+from __future__ import annotations
+
 from hexmend.io import medit, medit_binary, vtk_legacy, vtu  # noqa: F401  (they register themselves)
 from hexmend.io.files import left_out, read, readable_suffixes, writable_suffixes, write, writer_for
 from hexmend.io.format import FORMATS, Format
-from hexmend.io.recipes import read_recipe, write_recipe
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from hexmend.io.recipes import read_recipe, write_recipe
 
 __all__ = [
     "FORMATS",
@@ -21,3 +26,11 @@ __all__ = [
     "write_recipe",
     "writer_for",
 ]
+
+
+def __getattr__(name: str) -> object:
+    if name in ("read_recipe", "write_recipe"):  # which know every method: who only reads a mesh does not wait for them
+        from hexmend.io import recipes
+
+        return getattr(recipes, name)
+    raise AttributeError(f"module 'hexmend.io' has no attribute {name!r}")

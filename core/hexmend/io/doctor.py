@@ -33,7 +33,7 @@ def examine(mesh: Mesh) -> tuple[Finding, ...]:
     places = mesh.points[mesh.topology.used]
     add(
         "coincident-nodes",
-        len(places) - len(np.unique(places, axis=0)),
+        _repeated(places + 0.0),  # -0 and 0 are one place
         "{count} nodes lie on others; hexes that should be joined may be apart there.",
         "Merge coincident nodes in the program that made the mesh if that is not meant.",
     )
@@ -42,7 +42,7 @@ def examine(mesh: Mesh) -> tuple[Finding, ...]:
     add("degenerate-hexes", degenerate, "{count} hexes use a node twice: they can never be good.", "Mesh them anew.")
     add(
         "duplicate-hexes",
-        mesh.n_hexes - len(np.unique(rows, axis=0)),
+        _repeated(rows),
         "{count} hexes stand on the nodes of others.",
         "Remove the duplicates.",
     )
@@ -80,6 +80,24 @@ def mirrored(mesh: Mesh) -> Mesh:
         cells=mesh.cells,
         name=mesh.name,
     )
+
+
+def _repeated(rows: np.ndarray) -> int:
+    """How many rows (n, k) are the same as one before them.
+
+    A number is made of each row, which equal rows share: where all numbers differ no row is repeated, and the rows
+    themselves need not be sorted, which takes ten times longer.
+    """
+    bits = rows.view(f"u{rows.itemsize}").astype(np.uint64)
+    bits ^= bits >> np.uint64(32)
+    numbers = np.zeros(len(rows), np.uint64)
+    for column in bits.T:
+        numbers = (numbers ^ column) * np.uint64(0x9E3779B97F4A7C15)
+        numbers ^= numbers >> np.uint64(29)
+    numbers.sort()
+    if (numbers[1:] != numbers[:-1]).all():
+        return 0
+    return len(rows) - len(np.unique(rows, axis=0))
 
 
 def _all_mirrored(mesh: Mesh) -> bool:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 
+from hexmend.io.decimals import blocks, lines
 from hexmend.io.format import FORMATS, Format
 from hexmend.io.medit_content import SECTIONS, from_mesh, to_mesh
 from hexmend.io.source import Source, shown
@@ -68,17 +70,17 @@ def _without_comments(data: bytes) -> bytes:
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 2; decimals are the shortest that give the same number back."""
     refs, sections = from_mesh(mesh)
-    with open(path, "w", encoding="ascii", newline="\n") as file:
-        file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{mesh.n_nodes}\n")
-        for begin in range(0, mesh.n_nodes, 65536):
-            part = slice(begin, begin + 65536)
-            rows = zip(mesh.points[part].tolist(), refs[part].tolist(), strict=True)
-            file.writelines(f"{x!r} {y!r} {z!r} {ref}\n" for (x, y, z), ref in rows)
+    with open(path, "wb") as file:
+        file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{mesh.n_nodes}\n".encode())
+        for part in blocks(mesh.n_nodes):
+            rows = zip(*mesh.points[part].T.tolist(), refs[part].tolist(), strict=True)
+            numbers = tuple(chain.from_iterable(rows))
+            file.write(("%r %r %r %d\n" * (len(numbers) // 4) % numbers).encode())
         for name, rows in sections.items():
-            file.write(f"{name}\n{len(rows)}\n")
-            for begin in range(0, len(rows), 65536):
-                file.writelines(" ".join(map(str, row)) + "\n" for row in rows[begin : begin + 65536].tolist())
-        file.write("End\n")
+            file.write(f"{name}\n{len(rows)}\n".encode())
+            for part in blocks(len(rows)):
+                file.write(lines(rows[part]))
+        file.write(b"End\n")
 
 
 FORMATS.add("medit", Format("medit", "Medit", (".mesh",), ("ascii",), read, write, holds_hex_sets=False))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 from pathlib import Path
-from urllib.parse import quote, unquote
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.carry import Grid, from_mesh, to_mesh
+from hexmend.io.decimals import blocks, lines
 from hexmend.io.format import FORMATS, Format
 from hexmend.io.source import Source, shown
 from hexmend.mesh import Mesh
@@ -131,6 +132,8 @@ class _Reader:
             self._keep(words[0], values)
 
     def _keep(self, name: str, values: np.ndarray) -> None:
+        from urllib.parse import unquote
+
         self.target[unquote(name)] = values[:, 0] if values.shape[1] == 1 else values
 
     def _check_rows(self, key: str) -> None:
@@ -195,17 +198,16 @@ class _Reader:
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 3.0, which every program reads."""
+    from urllib.parse import quote
+
     grid = from_mesh(mesh)
     ascii = encoding == "ascii"
     with open(path, "wb") as file:
 
         def numbers(values: np.ndarray, code: str) -> None:
             if ascii:
-                rows = np.asarray(values)
-                rows = rows.reshape(len(rows), -1)
-                for begin in range(0, len(rows), 65536):
-                    text = "\n".join(" ".join(map(repr, row)) for row in rows[begin : begin + 65536].tolist())
-                    file.write(text.encode() + b"\n")
+                for part in blocks(len(values)):
+                    file.write(lines(values[part]))
             else:
                 file.write(np.ascontiguousarray(values, dtype=f">{code}").tobytes() + b"\n")
 
@@ -223,8 +225,9 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         rest[heads] = False
         flat[heads], flat[rest] = widths, grid.nodes
         if ascii:
-            for begin, end in zip(heads, [*heads[1:], len(flat)], strict=True):
-                file.write(" ".join(map(str, flat[begin:end].tolist())).encode() + b"\n")
+            for begin, end in _of_one_width(widths):
+                row = widths[begin] + 1
+                numbers(flat[heads[begin] : heads[begin] + (end - begin) * row].reshape(-1, row), "i4")
         else:
             numbers(flat, "i4")
         file.write(f"CELL_TYPES {count}\n".encode())
@@ -245,6 +248,12 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
                 flat = values.reshape(rows, -1)
                 file.write(f"{quote(title, safe=':')} {flat.shape[1]} {rows} {_NAMES[code]}\n".encode())
                 numbers(flat.astype(code), code)
+
+
+def _of_one_width(widths: np.ndarray) -> list[tuple[int, int]]:
+    """First and last but one of each series of cells with the same number of nodes."""
+    ends = [*(np.flatnonzero(np.diff(widths)) + 1).tolist(), len(widths)]
+    return list(pairwise([0, *ends]))
 
 
 FORMATS.add("vtk", Format("vtk", "VTK legacy", (".vtk",), ("binary", "ascii"), read, write))

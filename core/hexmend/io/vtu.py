@@ -6,7 +6,6 @@ import contextlib
 import io
 import warnings
 from pathlib import Path
-from xml.etree import ElementTree as ET
 
 import numpy as np
 
@@ -51,6 +50,8 @@ def _check_head(path: Path) -> None:
 
 def _check_xml(path: Path) -> None:
     """Raise `FileError` where the file is no XML, naming the place; the parser does not."""
+    from xml.etree import ElementTree as ET
+
     try:
         for _ in ET.iterparse(path):
             pass

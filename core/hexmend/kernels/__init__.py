@@ -7,6 +7,10 @@ threads: parallel loops write disjoint rows, and sums are taken over those rows 
 There is a build for each generation of processors; the newest that this one can run is loaded. The variable
 `HEXMEND_KERNELS` names another: v2, v3 or v4 (x86-64-v2 and so on).
 
+Loops are shared by as many threads as `HEXMEND_THREADS` says, else OpenMP's variables (`OMP_NUM_THREADS`,
+`OMP_THREAD_LIMIT`), else by as many as there are processors that this process may use. `set_threads` chooses another
+number for the calling thread alone.
+
 Arrays are taken as they are, without a copy: points (n, 3) float64, hexes (m, 8) int32, all contiguous. Another type
 or shape is a TypeError.
 """
@@ -18,6 +22,7 @@ import os
 import sys
 from types import ModuleType
 
+from hexmend.errors import ParameterError
 from hexmend.kernels import _processor
 
 #: Builds, the newest first, that a processor of each level can run.
@@ -26,24 +31,33 @@ _RUNS = {"v4": ("v4", "v3", "v2"), "v3": ("v3", "v2"), "v2": ("v2",), "native": 
 
 def _chosen() -> str:
     can = _RUNS.get(_processor.LEVEL, ())
-    wanted = os.environ.get("HEXMEND_KERNELS") or (can[0] if can else "")
+    if not can:
+        raise ImportError("this processor can run none of the builds of Hexmend's kernels: SSE 4.2 is the least")
+    wanted = os.environ.get("HEXMEND_KERNELS", "").strip() or can[0]
     if wanted not in can:
-        runs = f"it runs {', '.join(can)}" if can else "it runs none of them; SSE 4.2 is the least"
-        raise ImportError(
-            f"HEXMEND_KERNELS={wanted or 'v2'}: this processor cannot run that build of the kernels; {runs}"
+        raise ParameterError(
+            f"HEXMEND_KERNELS = {wanted!r} names no build that this processor can run: expected {', '.join(can)}"
         )
     return wanted
 
 
 def _default_threads() -> int:
     """HEXMEND_THREADS, else what OpenMP's variables say, else every processor that this process may use."""
-    for name in ("HEXMEND_THREADS", "OMP_NUM_THREADS"):
-        first = os.environ.get(name, "").split(",")[0].strip()
-        if first.isdecimal() and int(first) > 0:
-            return int(first)
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    wanted = os.environ.get("HEXMEND_THREADS", "").strip()
+    if wanted:
+        if _positive(wanted) is None:
+            raise ParameterError(f"HEXMEND_THREADS = {wanted!r} cannot be used: expected a whole number of at least 1")
+        return int(wanted)
+    theirs = _positive(os.environ.get("OMP_NUM_THREADS", "").split(",")[0])  # of nested loops, the outer ones'
+    limit = _positive(os.environ.get("OMP_THREAD_LIMIT", ""))
+    if theirs is None:
+        theirs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return theirs if limit is None else min(theirs, limit)
+
+
+def _positive(word: str) -> int | None:
+    word = word.strip()
+    return int(word) if word.isascii() and word.isdecimal() and 0 < len(word) < 7 and int(word) else None
 
 
 #: The build that is loaded.

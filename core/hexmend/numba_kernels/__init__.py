@@ -18,9 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
-from numba.core import event
 
-from hexmend.compiling import tell
 
 # Threads that wait for others sleep after some microseconds. OpenMP's own way, to spin, keeps the thread that is waited
 # for off its core wherever another process (or this one's window) wants one too: twenty times slower on a busy machine.
@@ -65,18 +63,6 @@ def _compiled(**options: Any) -> Callable[[Callable], Callable]:
 
     return decorate
 
-
-class _Compiling(event.Listener):
-    """Hears of every kernel that is compiled because it is not on disk."""
-
-    def on_start(self, event: event.Event) -> None:
-        tell()
-
-    def on_end(self, event: event.Event) -> None:
-        pass
-
-
-event.register("numba:compile", _Compiling())
 
 #: A kernel that runs on one thread, or a piece of one. Products and sums may be contracted to one rounding, which is
 #: what vector units are fast at.

@@ -156,7 +156,7 @@ class Result:
         The outcome with its figures, in sentences.
     iterations : int
     seconds : float
-        In the smoother, without its set-up, without reading, writing and compiling.
+        In the smoother, without its set-up, without reading and writing.
     setup_seconds : float
         Topology, colouring and whatever else the method prepares.
     history : tuple of dict

@@ -5,11 +5,12 @@ from __future__ import annotations
 import csv
 import json
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hexmend.io.atomic import replacing
-from hexmend.optimise import Result
-from hexmend.recipe import Recipe
+
+if TYPE_CHECKING:
+    from hexmend.optimise import Result
 
 #: Columns of a history, in order.
 HISTORY = ("iteration", "seconds", "objective", "q_min", "q_mean", "inverted", "largest_move")
@@ -17,6 +18,8 @@ HISTORY = ("iteration", "seconds", "objective", "q_min", "q_mean", "inverted", "
 
 def record(result: Result) -> dict[str, Any]:
     """The report of `hexmend smooth --json`; `stages` is there for a recipe alone."""
+    from hexmend.recipe import Recipe
+
     report = {
         "method": result.method,
         "parameters": dict(result.parameters),

@@ -13,7 +13,7 @@ from hexmend.optimise import Iteration, Outcome, StageResult, Stop
 from hexmend.quality import measure, objective
 from hexmend.quality.measure import read_only
 from hexmend.recipe import Stage
-from hexmend.run.warm import one_blas_thread, warm_up
+from hexmend.run.blas import one_blas_thread
 from hexmend.smoothers import Smoother
 
 log = logging.getLogger(__name__)
@@ -52,7 +52,6 @@ class Leg:
     """
 
     def __init__(self, mesh: Mesh, stage: Stage, number: int, start: Iteration, after: Iteration, since: Iteration):
-        warm_up(stage.smoother)
         self.stage, self.number = stage, number
         self.start, self.after, self.since = start, after, since
         self.last, self.reached = after, start

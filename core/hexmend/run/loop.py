@@ -109,6 +109,8 @@ class Run(Iterator[Iteration]):
 
     def close(self) -> None:
         """End the run where it is; what was reached stands."""
+        if self.last.number > self.history[-1]["iteration"]:  # Ctrl-C came as the iteration was being recorded
+            self.history.append(self.last.row())
         if self.outcome is None:
             if self._leg.outcome is None:
                 self._leg.end(Outcome.STOPPED)

@@ -25,7 +25,6 @@ class General(Smoother):
     title = "General (GETMe, then an optimiser)"
     help = "GETMe; then global Newton if hexes are of similar size and none is inverted, else local steepest descent."
     source = "Wilson 5.1, Algorithm 5.1"
-    uses = ("getme", "global-nr", "local-sd")
     optimises = True
 
     sufficient: float = parameter(

@@ -52,7 +52,6 @@ class Mend(Smoother):
     help = "Untangles whatever its fixed nodes allow, then goes to the optimum. Never ends worse than it began."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     optimises = True
-    uses = ("local-sd",)
 
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from abc import ABC, abstractmethod
 from collections.abc import Generator
 from dataclasses import dataclass
@@ -31,8 +32,6 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
     #: Whether it goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
-    #: Names of the methods that this one may hand over to.
-    uses: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:
@@ -53,12 +52,46 @@ class Smoother(Parametrised, ABC):
         return {"name": cls.name, "title": cls.title, "help": cls.help, "source": cls.source, "parameters": parameters}
 
 
+log = logging.getLogger(__name__)
+
 S = TypeVar("S", bound=type[Smoother])
 
-METHODS: Registry[type[Smoother]] = Registry("method")
+#: The entry-point group through which other distributions add theirs: entries name a module or a smoother's class.
+GROUP = "hexmend.smoothers"
+
+
+def add_third_parties() -> None:
+    """Load the smoothers of other distributions; one that cannot be loaded is told of, and the others go on."""
+    from importlib.metadata import entry_points
+
+    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+        try:
+            found = entry.load()  # a module announces its smoothers itself, by `method`
+            if isinstance(found, type) and found not in METHODS.values():
+                method(found)
+        except (Exception, SystemExit) as error:  # whatever is wrong with it, the rest of the program is not to blame
+            of = entry.dist.name if entry.dist else "an unknown distribution"
+            said = " ".join(f"{type(error).__name__}: {error}".split())
+            log.warning("hexmend: the method %s of %s is left out: %s", entry.name, of, said)
+
+
+METHODS: Registry[type[Smoother]] = Registry("method", add_third_parties)
 
 
 def method(cls: S) -> S:
-    """Class decorator: register a smoother under its name."""
+    """Class decorator: register a smoother under its name.
+
+    Raises
+    ------
+    TypeError
+        Where the class does not say what every method says of itself.
+    ValueError
+        Where another method has its name.
+    """
+    if not issubclass(cls, Smoother):
+        raise TypeError(f"{cls.__name__} is no hexmend.Smoother")
+    for word in ("name", "title", "help", "source"):
+        if not isinstance(getattr(cls, word, None), str):
+            raise TypeError(f"{cls.__name__} has no {word}: expected a text in the class")
     METHODS.add(cls.name, cls)
     return cls

@@ -9,8 +9,9 @@ from importlib.metadata import entry_points
 from statistics import median
 from typing import Any
 
-import numba
+import numpy as np
 
+from hexmend import kernels
 from hexmend.gallery import make
 from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
@@ -49,10 +50,11 @@ def machine() -> dict[str, Any]:
     return {
         "processor": _processor(),
         "cores": os.cpu_count(),
-        "threads": numba.get_num_threads(),
+        "threads": kernels.threads(),
+        "kernels": kernels.BUILD,
         "system": platform.platform(),
         "python": platform.python_version(),
-        "numba": numba.__version__,
+        "numpy": np.__version__,
     }
 
 

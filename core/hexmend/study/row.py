@@ -106,7 +106,7 @@ def run_one(mesh: Mesh, smoother: Smoother | Recipe, stop: Stop, watch: Watch | 
                 run.close()
     except KeyboardInterrupt:
         go_on = False
-        if run is None:  # while it was compiled or prepared
+        if run is None:  # while it was prepared
             words = "Stopped by the user before its first iteration."
             return Row(name, values, Outcome.STOPPED.key, words, mesh, summarise(mesh)), go_on
         run.close()

@@ -9,6 +9,11 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 
+#if defined(__linux__)
+#include <cxxabi.h>
+#include <unistd.h>
+#endif
+
 #include "../rows.hpp"
 
 namespace nanobind::detail {
@@ -72,7 +77,33 @@ namespace hexmend {
 namespace nb = nanobind;
 using namespace nb::literals;
 
+// Gives the interpreter's lock away while it lives.
+//
+// A thread that comes back from a kernel while the interpreter is being shut down never gets the lock again: Python
+// before 3.14 ends it by pthread_exit, whose unwinding would end the process with an error. It sleeps until the process
+// is gone instead, as it does from 3.14 on.
+class WithoutLock {
+  public:
+    WithoutLock() : state_(PyEval_SaveThread()) {}
+    WithoutLock(const WithoutLock &) = delete;
+    WithoutLock &operator=(const WithoutLock &) = delete;
+#if defined(__GLIBCXX__) && defined(__linux__)
+    ~WithoutLock() {
+        try {
+            PyEval_RestoreThread(state_);
+        } catch (abi::__forced_unwind &) {
+            for (;;) pause();
+        }
+    }
+#else
+    ~WithoutLock() { PyEval_RestoreThread(state_); }
+#endif
+
+  private:
+    PyThreadState *state_;
+};
+
 // Kernels run without the interpreter's lock, so that a window stays alive beside them.
-using Unlocked = nb::call_guard<nb::gil_scoped_release>;
+using Unlocked = nb::call_guard<WithoutLock>;
 
 }  // namespace hexmend

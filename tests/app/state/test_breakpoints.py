@@ -16,7 +16,7 @@ from hexmend_app.state.document import State
 from hexmend_app.state.run import Phase
 from hexmend_app.state.session import Session
 from tests.core.grids import grid, scrambled
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 MESH = gallery.make("bridge-sharp", size=500)  # Laplacian inverts hexes of it
 
@@ -85,7 +85,7 @@ def test_a_run_pauses_at_the_iteration_and_not_before_or_after(session, run, qtb
     smoothing = session.smoothing
     smoothing.break_at(Breakpoints(inverts=True))
     pauses = [b.number for a, b in pairwise(run) if Breakpoints(inverts=True).hit(a, b, 1.0)]
-    with qtbot.waitSignal(smoothing.hit, timeout=FIRST_RUN) as hit:
+    with qtbot.waitSignal(smoothing.hit, timeout=PATIENCE) as hit:
         smoothing.start(Laplacian(), Stop(max_iterations=15, tolerance=0))
     assert hit.args[0].iteration.number == pauses[0]
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
@@ -104,7 +104,7 @@ def test_a_run_pauses_at_the_iteration_and_not_before_or_after(session, run, qtb
 def test_break_points_can_be_set_while_it_runs(session, qtbot):
     session.document.replace(State.of(scrambled(grid(6), 0.4)), Path("b.vtu"))
     session.smoothing.start(Laplacian(), Stop(max_iterations=10**6, tolerance=0))
-    qtbot.waitUntil(lambda: session.smoothing.phase is Phase.RUNNING, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: session.smoothing.phase is Phase.RUNNING, timeout=PATIENCE)
     node = int(np.flatnonzero(session.document.now.mesh.free)[0])
     with qtbot.waitSignal(session.smoothing.hit, timeout=5000):
         session.smoothing.break_at(Breakpoints(hex=0, change=-1.0, node=node))

@@ -14,7 +14,7 @@ from hexmend_app.state.look import Since
 from hexmend_app.state.movement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Moment, Movement
 from hexmend_app.state.session import Session
 from tests.core.grids import grid, scrambled
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 MESH = grid(5)
 
@@ -61,7 +61,7 @@ def session(qtbot):
 
 
 def run(qtbot, session):
-    with qtbot.waitSignal(session.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
         session.smoothing.start(LocalSteepestDescent(), Stop(max_iterations=12, tolerance=0))
     return session.smoothing.record
 

@@ -16,7 +16,7 @@ from hexmend_app.state.history import History
 from hexmend_app.state.run import Phase, Smoothing
 from hexmend_app.state.worker import Mailbox
 from tests.core.grids import grid, scrambled
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 SLOW = Stop(tolerance=0, max_iterations=100_000)
 
@@ -56,7 +56,7 @@ def phase_is(smoothing, phase):
 
 def test_a_run_ends_where_the_command_line_ends(document, smoothing, qtbot):
     expected = smooth(document.now.mesh, LocalSteepestDescent())
-    with qtbot.waitSignal(smoothing.ended, timeout=FIRST_RUN) as ended:
+    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
         smoothing.start(LocalSteepestDescent(), Stop())
     (result,) = ended.args
     assert result.outcome is expected.outcome
@@ -72,7 +72,7 @@ def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtb
     seen = []
     smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
     smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
     for count in (2, 3):
         smoothing.step()
         qtbot.waitUntil(lambda count=count: seen[-1:] == [count], timeout=5000)
@@ -91,7 +91,7 @@ def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtb
 
 def test_stop_keeps_what_was_reached(document, smoothing, qtbot):
     smoothing.start(LocalSteepestDescent(), SLOW)
-    qtbot.waitUntil(phase_is(smoothing, Phase.RUNNING), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase_is(smoothing, Phase.RUNNING), timeout=PATIENCE)
     with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
         smoothing.stop()
     (result,) = ended.args
@@ -101,7 +101,7 @@ def test_stop_keeps_what_was_reached(document, smoothing, qtbot):
 
 def test_stop_ends_a_paused_run(document, smoothing, qtbot):
     smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
-    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=FIRST_RUN)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
     with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
         smoothing.stop()
     assert ended.args[0].iterations == 1
@@ -120,7 +120,7 @@ def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
 
 def test_a_method_that_raises_leaves_the_document_as_it_was(document, smoothing, qtbot):
     before = document.now
-    with qtbot.waitSignal(smoothing.failed, timeout=FIRST_RUN) as failed:
+    with qtbot.waitSignal(smoothing.failed, timeout=PATIENCE) as failed:
         smoothing.start(Failing(), SLOW)
     assert isinstance(failed.args[0], ZeroDivisionError)
     assert document.now is before
@@ -142,18 +142,18 @@ def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing,
     smoothing.iterated.connect(frames.append)
     smoothing.want({"condition"})
     smoothing.start(LocalSteepestDescent(), Stop(), iterations=1)
-    qtbot.waitUntil(lambda: len(frames) == 1, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: len(frames) == 1, timeout=PATIENCE)
     assert "condition" in measured._known[frames[0].state.figures]
     assert smoothing.record.name == "local-sd"
     smoothing.want({"taper", "q"})  # in the middle of a run
     smoothing.step()
-    qtbot.waitUntil(lambda: len(frames) == 2, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: len(frames) == 2, timeout=PATIENCE)
     assert set(measured._known[frames[1].state.figures]) == {"taper", "q"}
 
 
 def test_stop_is_answered_within_one_iteration(document, smoothing, qtbot):
     smoothing.start(LocalSteepestDescent(), SLOW)
-    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 3, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 3, timeout=PATIENCE)
     with qtbot.waitSignal(smoothing.ended, timeout=5000):
         smoothing.stop()
         begun = smoothing.record.newest

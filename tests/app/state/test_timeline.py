@@ -12,7 +12,7 @@ from hexmend_app.state.document import State
 from hexmend_app.state.run import Phase
 from hexmend_app.state.session import Session
 from tests.core.grids import grid, scrambled
-from tests.said import FIRST_RUN
+from tests.patience import PATIENCE
 
 ENDLESS = Stop(tolerance=0, max_iterations=1_000_000)
 
@@ -26,7 +26,7 @@ def session(qtbot):
 
 
 def run(qtbot, session, smoother=None, iterations=12):
-    with qtbot.waitSignal(session.smoothing.ended, timeout=FIRST_RUN):
+    with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
         session.smoothing.start(smoother or LocalSteepestDescent(), Stop(max_iterations=iterations, tolerance=0))
     return session.smoothing.record
 
@@ -78,7 +78,7 @@ def test_a_branch_goes_on_from_the_iteration_shown_and_is_undone_alone(session, 
 def test_one_looks_back_while_the_run_goes_on(session, qtbot):
     timeline, smoothing = session.timeline, session.smoothing
     smoothing.start(LocalSteepestDescent(), ENDLESS)
-    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 20, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 20, timeout=PATIENCE)
     timeline.go(smoothing.record, 3)
     assert not timeline.live
     newest = smoothing.record.newest
@@ -97,7 +97,7 @@ def test_one_looks_back_while_the_run_goes_on(session, qtbot):
 def test_a_paused_run_goes_on_from_its_newest_iteration(session, qtbot):
     timeline, smoothing = session.timeline, session.smoothing
     smoothing.start(LocalSteepestDescent(), ENDLESS, iterations=8)
-    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=FIRST_RUN)
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     timeline.go(smoothing.record, 2)
     smoothing.step(4)
     qtbot.waitUntil(lambda: timeline.moment.number == 12, timeout=5000)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable
 from time import monotonic
@@ -9,11 +10,16 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
+    import rich.progress
+
     from hexmend.optimise import Iteration
     from hexmend.run import Run
 
 #: Seconds between plain lines, and of iterations before the first of them: a short run says nothing.
 EVERY = 4.0
+
+#: Seconds after which a line is drawn on a terminal: what draws it takes time to load.
+AFTER = 0.4
 
 
 class Progress:
@@ -23,10 +29,7 @@ class Progress:
     """
 
     def __enter__(self) -> Self:
-        from rich.console import Console
-
-        console = Console(stderr=True, highlight=False)
-        self._display = _Live(console) if console.is_terminal else _Lines()
+        self._display = _Live() if sys.stderr.isatty() or os.environ.get("FORCE_COLOR") else _Lines()
         return self
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
@@ -42,16 +45,13 @@ def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: No
 
     `watch` is called with every iteration.
     """
-    interrupted = False
-    with Progress() as progress:
-        try:
+    try:
+        with Progress() as progress:
             for iteration in run:
                 watch(iteration)
                 progress.show(run)
-        except KeyboardInterrupt:
-            run.close()
-            interrupted = True
-    if interrupted:
+    except KeyboardInterrupt:
+        run.close()
         print("Interrupted: what was reached so far is kept.", file=sys.stderr)
 
 
@@ -73,27 +73,18 @@ def described(run: Run) -> str:
 class _Live:
     """A line that changes in place, and vanishes at the end."""
 
-    def __init__(self, console: object):
-        from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-        from rich.table import Column
-
-        self._line = Progress(
-            SpinnerColumn(table_column=Column(no_wrap=True)),
-            TimeElapsedColumn(table_column=Column(no_wrap=True)),
-            TextColumn(
-                "{task.fields[method]} {task.completed:,} of {task.total:,}: {task.description}",
-                table_column=Column(no_wrap=True, ratio=1),  # what gives way where the terminal is narrow
-            ),
-            console=console,
-            expand=True,
-            transient=True,
-            redirect_stdout=sys.stdout.isatty(),  # else what is printed meanwhile would go the line's way
-        )
-        self._line.start()
+    def __init__(self):
+        self._due = monotonic() + AFTER
+        self._line = None
         self._run: Run | None = None
         self._task = None
 
     def show(self, run: Run) -> None:
+        if self._line is None:
+            if monotonic() < self._due:
+                return
+            self._line = _drawn_line()
+            self._line.start()
         if run is not self._run:
             if self._task is not None:
                 self._line.remove_task(self._task)
@@ -104,7 +95,27 @@ class _Live:
         )
 
     def close(self) -> None:
-        self._line.stop()
+        if self._line is not None:
+            self._line.stop()
+
+
+def _drawn_line() -> rich.progress.Progress:
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+    from rich.table import Column
+
+    return Progress(
+        SpinnerColumn(table_column=Column(no_wrap=True)),
+        TimeElapsedColumn(table_column=Column(no_wrap=True)),
+        TextColumn(
+            "{task.fields[method]} {task.completed:,} of {task.total:,}: {task.description}",
+            table_column=Column(no_wrap=True, ratio=1),  # what gives way where the terminal is narrow
+        ),
+        console=Console(stderr=True, highlight=False),
+        expand=True,
+        transient=True,
+        redirect_stdout=sys.stdout.isatty(),  # else what is printed meanwhile would go the line's way
+    )
 
 
 class _Lines:
@@ -114,7 +125,7 @@ class _Lines:
         self._due: float | None = None
 
     def show(self, run: Run) -> None:
-        if self._due is None:  # compiling, before the first iteration, does not count
+        if self._due is None:  # preparing, before the first iteration, does not count
             self._due = monotonic() + EVERY
         if monotonic() >= self._due:
             at = f"iteration {run.last.number:,} of at most {run.limit:,}, {run.last.seconds:.0f} s"

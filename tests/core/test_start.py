@@ -1,0 +1,82 @@
+"""What a command imports: a process that pays for what it does not use is slow from its first moment."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from hexmend import gallery, io
+
+#: Loaded for a few commands alone, and how long it takes.
+HEAVY = {
+    "scipy": "0.2 s",
+    "matplotlib": "0.3 s",
+    "meshlane": "0.1 s",
+    "rich": "0.1 s",
+    "importlib.metadata": "0.04 s",
+    "tomllib": "", "tomli_w": "",
+    "numba": "", "llvmlite": "",
+    "PySide6": "", "vtkmodules": "", "pyvista": "",
+}  # fmt: skip
+NUMERICAL = {"numpy", "hexmend.kernels", "hexmend.mesh", *HEAVY}
+RUNNING = {"hexmend.smoothers", "hexmend.energy", "hexmend.run"}
+PROGRAM = """
+import sys
+from hexmend.cli.main import main
+status = main(sys.argv[1:])
+print("modules:", *sys.modules)
+sys.exit(status)
+"""
+SMOOTH = ["smooth", "{mesh}", "-o", "{out}.vtk"]
+
+
+def program(*words):
+    done = subprocess.run([sys.executable, "-c", PROGRAM, *words], capture_output=True, text=True)
+    said, _, modules = done.stdout.rpartition("modules:")
+    assert done.returncode == 0, done.stderr
+    return said, modules.split()
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("start")
+    mesh = gallery.make("cube", size=64, scramble=0.2)
+    for suffix in (".vtk", ".vtu", ".mesh", ".meshb"):
+        io.write(path / f"mesh{suffix}", mesh)
+    return path
+
+
+@pytest.mark.parametrize(("words", "forbidden"), [
+    (["--version"], NUMERICAL | {"argparse", "typing", "dataclasses", "pathlib", "inspect"}),
+    (["--help"], NUMERICAL - {"importlib.metadata"}),  # which knows the commands of others
+    (["methods", "--json"], HEAVY.keys() - {"importlib.metadata"}),
+    (["gallery"], HEAVY.keys() | RUNNING),
+    (["gallery", "plane", "--size", "700", "-o", "{out}.vtk"], HEAVY.keys() | RUNNING),
+    (["info", "{mesh}.mesh"], HEAVY.keys() | RUNNING),
+    (["info", "{mesh}.meshb", "--json"], HEAVY.keys() | RUNNING),
+    (["info", "{mesh}.vtk", "--metrics"], HEAVY.keys() | RUNNING),
+    (["info", "{mesh}.vtu"], HEAVY.keys() - {"meshlane", "rich", "importlib.metadata"} | RUNNING),
+    ([*SMOOTH, "--method", "mend", "--json", "{out}.json", "--history", "{out}.csv"], HEAVY.keys()),
+    ([*SMOOTH, "--method", "local-sd", "--save-recipe", "{out}.toml"], HEAVY.keys() - {"tomli_w"}),
+    *(([*SMOOTH, "--method", method], HEAVY.keys()) for method in (
+        "local-nr", "local-mnr", "laplacian", "smart-laplacian", "getme", "getme-sequential", "global-sd",
+    )),
+])  # fmt: skip
+def test_a_command_imports_what_it_uses(folder, tmp_path, words, forbidden):
+    words = [word.format(mesh=folder / "mesh", out=tmp_path / "out") for word in words]
+    words = [f"{word}.vtk" if word == str(folder / "mesh") else word for word in words]
+    _, modules = program(*words)
+    assert forbidden & set(modules) == set()
+
+
+def test_help_still_names_the_commands_of_the_viewer():
+    said, _ = program("--help")
+    assert {"info", "smooth", "render", "film", "view"} <= {line.split()[0] for line in said.splitlines() if line}
+
+
+def test_a_method_that_needs_scipy_finds_it(folder, tmp_path):
+    words = ["smooth", str(folder / "mesh.vtk"), "-o", str(tmp_path / "out.vtk"), "--method", "global-mnr"]
+    said, _ = program(*words, "--json", str(tmp_path / "out.json"))
+    assert "no hex is inverted" in said
+    assert json.loads((tmp_path / "out.json").read_text())["method"] == "global-mnr"
