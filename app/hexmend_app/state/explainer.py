@@ -6,7 +6,6 @@ from PySide6.QtCore import QObject, QThread, Signal
 
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep, explain
-from hexmend.run import one_blas_thread
 from hexmend.smoothers import Smoother
 from hexmend_app.state.standing_back import stand_back
 
@@ -25,8 +24,7 @@ class _Explaining(QThread):
         """What the thread does; everything that goes wrong ends in `error`."""
         try:
             stand_back()
-            with one_blas_thread():
-                self.step = explain(*self.question)
+            self.step = explain(*self.question)
         except Exception as error:  # whatever it is, the window has to say it
             self.error = error
 

@@ -19,7 +19,6 @@ from typing import Any
 
 import numba
 
-
 # Threads that wait for others sleep after some microseconds. OpenMP's own way, to spin, keeps the thread that is waited
 # for off its core wherever another process (or this one's window) wants one too: twenty times slower on a busy machine.
 # Read as the first parallel kernel runs; what the user has set stands.

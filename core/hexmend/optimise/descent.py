@@ -10,6 +10,7 @@ from hexmend.energy import MeshEnergy, energies
 from hexmend.kernels.reach import shorten
 from hexmend.optimise.direction import Direction, Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
+from hexmend.optimise.vectors import dot, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,20 +75,20 @@ def descend(
     if not np.isfinite(value):
         return None
     gradient = energy.gradient(x, delta)
-    norm = float(np.linalg.norm(gradient))
+    length = norm(gradient)
     if perfect(value, energy.mesh.n_hexes):
-        return Descent(x, value, 0.0, norm, Found(np.zeros_like(gradient)), 0.0, 0)
+        return Descent(x, value, 0.0, length, Found(np.zeros_like(gradient)), 0.0, 0)
     hessian = energy.hessian(x, delta)
     found = find(value, gradient, hessian)  # A.2, A.3, A.4
     if np.isfinite(reach):
         ring = energy.mesh.topology.rings
         shorten(found.p, x, ring.start, ring.items, energy.nodes, reach)
         _restrain(energy, x, delta, found.p)
-    if not np.vdot(found.p, gradient) < 0:
+    if not dot(found.p, gradient) < 0:
         found = steepest_descent(value, gradient, hessian)
-    slope = float(np.vdot(found.p, gradient))
+    slope = dot(found.p, gradient)
     alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, alpha * found.p), delta), value, slope)  # A.5
-    return Descent(energy.moved(x, alpha * found.p), value, slope, norm, found, alpha, cuts)
+    return Descent(energy.moved(x, alpha * found.p), value, slope, length, found, alpha, cuts)
 
 
 #: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others.

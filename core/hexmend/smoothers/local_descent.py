@@ -21,7 +21,7 @@ class LocalDescent(Smoother):
     """One line-searched step per free node, sweep after sweep, on the node's patch scaled to unit mean edge length."""
 
     optimises = True
-    #: Search direction, one of `hexmend.numba_kernels.local`.
+    #: Search direction, one of `hexmend.kernels.local`.
     direction: ClassVar[int]
 
     p: float = parameter(

@@ -7,55 +7,15 @@ from statistics import median
 from time import perf_counter
 from typing import Any
 
-import numba
 import numpy as np
 
-from hexmend.energy import Couplings, MeshEnergy, energies
+from hexmend.energy import Couplings, MeshEnergy
 from hexmend.gallery import make
-from hexmend.numba_kernels import hexahedron, local, objective, serial, tetrahedron
-from hexmend.numba_kernels.elements import load
-from hexmend.quality import measure
+from hexmend.kernels import elements, local, objective, plain, set_threads, threads
 from hexmend.study.section import Section
 
 #: How often each is timed.
 _TIMES = 15
-
-
-@serial
-def _plain_energies(points, hexes, delta, eta):
-    x = np.empty((8, 3))
-    for h in range(hexes.shape[0]):
-        load(points, hexes, h, x)
-        total = 0.0
-        for t in range(8):
-            ux, uy, uz, vx, vy, vz, wx, wy, wz = hexahedron.corner_edges(x, t)
-            f, square, _, _ = tetrahedron.energy(ux, uy, uz, vx, vy, vz, wx, wy, wz, delta, 1.0)
-            total += f * square
-        eta[h] = max(total / 8 - 1, 0.0)
-
-
-@serial
-def _plain_gradient(points, hexes, delta, p, blocks):
-    x, g = np.empty((8, 3)), np.empty((8, 3))
-    for h in range(hexes.shape[0]):
-        load(points, hexes, h, x)
-        first, _ = hexahedron.weights(hexahedron.gradient(x, delta, 0, g), p)
-        for c in range(8):
-            for k in range(3):
-                blocks[h, c, k] = first * g[c, k]
-
-
-@serial
-def _plain_product(points, hexes, slots, values, delta, p, blocks):
-    x, v, g, hv = np.empty((8, 3)), np.empty((8, 3)), np.empty((8, 3)), np.empty((8, 3))
-    for h in range(hexes.shape[0]):
-        load(points, hexes, h, x)
-        for c in range(8):
-            i = slots[h, c]
-            for k in range(3):
-                v[c, k] = values[i, k] if i >= 0 else 0.0
-        hexahedron.product(x, v, delta, p, 0, g, hv)
-        blocks[h] = hv
 
 
 def _seconds(call: Callable[[], Any]) -> float:
@@ -71,60 +31,52 @@ def _seconds(call: Callable[[], Any]) -> float:
 def _kernels() -> dict[str, Any]:
     mesh = make("bridge-sharp")
     energy = MeshEnergy(mesh)
-    x, m = energy.scaled(mesh.points), mesh.n_hexes
-    x.flags.writeable = False
+    x, hexes, m = energy.scaled(mesh.points), mesh.hexes, mesh.n_hexes
     hessian, none = energy.hessian(x), energy.left_out
-    gradient, blocks, eta = energy.gradient(x), np.empty((m, 8, 3)), np.empty(m)
+    gradient, shares, figures = energy.gradient(x), np.empty((m, 8, 3)), np.empty((4, m))
     matrix, right = hessian.assembled(), -gradient.ravel()
-    one, all_threads = 1, numba.get_num_threads()
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
 
-    def iteration() -> None:
-        matrix.solve(right, 0.0, 20)
+    def sweep(by: Callable[..., None]) -> None:
+        by(
+            x.copy(), hexes, corners.start, corners.items, colours.start, colours.items,
+            local.STEEPEST_DESCENT, 0.0, 2.0, 1.0, 0.7, 1e-4, 60,
+        )  # fmt: skip
 
+    # Of a kernel: itself and the plain loop, and how often the call repeats it.
     rows: list[tuple[str, Callable[[], Any], Callable[[], Any] | None, float]] = [
-        ("quality", lambda: measure(x, mesh.hexes), None, 1),
-        ("energy", lambda: energies(x, mesh.hexes), lambda: _plain_energies(x, mesh.hexes, 0.0, eta), 1),
-        (
-            "gradient",
-            lambda: objective.gradient(x, mesh.hexes, 0.0, 2.0, none, blocks),
-            lambda: _plain_gradient(x, mesh.hexes, 0.0, 2.0, blocks),
-            1,
-        ),
-        (
-            "hessian product, by formulas",
-            lambda: objective.hessian_product(x, mesh.hexes, energy.slots, gradient, 0.0, 2.0, none, blocks),
-            lambda: _plain_product(x, mesh.hexes, energy.slots, gradient, 0.0, 2.0, blocks),
-            1,
+        ("quality", lambda: elements.measure(x, hexes, *figures), None, 1),
+        *(
+            (name, lambda call=call: call(objective), lambda call=call: call(plain), 1)
+            for name, call in (
+                ("energy", lambda by: by.energies(x, hexes, 0.0, none, figures[0])),
+                ("gradient", lambda by: by.gradient(x, hexes, 0.0, 2.0, none, shares)),
+                (
+                    "hessian product, by formulas",
+                    lambda by: by.hessian_product(x, hexes, energy.slots, gradient, 0.0, 2.0, none, shares),
+                ),
+            )
         ),
         ("hessian product, assembled", lambda: matrix @ right, None, 1),
         ("hessian, assembling", hessian.assembled, None, 1),
-        ("conjugate gradients, an iteration", iteration, None, 20),
-        ("local sweep, steepest descent", lambda: _sweep(energy, x), None, 1),
+        ("conjugate gradients, an iteration", lambda: matrix.solve(right, 0.0, 20), None, 20),
+        ("local sweep, steepest descent", lambda: sweep(local.sweep), lambda: sweep(plain.sweep), 1),
     ]
-    figures = {}
+    all_threads, answer = threads(), {}
     try:
-        for name, call, plain, times in rows:
-            numba.set_num_threads(one)
-            alone, reference = _seconds(call) / times, _seconds(plain) if plain else None
-            numba.set_num_threads(all_threads)
-            figures[name] = {
+        for name, call, reference, times in rows:
+            set_threads(1)
+            alone, plainly = _seconds(call) / times, _seconds(reference) if reference else None
+            set_threads(all_threads)
+            answer[name] = {
                 "ns_per_tetrahedron": alone / (8 * m) * 1e9,
                 "ns_per_tetrahedron_all_threads": _seconds(call) / times / (8 * m) * 1e9,
-                "ns_per_tetrahedron_plain": reference and reference / (8 * m) * 1e9,
-                "ratio": reference and reference / alone,
+                "ns_per_tetrahedron_plain": plainly and plainly / (8 * m) * 1e9,
+                "ratio": plainly and plainly / alone,
             }
     finally:
-        numba.set_num_threads(all_threads)
-    return {"hexes": m, "kernels": figures}
-
-
-def _sweep(energy: MeshEnergy, x: np.ndarray) -> None:
-    mesh, moved = energy.mesh, x.copy()
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
-    local.sweep(
-        moved, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-        local.STEEPEST_DESCENT, 0.0, 2.0, 1.0, 0.7, 1e-4, 60,
-    )  # fmt: skip
+        set_threads(all_threads)
+    return {"hexes": m, "kernels": answer}
 
 
 def _kernel_lines(figures: dict[str, Any]) -> list[str]:
@@ -149,9 +101,11 @@ def _preconditioners() -> dict[str, Any]:
         mesh = make("five-side", size=size, scramble=0.05)
         energy = MeshEnergy(mesh)
         x = energy.scaled(mesh.points)
-        right, parts = -energy.gradient(x).ravel(), energy.couplings.pattern[0]
-        for name, part in (("block Jacobi", 1), ("Gauss-Seidel, in parts", parts), ("Gauss-Seidel, whole", 10**9)):
-            energy.couplings = Couplings(mesh, part)
+        right = -energy.gradient(x).ravel()
+        for parts in (None, 1):
+            energy.couplings = Couplings(mesh, parts)
+            made = energy.couplings.bounds.size // 2
+            name = "Gauss-Seidel, whole" if made == 1 else f"Gauss-Seidel, {made} parts"
             matrix = energy.hessian(x).assembled()
             for residual in _RESIDUALS:
                 began = perf_counter()
