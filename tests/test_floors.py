@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 CORE = [
     {"errors", "hexahedron"},
     {"parameters", "registry"},
-    {"kernels", "numba_kernels"},
+    {"kernels"},
     {"topology"},
     {"mesh"},
     {"quality", "structure"},
