@@ -101,8 +101,8 @@ def test_more_than_64_colours_are_given_as_greedily_as_the_first():
 
 
 def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
-    at = Couplings(MESH, part=100)
-    part, rows, columns, inner_end, across_start, across_block, across_slot = at.pattern
+    at = Couplings(MESH, parts=2)
+    _, rows, columns = at.pattern
     pairs = at.slots[:, [(a, b) for a in range(8) for b in range(8)]].reshape(-1, 2)
     pairs = pairs[(pairs[:, 0] >= 0) & (pairs[:, 1] > pairs[:, 0])]
     start, expected = by_node(pairs, at.nodes.size)
@@ -116,17 +116,6 @@ def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
     np.testing.assert_array_equal(at.target[~free], -1)
     np.testing.assert_array_equal(row[at.target[free]], ends[free][:, 0])
     np.testing.assert_array_equal(columns[at.target[free]], ends[free][:, 1])
-
-    inside = row // part == columns // part
-    np.testing.assert_array_equal(inner_end - rows[:-1], np.bincount(row[inside], minlength=at.nodes.size))
-    blocks = np.flatnonzero(~inside)
-    across = np.vstack([np.column_stack([row, columns])[blocks], np.column_stack([columns, row])[blocks]])
-    order = np.lexsort(across.T[::-1])
-    np.testing.assert_array_equal(across_start, np.searchsorted(across[order, 0], np.arange(at.nodes.size + 1)))
-    np.testing.assert_array_equal(np.sort(across_block), np.sort(np.tile(blocks, 2)))
-    mine = np.repeat(np.arange(at.nodes.size), np.diff(across_start))
-    np.testing.assert_array_equal(np.minimum(mine, across_slot), row[across_block])
-    np.testing.assert_array_equal(np.maximum(mine, across_slot), columns[across_block])
 
 
 def test_two_corners_that_are_one_node_add_to_its_own_block():
@@ -150,3 +139,4 @@ def test_no_hexes_are_no_trouble():
         ends, valence, outside = structure.edges(hexes, start, corners, neighbours)
         assert (ends.shape, valence.size, outside.dtype) == ((0, 2), 0, bool)
     rows, columns = couplings.rows(hexes, np.empty(0, np.int32), start, corners)
+    assert (rows.tolist(), columns.size) == ([0], 0)
