@@ -178,29 +178,34 @@ void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t
     }
 }
 
+// The hexes of each share, one after another as they are taken: what is read of them lies in that order.
+struct Shared {
+    Indices bounds, start, chosen;
+    Hexes hexes, slots;
+    Targets target;
+};
+
 template <bool soft, class Real>
-void assemble_of(Points points, Hexes hexes, double delta, double p, std::span<const std::uint8_t> left_out,
-                 const Pattern &pattern, std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
-    parallel(static_cast<std::int64_t>(pattern.bounds.size()) - 1, [&](std::int64_t share) {
-        auto low = pattern.bounds[share], high = pattern.bounds[share + 1];
+void assemble_of(Points points, double delta, double p, Left left_out, const Shared &shared,
+                 std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
+    parallel(static_cast<std::int64_t>(shared.bounds.size()) - 1, [&](std::int64_t share) {
+        auto low = shared.bounds[share], high = shared.bounds[share + 1];
         auto sums = std::make_unique<Sums>();
         auto values = std::make_unique<Real[][ROOM]>(LANES);
-        for (auto begin = pattern.start[share]; begin < pattern.start[share + 1]; begin += LANES) {
-            auto some = pattern.chosen.subspan(begin, std::min(LANES, pattern.start[share + 1] - begin));
-            const Point *row[8][LANES];
+        for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
+            int count = std::min(LANES, shared.start[share + 1] - first);
+            auto x = gathered<Lanes>(points, shared.hexes, first, count);
             Bits bits{};
-            for (int i = 0; i < LANES; ++i) {
-                auto h = some[std::min<std::size_t>(i, some.size() - 1)];
-                bits[i] = left_out[h];
-                for (int c = 0; c < 8; ++c) row[c][i] = &points[hexes[h][c]];
-            }
-            Corners<Lanes> x;
-            for (int c = 0; c < 8; ++c) x.at[c] = detail::side_by_side(row[c]);
+            for (int i = 0; i < count; ++i) bits[i] = left_out[shared.chosen[first + i]];
+            // Where the blocks of these hexes are is far apart: asked for now, it is there when they are ready.
+            for (int i = 0; i < count; ++i)
+                for (auto s : shared.target[first + i])
+                    if (s >= 0) __builtin_prefetch(&off[s], 1), __builtin_prefetch(&off[s][8], 1);
             *sums = Sums{};
             unrolled<8>([&](auto t) { add<soft, t>(x, delta, (bits & (1LL << t)) == 0, *sums); });
             weigh<Real>(*sums, p, values.get());
-            for (std::size_t i = 0; i < some.size(); ++i)
-                scatter<Real>(values[i], pattern.slots[some[i]], pattern.target[some[i]], low, high, off, diagonal);
+            for (int i = 0; i < count; ++i)
+                scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off, diagonal);
         }
     });
 }
@@ -208,19 +213,17 @@ void assemble_of(Points points, Hexes hexes, double delta, double p, std::span<c
 }  // namespace
 
 template <class Real>
-void assemble(Points points, Hexes hexes, double delta, double p, std::span<const std::uint8_t> left_out, Hexes slots,
-              std::span<const std::array<std::int32_t, PAIRS>> target, Indices bounds, Indices start, Indices chosen,
-              std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
-    Pattern pattern{slots, target, bounds, start, chosen};
-    (delta > 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, hexes, delta, p, left_out, pattern, off,
-                                                                     diagonal);
+void assemble(Points points, double delta, double p, Left left_out, Indices bounds, Indices start, Indices chosen,
+              Hexes hexes, Hexes slots, Targets target, std::span<std::array<Real, 9>> off,
+              std::span<std::array<Real, 6>> diagonal) {
+    Shared shared{bounds, start, chosen, hexes, slots, target};
+    (delta > 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, p, left_out, shared, off, diagonal);
 }
 
-template void assemble<float>(Points, Hexes, double, double, std::span<const std::uint8_t>, Hexes,
-                              std::span<const std::array<std::int32_t, PAIRS>>, Indices, Indices, Indices,
-                              std::span<std::array<float, 9>>, std::span<std::array<float, 6>>);
-template void assemble<double>(Points, Hexes, double, double, std::span<const std::uint8_t>, Hexes,
-                               std::span<const std::array<std::int32_t, PAIRS>>, Indices, Indices, Indices,
-                               std::span<std::array<double, 9>>, std::span<std::array<double, 6>>);
+#define FOR_REAL(Real)                                                                                       \
+    template void assemble<Real>(Points, double, double, Left, Indices, Indices, Indices, Hexes, Hexes, Targets, \
+                                 std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>);
+FOR_REAL(float)
+FOR_REAL(double)
 
 }  // namespace hexmend

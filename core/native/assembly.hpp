@@ -4,19 +4,15 @@
 #pragma once
 
 #include "couplings.hpp"
+#include "objective.hpp"
 
 namespace hexmend {
 
-// Where the blocks of hexes go; see `assemble`.
-struct Pattern {
-    Hexes slots;
-    std::span<const std::array<std::int32_t, PAIRS>> target;
-    Indices bounds, start, chosen;
-};
+using Targets = std::span<const std::array<std::int32_t, PAIRS>>;
 
 template <class Real>
-void assemble(Points points, Hexes hexes, double delta, double p, std::span<const std::uint8_t> left_out, Hexes slots,
-              std::span<const std::array<std::int32_t, PAIRS>> target, Indices bounds, Indices start, Indices chosen,
-              std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal);
+void assemble(Points points, double delta, double p, Left left_out, Indices bounds, Indices start, Indices chosen,
+              Hexes hexes, Hexes slots, Targets target, std::span<std::array<Real, 9>> off,
+              std::span<std::array<Real, 6>> diagonal);
 
 }  // namespace hexmend

@@ -53,18 +53,21 @@ class Couplings:
         self.row_start, self.columns = kernels.rows(self.slots, self.nodes, corners.start, corners.items)
         self.target = np.empty((mesh.n_hexes, kernels.PAIRS), np.int32)
         kernels.targets(self.slots, self.row_start, self.columns, self.target)
-        self._shares: dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+        self._hexes = mesh.hexes
+        self._shares: dict[int, tuple[np.ndarray, ...]] = {}
 
-    def shares(self, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def shares(self, count: int) -> tuple[np.ndarray, ...]:
         """The slots in `count` shares, and the hexes at the slots of each, as `assembly.assemble` takes them."""
         if count not in self._shares:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
-            lowest = np.where(self.slots < 0, self.nodes.size, self.slots).min(axis=1)
+            slots, size = self.slots, self.nodes.size
+            lowest, highest = np.where(slots < 0, size, slots).min(axis=1), slots.max(axis=1)
             order = np.argsort(lowest, kind="stable").astype(np.int32)
-            slots = self.slots[order]
-            there = [order[((slots >= low) & (slots < high)).any(axis=1)] for low, high in itertools.pairwise(bounds)]
+            lowest, highest = lowest[order], highest[order]
+            there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]
             start = np.cumsum([0, *map(len, there)], dtype=np.int32)
-            self._shares[count] = bounds, start, np.concatenate(there)
+            chosen = np.concatenate(there)
+            self._shares[count] = bounds, start, chosen, self._hexes[chosen], slots[chosen], self.target[chosen]
         return self._shares[count]
 
     @property

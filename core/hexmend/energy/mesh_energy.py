@@ -152,17 +152,6 @@ class Hessian(SymmetricOperator):
         energy, couplings = self.energy, self.energy.couplings
         off = np.zeros((couplings.blocks + 1, 9), dtype)
         diagonal = np.zeros((couplings.nodes.size, 6), dtype)
-        assembly.assemble(
-            self.x,
-            energy.mesh.hexes,
-            self.delta,
-            energy.p,
-            energy.left_out,
-            couplings.slots,
-            couplings.target,
-            *couplings.shares(threads()),
-            off,
-            diagonal,
-        )
+        assembly.assemble(self.x, self.delta, energy.p, energy.left_out, *couplings.shares(threads()), off, diagonal)
         diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], dtype)
         return Assembled(couplings, off, diagonal)
