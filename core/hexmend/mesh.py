@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.hexahedron import EDGES
+from hexmend.kernels import elements
 from hexmend.topology import Topology
 
 
@@ -127,10 +127,7 @@ class Mesh:
     @cached_property
     def mean_edge_length(self) -> float:
         """Mean length of the hexes' edges, each counted once a hex."""
-        total = 0.0
-        for a, b in EDGES:
-            total += np.linalg.norm(self.points[self.hexes[:, a]] - self.points[self.hexes[:, b]], axis=1).sum()
-        return float(total / (12 * self.n_hexes))
+        return elements.mean_edge_length(self.points, self.hexes)
 
     def with_points(self, points: np.ndarray) -> Mesh:
         """The same mesh with its nodes elsewhere; connectivity, topology, sets and data are shared.

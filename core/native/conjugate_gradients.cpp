@@ -1,6 +1,9 @@
 #include "conjugate_gradients.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <tuple>
 
 #include "symmetric.hpp"
 #include "threads.hpp"
@@ -44,19 +47,27 @@ template <class Real> Symmetric widened(const std::array<Real, 6> &a) { return {
 
 // D: a diagonal block with its least eigenvalue raised as in Algorithm A.4; and D^-1.
 inline std::pair<Symmetric, Symmetric> positive(Symmetric a) {
+    auto inverse = [](const Symmetric &a) {
+        double cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.xz * a.yz - a.xy * a.zz, cxz = a.xy * a.yz - a.xz * a.yy;
+        double det = a.xx * cxx + a.xy * cxy + a.xz * cxz;
+        double cyy = a.xx * a.zz - a.xz * a.xz, cyz = a.xy * a.xz - a.xx * a.yz, czz = a.xx * a.yy - a.xy * a.xy;
+        return std::tuple(det, czz, (1 / det) * Symmetric{cxx, cxy, cxz, cyy, cyz, czz});
+    };
+    {
+        // Of most blocks no eigenvalue need be known: positive ones of sum t and product det are none below det/t^2.
+        auto [det, minor, inverted] = inverse(a);
+        double t = a.xx + a.yy + a.zz;
+        if (a.xx > 0 && minor > 0 && det >= 0.001 * t * t * t && std::isfinite(t)) return {a, inverted};
+    }
     auto [least, greatest] = extreme_eigenvalues(a);
     double size = std::max(std::abs(least), std::abs(greatest));
     if (size == 0) size = 1;
     // So small a D beside the blocks off the diagonal would make the triangular solves grow without bound.
     a.raise(least < 0 ? 0.5 * size - least : std::max(0.001 * size - least, 0.0));
-    double cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.xz * a.yz - a.xy * a.zz, cxz = a.xy * a.yz - a.xz * a.yy;
-    double det = a.xx * cxx + a.xy * cxy + a.xz * cxz;
-    if (!(det > 0)) {  // all but of rank 1 or 2: its scale alone
-        double one = 1 / size;
-        return {{size, 0, 0, size, 0, size}, {one, 0, 0, one, 0, one}};
-    }
-    Symmetric adjugate{cxx, cxy, cxz, a.xx * a.zz - a.xz * a.xz, a.xy * a.xz - a.xx * a.yz, a.xx * a.yy - a.xy * a.xy};
-    return {a, (1 / det) * adjugate};
+    auto [det, minor, inverted] = inverse(a);
+    if (det > 0) return {a, inverted};
+    double one = 1 / size;  // all but of rank 1 or 2: its scale alone
+    return {{size, 0, 0, size, 0, size}, {one, 0, 0, one, 0, one}};
 }
 
 template <class V> inline double dot(const V &a, const V &b) {
@@ -102,9 +113,9 @@ template <class Real, class Number = Real> class System {
     // From the first slot to the last: body(i, sum of the blocks left of the diagonal times what it returned there)
     // returns that for slot i, and what is to be summed over all. `w` is zero before and after; what two parts add to
     // one separator has a vector each.
-    template <class Body> double forward(std::vector<V> (&w)[2], const Body &body) {
+    template <class Body> double forward(V *const (&w)[2], const Body &body) {
         double total = over_parts([&](std::int32_t begin, std::int32_t end, int part) {
-            V *below = w[part % 2].data();
+            V *below = w[part % 2];
             double sum = 0;
             for (auto i = begin; i < end; ++i) {
                 auto [p, square] = body(i, std::exchange(below[i], V{}));
@@ -114,7 +125,7 @@ template <class Real, class Number = Real> class System {
             return sum;
         });
         return total + over_separators([&](std::int32_t begin, std::int32_t end, int) {
-            V *below = w[0].data(), *other = w[1].data();
+            V *below = w[0], *other = w[1];
             double sum = 0;
             for (auto i = begin; i < end; ++i) {
                 auto [p, square] = body(i, std::exchange(below[i], V{}) + std::exchange(other[i], V{}));
@@ -154,10 +165,23 @@ template <class Real> class Solver {
   public:
     using V = Vector<Real>;
 
-    Solver(System<Real> &system, std::span<const std::array<Real, 6>> diagonal, double damping)
-        : system_(system), positive_(system.size()), inverse_(system.size()), rest_(system.size()) {
-        for (auto *vector : {&residual_, &v_, &t_, &product_, &w_[0], &w_[1]}) vector->resize(system.size());
+    // Room that a system of so many slots needs, in numbers: three blocks and seven vectors a slot.
+    static constexpr std::int64_t room(std::int64_t slots) { return 64 * slots + 16; }
+
+    Solver(System<Real> &system, std::span<const std::array<Real, 6>> diagonal, double damping, std::span<Real> work)
+        : system_(system) {
+        void *free = work.data();
+        std::size_t left = work.size_bytes();
+        free = std::align(alignof(V), left - alignof(V), free, left);
+        auto take = [&](auto &array) {
+            using T = std::remove_reference_t<decltype(*array)>;
+            array = static_cast<T *>(free);
+            free = array + system.size();
+        };
+        take(positive_), take(inverse_), take(rest_);
+        for (auto *vector : {&residual_, &scaled_, &v_, &t_, &product_, &w_[0], &w_[1]}) take(*vector);
         everywhere([&](std::int32_t i) {
+            v_[i] = w_[0][i] = w_[1][i] = V{};
             Symmetric own = widened(diagonal[i]);
             auto [d, inverse] = positive(own);
             positive_[i] = block<Real>((1 + damping) * d);
@@ -173,7 +197,7 @@ template <class Real> class Solver {
     double start(std::span<const std::array<Real, 4>> right) {
         return system_.forward(w_, [&](std::int32_t i, const V &below) {
             residual_[i] = inverse_[i] * (loaded(right[i].data()) - below);
-            return std::pair{residual_[i], dot(residual_[i], positive_[i] * residual_[i])};
+            return std::pair{residual_[i], square_of_residual(i)};
         });
     }
 
@@ -181,9 +205,9 @@ template <class Real> class Solver {
     void turn(Real beta) {
         auto back = [&](std::int32_t begin, std::int32_t end, int) {
             for (auto i = end - 1; i >= begin; --i) {
-                V v = positive_[i] * residual_[i] + beta * v_[i];
+                V v = scaled_[i] + beta * v_[i];
                 v_[i] = v;
-                t_[i] = inverse_[i] * (v - system_.row_times(i, t_.data()));
+                t_[i] = inverse_[i] * (v - system_.row_times(i, t_));
             }
             return 0.0;
         };
@@ -206,7 +230,7 @@ template <class Real> class Solver {
             V there = loaded(x[i].data()) + alpha * t_[i];
             std::memcpy(x[i].data(), &there, sizeof there);
             residual_[i] -= alpha * product_[i];
-            return dot(residual_[i], positive_[i] * residual_[i]);
+            return square_of_residual(i);
         });
     }
 
@@ -222,10 +246,15 @@ template <class Real> class Solver {
 
   private:
     System<Real> &system_;
-    std::vector<Block<Real>> positive_, inverse_, rest_;
-    std::vector<V> residual_, v_, t_, product_;
+    Block<Real> *positive_, *inverse_, *rest_;
+    V *residual_, *scaled_, *v_, *t_, *product_;
     // What rows have added to those below them; two parts that add to one separator have a vector each.
-    std::vector<V> w_[2];
+    V *w_[2];
+
+    double square_of_residual(std::int32_t i) {
+        scaled_[i] = positive_[i] * residual_[i];
+        return dot(residual_[i], scaled_[i]);
+    }
 
     template <class Body> double everywhere(const Body &body) {
         auto over = [&](std::int32_t begin, std::int32_t end, int) {
@@ -244,9 +273,11 @@ template <class Real>
 std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
                           std::span<const std::array<Real, 6>> diagonal, double damping,
                           std::span<const std::array<Real, 4>> right, double tolerance, int most,
-                          std::span<std::array<Real, 4>> x) {
+                          std::span<std::array<Real, 4>> x, std::span<Real> work) {
     System<Real> system(bounds, row_start, columns, off);
-    Solver<Real> solver(system, diagonal, damping);
+    if (static_cast<std::int64_t>(work.size()) < Solver<Real>::room(system.size()))
+        throw std::invalid_argument("work is too small: 64 numbers a slot, and 16, are needed");
+    Solver<Real> solver(system, diagonal, damping, work);
     std::fill(x.begin(), x.end(), std::array<Real, 4>{});
     double square = solver.start(right);
     double goal = tolerance * tolerance * square, beta = 0;
@@ -271,7 +302,8 @@ void product(Indices bounds, Indices row_start, Indices columns, std::span<const
              std::span<std::array<double, 4>> y) {
     using V = Vector<double>;
     System<Real, double> system(bounds, row_start, columns, off);
-    std::vector<V> of(x.size()), w[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
+    std::vector<V> of(x.size()), below[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
+    V *const w[2] = {below[0].data(), below[1].data()};
     for (std::size_t i = 0; i < x.size(); ++i) of[i] = loaded(x[i].data());
     system.forward(w, [&](std::int32_t i, const V &below) {
         V there = block<double>(widened(diagonal[i])) * of[i] + system.row_times(i, of.data()) + below;
@@ -284,7 +316,7 @@ void product(Indices bounds, Indices row_start, Indices columns, std::span<const
     template std::pair<int, int> solve<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,        \
                                              std::span<const std::array<Real, 6>>, double,                           \
                                              std::span<const std::array<Real, 4>>, double, int,                      \
-                                             std::span<std::array<Real, 4>>);                                        \
+                                             std::span<std::array<Real, 4>>, std::span<Real>);                       \
     template void product<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,                     \
                                 std::span<const std::array<Real, 6>>, std::span<const std::array<double, 4>>,        \
                                 std::span<std::array<double, 4>>);

@@ -23,7 +23,7 @@ template <class Real>
 std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
                           std::span<const std::array<Real, 6>> diagonal, double damping,
                           std::span<const std::array<Real, 4>> right, double tolerance, int most,
-                          std::span<std::array<Real, 4>> x);
+                          std::span<std::array<Real, 4>> x, std::span<Real> work);
 
 template <class Real>
 void product(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,

@@ -1,5 +1,8 @@
 #include "elements.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "blocks.hpp"
 #include "tetrahedron.hpp"
 
@@ -48,6 +51,22 @@ void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> 
         put(worst, first, count, jacobian);
         put(greatest(energy * 0.125 - 1.0, all<Lanes>(0.0)), first, count, eta);  // (B.20)
     });
+}
+
+double mean_edge_length(Points points, Hexes hexes) {
+    std::vector<double> totals((hexes.size() + CHUNK - 1) / CHUNK);
+    parallel_chunks(hexes.size(), CHUNK, [&](std::int64_t begin, std::int64_t end) {
+        double total = 0;
+        for (auto first = begin; first < end; first += LANES) {
+            int count = static_cast<int>(std::min<std::int64_t>(LANES, end - first));
+            auto x = gathered<Lanes>(points, hexes, first, count);
+            Lanes lengths{};
+            for (auto &[from, to] : EDGES) lengths += length(x.at[to] - x.at[from]);
+            for (int i = 0; i < count; ++i) total += lengths[i];
+        }
+        totals[begin / CHUNK] = total;
+    });
+    return hexes.empty() ? 0.0 : std::accumulate(totals.begin(), totals.end(), 0.0) / (12.0 * hexes.size());
 }
 
 void corner_determinants(Points points, Hexes hexes, Rows<double, 8> sigma) {

@@ -1,5 +1,7 @@
 #include "reach.hpp"
 
+#include <algorithm>
+
 #include "blocks.hpp"
 
 namespace hexmend {
@@ -18,6 +20,12 @@ void shorten(std::span<Point> step, Points points, Indices ring_start, Indices r
                 for (double &x : step[k]) x *= furthest / far;
         }
     });
+}
+
+void displaced(Points points, Indices nodes, Points step, double alpha, std::span<Point> moved) {
+    std::copy(points.begin(), points.end(), moved.begin());
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+        for (int j = 0; j < 3; ++j) moved[nodes[k]][j] += alpha * step[k][j];
 }
 
 }  // namespace hexmend

@@ -1,4 +1,4 @@
-// How far the nodes may go in one step.
+// Steps of nodes: how far they may go, and where they lead.
 #pragma once
 
 #include "rows.hpp"
@@ -6,5 +6,7 @@
 namespace hexmend {
 
 void shorten(std::span<Point> step, Points points, Indices ring_start, Indices ring, Indices nodes, double reach);
+
+void displaced(Points points, Indices nodes, Points step, double alpha, std::span<Point> moved);
 
 }  // namespace hexmend

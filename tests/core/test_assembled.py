@@ -175,6 +175,7 @@ def test_how_a_solve_ended_is_told():
             1e-4,
             most,
             np.empty_like(right),
+            np.empty(64 * len(right) + 16, np.float32),
         )
 
     assert end(0.5, 100)[1] == conjugate_gradients.DONE

@@ -49,7 +49,20 @@ class Assembled(SymmetricOperator):
     def __init__(self, couplings: Couplings, off: np.ndarray, diagonal: np.ndarray):
         super().__init__(3 * couplings.nodes.size)
         self.couplings, self.off, self.diagonal = couplings, off, diagonal
-        self.order = np.argsort(couplings.nodes)  # the slot of each free node
+        self.order = couplings.order
+        self._work = np.empty(64 * couplings.nodes.size + 16, off.dtype)
+
+    def cleared(self) -> Assembled:
+        """The same room for another matrix, all zero; this one is gone."""
+        self.off.fill(0)
+        self.diagonal.fill(0)
+        return self
+
+    @classmethod
+    def zero(cls, couplings: Couplings, dtype: type) -> Assembled:
+        """A matrix of that pattern, all zero."""
+        off = np.zeros((couplings.blocks + 1, 9), dtype)
+        return cls(couplings, off, np.zeros((couplings.nodes.size, 6), dtype))
 
     def matvec(self, v: np.ndarray) -> np.ndarray:
         x = self._slotted(v, np.float64)
@@ -82,7 +95,7 @@ class Assembled(SymmetricOperator):
         b = self._slotted(right, self.off.dtype)
         x = np.empty_like(b)
         count, end = kernels.solve(
-            *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x
+            *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x, self._work
         )
         return Solved(x[self.order, :3].astype(np.float64).ravel(), count, end == kernels.NEGATIVE_CURVATURE)
 

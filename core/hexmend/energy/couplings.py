@@ -31,6 +31,8 @@ class Couplings:
         The node in each slot.
     bounds : (2 parts,) int32
         Where the parts, and behind them the separators, begin and end.
+    order : (k,) int64
+        The slot of each free node, these by number.
     slots : (m, 8) int32
         Slot of each corner, -1 if it is fixed.
     target : (m, 28) int32
@@ -49,6 +51,7 @@ class Couplings:
         )
         slot = np.full(mesh.n_nodes, -1, np.int32)
         slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
+        self.order = np.argsort(self.nodes)
         self.slots = slot[mesh.hexes]
         self.row_start, self.columns = kernels.rows(self.slots, self.nodes, corners.start, corners.items)
         self.target = np.empty((mesh.n_hexes, kernels.PAIRS), np.int32)

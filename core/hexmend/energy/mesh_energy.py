@@ -11,7 +11,7 @@ from hexmend.energy.assembled import Assembled
 from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import energies
 from hexmend.energy.operator import SymmetricOperator
-from hexmend.kernels import assembly, threads
+from hexmend.kernels import assembly, reach, threads
 from hexmend.kernels import objective as kernels
 from hexmend.mesh import Mesh
 
@@ -79,13 +79,13 @@ class MeshEnergy:
     def placed(self, x: np.ndarray) -> np.ndarray:
         """Points in the mesh's own unit of length, (n, 3); fixed nodes to the last bit where they were."""
         points = self.mesh.points.copy()
-        points[self.nodes] = x[self.nodes] * self.unit
+        np.multiply(x, self.unit, out=points, where=self.mesh.free[:, None])
         return points
 
-    def moved(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """x (n, 3) with its free nodes displaced by step (k, 3)."""
-        there = x.copy()
-        there[self.nodes] += step
+    def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
+        """x (n, 3) with its free nodes displaced by alpha times step (k, 3)."""
+        there = np.empty_like(x)
+        reach.displaced(x, self.nodes, step, alpha, there)
         return there
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
@@ -141,17 +141,21 @@ class Hessian(SymmetricOperator):
             product += self.shift * v
         return product.ravel()
 
-    def assembled(self, dtype: type = np.float32) -> Assembled:
+    def assembled(self, dtype: type = np.float32, room: Assembled | None = None) -> Assembled:
         """The same matrix, assembled: many products, and a system to be solved.
 
         Parameters
         ----------
         dtype : numpy.float32 or numpy.float64
             Of the blocks.
+        room : Assembled, optional
+            Another matrix of the same energy and precision, which is not needed any more: this one takes its place.
+            Memory that has been touched before is faster.
         """
         energy, couplings = self.energy, self.energy.couplings
-        off = np.zeros((couplings.blocks + 1, 9), dtype)
-        diagonal = np.zeros((couplings.nodes.size, 6), dtype)
-        assembly.assemble(self.x, self.delta, energy.p, energy.left_out, *couplings.shares(threads()), off, diagonal)
-        diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], dtype)
-        return Assembled(couplings, off, diagonal)
+        matrix = Assembled.zero(couplings, dtype) if room is None else room.cleared()
+        assembly.assemble(
+            self.x, self.delta, energy.p, energy.left_out, *couplings.shares(threads()), matrix.off, matrix.diagonal
+        )
+        matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], dtype)
+        return matrix

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.kernels import decimals
+
 #: Rows that are turned into text at a time, so that the text of a large mesh need not lie in memory at once.
 ROWS = 65536
 
@@ -11,7 +13,7 @@ _SPACE, _NEWLINE, _ZERO = b" \n0"
 
 
 def lines(values: np.ndarray) -> bytes:
-    """Rows of numbers; those with a point are the shortest text that gives the same number back.
+    """Rows of numbers; floats as the shortest text that gives the same number back.
 
     Parameters
     ----------
@@ -28,8 +30,9 @@ def lines(values: np.ndarray) -> bytes:
     rows = values.reshape(len(values), -1)
     if rows.size and rows.dtype.kind in "iu" and int(rows.min()) >= 0 and int(rows.max()) < 10**9:
         return _natural(rows.astype(np.uint32))
-    line = " ".join(["%r"] * rows.shape[1]) + "\n"
-    return (line * len(rows) % tuple(rows.ravel().tolist())).encode("ascii")
+    if rows.dtype.kind in "iu":
+        return b"".join(b" ".join(b"%d" % number for number in row) + b"\n" for row in rows.tolist())
+    return decimals.lines(np.ascontiguousarray(rows, dtype=np.float64).ravel(), rows.shape[1])
 
 
 def _natural(rows: np.ndarray) -> bytes:

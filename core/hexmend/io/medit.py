@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -73,9 +72,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     with open(path, "wb") as file:
         file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{mesh.n_nodes}\n".encode())
         for part in blocks(mesh.n_nodes):
-            rows = zip(*mesh.points[part].T.tolist(), refs[part].tolist(), strict=True)
-            numbers = tuple(chain.from_iterable(rows))
-            file.write(("%r %r %r %d\n" * (len(numbers) // 4) % numbers).encode())
+            file.write(lines(np.column_stack([mesh.points[part], refs[part]])))
         for name, rows in sections.items():
             file.write(f"{name}\n{len(rows)}\n".encode())
             for part in blocks(len(rows)):

@@ -87,8 +87,8 @@ def descend(
     if not dot(found.p, gradient) < 0:
         found = steepest_descent(value, gradient, hessian)
     slope = dot(found.p, gradient)
-    alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, alpha * found.p), delta), value, slope)  # A.5
-    return Descent(energy.moved(x, alpha * found.p), value, slope, length, found, alpha, cuts)
+    alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
+    return Descent(energy.moved(x, found.p, alpha), value, slope, length, found, alpha, cuts)
 
 
 #: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others.

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from hexmend.energy import Hessian
-from hexmend.energy.assembled import full
+from hexmend.energy.assembled import Assembled, full
 from hexmend.optimise.blas import one_blas_thread
 from hexmend.optimise.linear import LinearSolver
 from hexmend.optimise.vectors import norm
@@ -84,9 +84,11 @@ class TruncatedNewton:
         self.iterations, self.loosest, self.tightest = iterations, loosest, tightest
         self._first = self._last = np.inf
         self._damping = 0.0
+        self._matrix: Assembled | None = None
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
-        matrix, right, tolerance = hessian.assembled(), -gradient.ravel(), self._tolerance(gradient)
+        matrix = self._matrix = hessian.assembled(room=self._matrix)
+        right, tolerance = -gradient.ravel(), self._tolerance(gradient)
         solved = matrix.solve(right, tolerance, self.iterations, self._damping)
         count, damping = solved.iterations, self._damping
         for _ in range(RAISES):

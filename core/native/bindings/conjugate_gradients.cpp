@@ -7,14 +7,14 @@ namespace {
 
 template <class Real> void bind_for(nb::module_ &m) {
     m.def("solve", &solve<Real>, "bounds"_a, "row_start"_a, "columns"_a, "off"_a, "diagonal"_a, "damping"_a, "right"_a,
-          "tolerance"_a, "most"_a, "x"_a, Unlocked(),
+          "tolerance"_a, "most"_a, "x"_a, "work"_a, Unlocked(),
           "Solve A x = right, stopping at a direction of negative curvature (Steihaug 1983).\n\n"
           "What has been reached before such a direction is the solution, or, if it is the first, that direction.\n"
           "Vectors, (k, 4) with a fourth number 0, are in the precision of the matrix, sums over them in double.\n\n"
           "bounds, row_start, columns: pattern, as `ordering` makes it. off (blocks + 1, 9): the blocks above the\n"
           "diagonal, the last being none. diagonal (k, 6). damping: this multiple of D is added to the diagonal.\n"
           "tolerance: of the residual, relative to the right-hand side, both in the norm of M^-1. most: limit of\n"
-          "iterations. Writes x; returns iterations, and DONE, NEGATIVE_CURVATURE or TOO_MANY.");
+          "iterations. work (64 k + 16,): room to work in. Writes x; returns iterations, and DONE, NEGATIVE_CURVATURE or TOO_MANY.");
     m.def("product", &product<Real>, "bounds"_a, "row_start"_a, "columns"_a, "off"_a, "diagonal"_a, "x"_a, "y"_a,
           Unlocked(), "A times x (k, 4); writes y (k, 4).");
 }

@@ -12,6 +12,8 @@ void bind_elements(nb::module_ &m) {
           "the eight corner determinants, (2.9). jacobian is the least of sigma/(|e1||e2||e3|), 0 at a corner with an\n"
           "edge of no length. eta is eta(H) = mean of eta(T) - 1, (B.20); +inf where sigma <= 0. A corner whose\n"
           "determinant is larger than any float has q(T) = 0, eta(T) = +inf and a scaled Jacobian of 0.");
+    m.def("mean_edge_length", &mean_edge_length, "points"_a, "hexes"_a, Unlocked(),
+          "Mean length of the hexes' edges, each counted once a hex; 0 without hexes.");
     m.def("corner_determinants", &corner_determinants, "points"_a, "hexes"_a, "sigma"_a, Unlocked(),
           "sigma of the eight corner tetrahedra of every hex, (2.9); writes sigma (m, 8) float64.");
 }
