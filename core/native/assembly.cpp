@@ -13,9 +13,6 @@ namespace {
 // yz zz; and as many more as make whole vectors.
 constexpr int OWN = 9 * PAIRS, VALUES = OWN + 6 * 8, ROOM = (VALUES + 7) / 8 * 8;
 
-// Number of the pair of two corners, the lower one first.
-constexpr int pair_of(int a, int b) { return a * (15 - a) / 2 + b - a - 1; }
-
 // Beyond it a value is cut, so that single precision holds sums of it.
 constexpr double CUT = 1e34;
 

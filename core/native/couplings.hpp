@@ -1,6 +1,8 @@
 // Which free nodes share a hex: the pattern of a Hessian's 3 x 3 blocks above its diagonal, as compressed rows.
 #pragma once
 
+#include <tuple>
+
 #include "rows.hpp"
 
 namespace hexmend {
@@ -8,8 +10,10 @@ namespace hexmend {
 // Pairs of corners of a hex, in the order 01, 02... 07, 12...
 constexpr int PAIRS = 28;
 
-std::pair<Made<std::int32_t>, Made<std::int32_t>> rows(Hexes slots, Indices nodes, Indices start, Indices corners);
+// Number of the pair of two corners, the lower one first.
+constexpr int pair_of(int a, int b) { return a * (15 - a) / 2 + b - a - 1; }
 
-void targets(Hexes slots, Indices row_start, Indices columns, std::span<std::array<std::int32_t, PAIRS>> target);
+std::tuple<Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t, PAIRS>> pattern(Hexes slots, Indices nodes,
+                                                                                       Indices start, Indices corners);
 
 }  // namespace hexmend

@@ -119,10 +119,11 @@ def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
 
 
 def test_two_corners_that_are_one_node_add_to_its_own_block():
-    slots = np.array([[3, 3, -1, 0, 0, -1, -1, -1]], np.int32)
-    target = np.empty((1, couplings.PAIRS), np.int32)
-    couplings.targets(slots, np.array([0, 1, 1, 1, 1], np.int32), np.array([3], np.int32), target)
-    assert Counter(target[0].tolist()) == {-5: 1, -2: 1, 0: 4, -1: 22}
+    hexes = np.array([[4, 4, 5, 1, 1, 6, 7, 0]], np.int32)
+    slots = np.array([[1, 1, -1, 0, 0, -1, -1, -1]], np.int32)
+    row_start, columns, target = couplings.pattern(slots, np.array([1, 4], np.int32), *incidence.node_corners(hexes, 8))
+    assert (row_start.tolist(), columns.tolist()) == ([0, 1, 1], [1])
+    assert Counter(target[0].tolist()) == {-3: 1, -2: 1, 0: 4, -1: 22}
 
 
 def test_no_hexes_are_no_trouble():
@@ -138,5 +139,5 @@ def test_no_hexes_are_no_trouble():
         assert incidence.greedy_colours(start, corners, np.zeros(n, bool)).tolist() == [-1] * n
         ends, valence, outside = structure.edges(hexes, start, corners, neighbours)
         assert (ends.shape, valence.size, outside.dtype) == ((0, 2), 0, bool)
-    rows, columns = couplings.rows(hexes, np.empty(0, np.int32), start, corners)
-    assert (rows.tolist(), columns.size) == ([0], 0)
+    rows, columns, target = couplings.pattern(hexes, np.empty(0, np.int32), start, corners)
+    assert (rows.tolist(), columns.size, target.shape) == ([0], 0, (0, 28))

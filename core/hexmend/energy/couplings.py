@@ -53,9 +53,9 @@ class Couplings:
         slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
         self.order = np.argsort(self.nodes)
         self.slots = slot[mesh.hexes]
-        self.row_start, self.columns = kernels.rows(self.slots, self.nodes, corners.start, corners.items)
-        self.target = np.empty((mesh.n_hexes, kernels.PAIRS), np.int32)
-        kernels.targets(self.slots, self.row_start, self.columns, self.target)
+        self.row_start, self.columns, self.target = kernels.pattern(
+            self.slots, self.nodes, corners.start, corners.items
+        )
         self._hexes = mesh.hexes
         self._shares: dict[int, tuple[np.ndarray, ...]] = {}
 
