@@ -22,14 +22,6 @@ void energies_of(Points points, Hexes hexes, double delta, Left left_out, std::s
     });
 }
 
-// Write a block's vectors at corners, each hex weighted, to the shares of its hexes.
-template <class T> inline void store(const Corners<T> &g, std::int64_t first, int count, Shares shares) {
-    alignas(64) double buffer[24][width<T>];
-    std::memcpy(buffer, &g, sizeof g);
-    for (int i = 0; i < count; ++i)
-        for (int k = 0; k < 24; ++k) shares[first + i][k] = buffer[k][i];
-}
-
 template <bool soft, class T>
 void gradient_of(Points points, Hexes hexes, double delta, double p, Left left_out, Shares shares) {
     blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
@@ -46,7 +38,7 @@ void gradient_of(Points points, Hexes hexes, double delta, double p, Left left_o
         });
         BlockWeights<T> by(sum * 0.125 - 1.0, p);
         for (auto &corner : g.at) corner = by.first * corner;
-        store(g, first, count, shares);
+        put(g, first, count, shares);
     });
 }
 
@@ -72,7 +64,7 @@ void product_of(Points points, Hexes hexes, Hexes slots, Points values, double d
         BlockWeights<T> by(sum * 0.125 - 1.0, p);
         T along = by.second * slope;
         for (int c = 0; c < 8; ++c) h.at[c] = by.first * h.at[c] + along * g.at[c];
-        store(h, first, count, shares);
+        put(h, first, count, shares);
     });
 }
 

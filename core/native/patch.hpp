@@ -29,7 +29,7 @@ constexpr int corner_at(int x, int y, int z) {
 }
 
 // The corners of a hex as the unit cube numbers them after a rotation that makes `corner` its corner 0.
-constexpr std::array<int, 8> turned(int corner) {
+constexpr std::array<int, 8> turned_corners(int corner) {
     std::array<int, 8> places{};
     for (int c = 0; c < 8; ++c) {
         int at[3] = {};
@@ -46,11 +46,24 @@ constexpr std::array<int, 8> turned(int corner) {
 
 }  // namespace detail
 
-constexpr std::array<std::array<int, 8>, 8> TURNED = [] {
+alignas(32) constexpr std::array<std::array<int, 8>, 8> TURNED = [] {
     std::array<std::array<int, 8>, 8> all{};
-    for (int c = 0; c < 8; ++c) all[c] = detail::turned(c);
+    for (int c = 0; c < 8; ++c) all[c] = detail::turned_corners(c);
     return all;
 }();
+
+// A hex turned so that `corner` is its corner 0.
+inline Hex turned(const Hex &hex, int corner) {
+    Hex there;
+#if defined(__AVX2__)
+    auto from = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(hex.data()));
+    auto order = _mm256_load_si256(reinterpret_cast<const __m256i *>(TURNED[corner].data()));
+    _mm256_storeu_si256(reinterpret_cast<__m256i *>(there.data()), _mm256_permutevar8x32_epi32(from, order));
+#else
+    for (int c = 0; c < 8; ++c) there[c] = hex[TURNED[corner][c]];
+#endif
+    return there;
+}
 
 // Hexes at one node: 8 * hex + corner of each.
 using Star = std::span<const std::int32_t>;
@@ -73,15 +86,15 @@ template <class T> class Patch {
         V3<T> origin{all<T>(node[0]), all<T>(node[1]), all<T>(node[2])};
         double total = 0;
         for (int b = 0; b < blocks(); ++b) {
-            const Point *row[8][width<T>];
+            Hex hex[width<T>];
             for (int i = 0; i < width<T>; ++i) {
                 int s = b * width<T> + i;
                 std::int32_t corner = star[s < size_ ? s : size_ - 1];
-                const Hex &hex = hexes[corner / 8];
-                for (int c = 0; c < 8; ++c) row[c][i] = &points[hex[TURNED[corner % 8][c]]];
+                hex[i] = turned(hexes[corner / 8], corner % 8);
             }
             auto &x = blocks_[b].x;
-            for (int c = 0; c < 8; ++c) x.at[c] = detail::side_by_side(row[c]) - origin;
+            for (int c = 0; c < 8; ++c)
+                x.at[c] = side_by_side<T>([&](int i) -> const Point & { return points[hex[i][c]]; }) - origin;
             if (factor == 0) {
                 T lengths{};
                 for (auto &[from, to] : EDGES) lengths += length(x.at[to] - x.at[from]);

@@ -38,11 +38,8 @@ template <class T> inline Quality<T> quality(const Corners<T> &x) {
 class OneHex {
   public:
     OneHex(Points points, const Hex &hex) {
-        for (int c = 0; c < 8; c += LANES) {
-            const Point *row[LANES];
-            for (int i = 0; i < LANES; ++i) row[i] = &points[hex[c + i]];
-            corners_[c / LANES] = detail::side_by_side(row);
-        }
+        for (int c = 0; c < 8; c += LANES)
+            corners_[c / LANES] = side_by_side<Lanes>([&](int i) -> const Point & { return points[hex[c + i]]; });
     }
 
     Quality<double> quality() const {
