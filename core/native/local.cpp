@@ -50,9 +50,9 @@ void along(Points points, Hexes hexes, Indices star, double factor, std::array<d
     Patch<Lanes> patch(star.size());
     patch.load(points, hexes, star, factor);
     delta > 0 ? patch.tabulate<true>(delta) : patch.tabulate<false>(delta);
-    V3<double> d{direction[0], direction[1], direction[2]};
+    patch.aim({direction[0], direction[1], direction[2]});
     for (auto &[alpha, value] : curve)
-        value = delta > 0 ? patch.value<true>(alpha * d, delta, p) : patch.value<false>(alpha * d, delta, p);
+        value = delta > 0 ? patch.value_along<true>(alpha, delta, p) : patch.value_along<false>(alpha, delta, p);
 }
 
 }  // namespace hexmend

@@ -122,17 +122,23 @@ template <class T> class Patch {
         }
     }
 
-    // Sum over the hexes of eta(H)^p with the node displaced by y: (3.3) without its root, (B.20).
-    template <bool soft> double value(const V3<double> &y, double delta, double p) const {
-        V3<T> by{all<T>(y.x), all<T>(y.y), all<T>(y.z)};
-        T far = square(by);
-        double total = 0;
+    // Look along a direction: `value_along` displaces the node by alpha times it.
+    void aim(const V3<double> &direction) {
+        V3<T> d{all<T>(direction.x), all<T>(direction.y), all<T>(direction.z)};
+        far_ = dot(direction, direction);
+        for (int b = 0; b < blocks(); ++b)
+            for (auto &t : blocks_[b].holds) t.along_g = dot(t.g, d), t.along_b = dot(t.b, d);
+    }
+
+    // Sum over the hexes of eta(H)^p with the node displaced: (3.3) without its root, (B.20).
+    template <bool soft> double value_along(double alpha, double delta, double p) const {
+        double far = alpha * alpha * far_, total = 0;
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];
             T eta = block.rest;
             for (int j = 0; j < 4; ++j) {
                 const auto &t = block.holds[j];
-                T sigma = t.sigma + dot(t.g, by), squared = t.square + dot(t.b, by) + (j ? far : 3.0 * far);
+                T sigma = t.sigma + alpha * t.along_g, squared = (t.square + (j ? far : 3 * far)) + alpha * t.along_b;
                 eta += energy_at<soft>(sigma, squared, delta).eta();
             }
             total += sum_of_powers(eta * 0.125 - 1.0, p, b);
@@ -199,6 +205,7 @@ template <class T> class Patch {
     struct Holding {
         T sigma, square;
         V3<T> g, b;
+        T along_g, along_b;
         Energy<T> energy;
     };
 
@@ -212,6 +219,7 @@ template <class T> class Patch {
 
     std::vector<Block> blocks_;
     int size_ = 0;
+    double far_ = 0;
 
     int blocks() const { return (size_ + width<T> - 1) / width<T>; }
 

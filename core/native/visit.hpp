@@ -43,32 +43,38 @@ template <class T> inline Chosen choose(const Patch<T> &patch, const Visit &at, 
 // Algorithm A.5 along d: the accepted step; 0 if none of `cuts` + 1 trials descends enough. `tell(alpha, value)` hears
 // of each trial.
 template <bool soft, class T, class Tell>
-inline double back_line_search(const Patch<T> &patch, const Visit &at, const Chosen &chosen, const LocalStep &how,
+inline double back_line_search(Patch<T> &patch, const Visit &at, const Chosen &chosen, const LocalStep &how,
                                Tell &&tell) {
+    patch.aim(chosen.d);
     double alpha = how.first;
     for (int cut = 0; cut <= how.cuts; ++cut, alpha *= how.shrink) {
-        double trial = patch.template value<soft>(alpha * chosen.d, how.delta, how.p);
+        double trial = patch.template value_along<soft>(alpha, how.delta, how.p);
         tell(alpha, trial);
         if (trial < at.value + how.c1 * alpha * chosen.slope) return alpha;
     }
     return 0;
 }
 
-// Move a node as a method moves it.
-template <bool soft, class T>
-inline void visit(Patch<T> &patch, std::span<Point> points, Hexes hexes, Star star, const LocalStep &how) {
-    double scale = patch.load(points, hexes, star);  // delta is meant for edges of mean length 1
-    if (scale == 0) return;
-    patch.template tabulate<soft>(how.delta);
-    Visit at = patch.template value_and_gradient<soft>(how.delta, how.p);
-    const V3<double> &g = at.gradient;
-    if (!(0 < at.value && at.value < INF) || (g.x == 0 && g.y == 0 && g.z == 0)) return;
-    Chosen chosen = choose(patch, at, how);
-    double alpha = back_line_search<soft>(patch, at, chosen, how, [](double, double) {});
-    Point &node = points[hexes[star[0] / 8][star[0] % 8]];
-    node[0] += alpha * chosen.d.x / scale;
-    node[1] += alpha * chosen.d.y / scale;
-    node[2] += alpha * chosen.d.z / scale;
+// Several nodes that share no hex, moved as a method moves them, stage by stage: while one waits for its roots and
+// quotients the processor works on another.
+template <bool soft, class T, int nodes>
+inline void visit(Patch<T> (&patch)[nodes], std::span<Point> points, Hexes hexes, const Star (&star)[nodes],
+                  const LocalStep &how) {
+    double scale[nodes];
+    Visit at[nodes];
+    for (int k = 0; k < nodes; ++k) scale[k] = patch[k].load(points, hexes, star[k]);
+    for (int k = 0; k < nodes; ++k) patch[k].template tabulate<soft>(how.delta);  // meant for edges of mean length 1
+    for (int k = 0; k < nodes; ++k) at[k] = patch[k].template value_and_gradient<soft>(how.delta, how.p);
+    for (int k = 0; k < nodes; ++k) {
+        const V3<double> &g = at[k].gradient;
+        if (scale[k] == 0 || !(0 < at[k].value && at[k].value < INF) || (g.x == 0 && g.y == 0 && g.z == 0)) continue;
+        Chosen chosen = choose(patch[k], at[k], how);
+        double alpha = back_line_search<soft>(patch[k], at[k], chosen, how, [](double, double) {});
+        Point &node = points[hexes[star[k][0] / 8][star[k][0] % 8]];
+        node[0] += alpha * chosen.d.x / scale[k];
+        node[1] += alpha * chosen.d.y / scale[k];
+        node[2] += alpha * chosen.d.z / scale[k];
+    }
 }
 
 // The most hexes that meet at one of `nodes`.
@@ -81,6 +87,9 @@ inline std::int64_t most_at(Indices start, Indices nodes) {
 // Nodes that one thread takes at a time.
 constexpr std::int64_t NODES = 64;
 
+// Nodes that are visited together.
+constexpr int TOGETHER = 2;
+
 template <bool soft, class T>
 void sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
               const LocalStep &how) {
@@ -88,11 +97,13 @@ void sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corne
     for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
         auto group = nodes.subspan(groups[g], groups[g + 1] - groups[g]);
         parallel_chunks(group.size(), NODES, [&](std::int64_t begin, std::int64_t end) {
-            Patch<T> patch(most);
-            for (std::int64_t k = begin; k < end; ++k) {
-                auto i = group[k];
-                visit<soft>(patch, points, hexes, corners.subspan(start[i], start[i + 1] - start[i]), how);
-            }
+            Patch<T> alone[1]{Patch<T>(most)}, several[TOGETHER]{Patch<T>(most), Patch<T>(most)};
+            auto star = [&](std::int64_t k) { return corners.subspan(start[group[k]], start[group[k] + 1] - start[group[k]]); };
+            std::int64_t k = begin;
+            if constexpr (width<T> > 1)
+                for (; k + TOGETHER <= end; k += TOGETHER)
+                    visit<soft>(several, points, hexes, {star(k), star(k + 1)}, how);
+            for (; k < end; ++k) visit<soft>(alone, points, hexes, {star(k)}, how);
         });
     }
 }
