@@ -298,18 +298,18 @@ std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, st
 
 template <class Real>
 void product(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
-             std::span<const std::array<Real, 6>> diagonal, std::span<const std::array<double, 4>> x,
-             std::span<std::array<double, 4>> y) {
+             std::span<const std::array<Real, 6>> diagonal, std::span<const std::int64_t> order, Points x,
+             std::span<Point> y) {
     using V = Vector<double>;
     System<Real, double> system(bounds, row_start, columns, off);
-    std::vector<V> of(x.size()), below[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
+    std::vector<V> of(x.size()), there(x.size()), below[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
     V *const w[2] = {below[0].data(), below[1].data()};
-    for (std::size_t i = 0; i < x.size(); ++i) of[i] = loaded(x[i].data());
-    system.forward(w, [&](std::int32_t i, const V &below) {
-        V there = block<double>(widened(diagonal[i])) * of[i] + system.row_times(i, of.data()) + below;
-        std::memcpy(y[i].data(), &there, sizeof there);
+    for (std::size_t k = 0; k < x.size(); ++k) of[order[k]] = V{x[k][0], x[k][1], x[k][2], 0};
+    system.forward(w, [&](std::int32_t i, const V &left) {
+        there[i] = block<double>(widened(diagonal[i])) * of[i] + system.row_times(i, of.data()) + left;
         return std::pair{of[i], 0.0};
     });
+    for (std::size_t k = 0; k < x.size(); ++k) std::memcpy(y[k].data(), &there[order[k]], sizeof y[k]);
 }
 
 #define FOR_REAL(Real)                                                                                               \
@@ -318,8 +318,8 @@ void product(Indices bounds, Indices row_start, Indices columns, std::span<const
                                              std::span<const std::array<Real, 4>>, double, int,                      \
                                              std::span<std::array<Real, 4>>, std::span<Real>);                       \
     template void product<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,                     \
-                                std::span<const std::array<Real, 6>>, std::span<const std::array<double, 4>>,        \
-                                std::span<std::array<double, 4>>);
+                                std::span<const std::array<Real, 6>>, std::span<const std::int64_t>, Points,         \
+                                std::span<Point>);
 FOR_REAL(float)
 FOR_REAL(double)
 

@@ -27,7 +27,7 @@ std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, st
 
 template <class Real>
 void product(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
-             std::span<const std::array<Real, 6>> diagonal, std::span<const std::array<double, 4>> x,
-             std::span<std::array<double, 4>> y);
+             std::span<const std::array<Real, 6>> diagonal, std::span<const std::int64_t> order, Points x,
+             std::span<Point> y);
 
 }  // namespace hexmend

@@ -65,14 +65,14 @@ class Assembled(SymmetricOperator):
         return cls(couplings, off, np.zeros((couplings.nodes.size, 6), dtype))
 
     def matvec(self, v: np.ndarray) -> np.ndarray:
-        x = self._slotted(v, np.float64)
+        x = np.ascontiguousarray(v, dtype=np.float64).reshape(-1, 3)
         y = np.empty_like(x)
-        kernels.product(*self.couplings.pattern, self.off, self.diagonal, x, y)
-        return y[self.order, :3].ravel()
+        kernels.product(*self.couplings.pattern, self.off, self.diagonal, self.order, x, y)
+        return y.ravel()
 
-    def _slotted(self, v: np.ndarray, dtype: type) -> np.ndarray:
-        """v (3 k,) by slots, (k, 4): the fourth is 0."""
-        x = np.zeros((self.order.size, 4), dtype)
+    def _slotted(self, v: np.ndarray) -> np.ndarray:
+        """v (3 k,) by slots, (k, 4) in the precision of the matrix: the fourth is 0."""
+        x = np.zeros((self.order.size, 4), self.off.dtype)
         x[self.order, :3] = v.reshape(-1, 3)
         return x
 
@@ -92,7 +92,7 @@ class Assembled(SymmetricOperator):
         damping : float
             The diagonal blocks, made positive definite, are added this many times.
         """
-        b = self._slotted(right, self.off.dtype)
+        b = self._slotted(right)
         x = np.empty_like(b)
         count, end = kernels.solve(
             *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x, self._work
