@@ -1,0 +1,27 @@
+"""Figures of every hex in one pass over its eight corner tetrahedra."""
+
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
+
+
+def measure(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], q: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], sigma: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], jacobian: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], eta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Quality of every hex at delta = 0; writes four arrays (m,) float64.
+
+    q is q(H), the mean of q(T) = 3 sigma^(2/3)/|S|^2, 0 where sigma <= 0: (2.8), (2.10). sigma is the least of
+    the eight corner determinants, (2.9). jacobian is the least of sigma/(|e1||e2||e3|), 0 at a corner with an
+    edge of no length. eta is eta(H) = mean of eta(T) - 1, (B.20); +inf where sigma <= 0. A corner whose
+    determinant is larger than any float has q(T) = 0, eta(T) = +inf and a scaled Jacobian of 0.
+    """
+
+def mean_edge_length(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)]) -> float:
+    """
+    Mean length of the hexes' edges, each counted once a hex; 0 without hexes.
+    """
+
+def corner_determinants(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], sigma: Annotated[NDArray[numpy.float64], dict(shape=(None, 8), order='C', device='cpu')]) -> None:
+    """
+    sigma of the eight corner tetrahedra of every hex, (2.9); writes sigma (m, 8) float64.
+    """
