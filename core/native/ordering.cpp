@@ -1,6 +1,7 @@
 #include "ordering.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace hexmend {
@@ -9,16 +10,16 @@ namespace {
 // Free nodes that are joined by edges: the graph that is walked.
 class Graph {
   public:
-    Graph(Indices start, Indices items, std::span<const bool> free) : start_(start), items_(items), free_(free) {}
+    Graph(Indices start, Indices items, std::span<const bool> free)
+        : start_(start), items_(items), free_(free), degree_(free.size()) {
+        for (Node i = 0; i < nodes(); ++i)
+            for (auto s = start[i]; s < start[i + 1]; ++s) degree_[i] += free[items[s]];
+    }
 
     Node nodes() const { return static_cast<Node>(free_.size()); }
     bool has(Node i) const { return free_[i]; }
 
-    int degree(Node i) const {
-        int count = 0;
-        for (auto s = start_[i]; s < start_[i + 1]; ++s) count += free_[items_[s]];
-        return count;
-    }
+    int degree(Node i) const { return degree_[i]; }
 
     // Walk breadth first from the last node of `order`, appending what is not `seen`, of each node's neighbours those of
     // fewer neighbours first. Returns where the last level begins.
@@ -46,6 +47,7 @@ class Graph {
   private:
     Indices start_, items_;
     std::span<const bool> free_;
+    std::vector<int> degree_;
 };
 
 // Cuthill and McKee 1969: breadth first from a node at the rim. It knows no coordinates: a mesh that is turned is
@@ -67,36 +69,49 @@ std::vector<Node> near_each_other(const Graph &graph) {
     return order;
 }
 
-// The part (from 0), or separator (from `parts`), of each node; empty if so many parts are too thin.
-std::vector<int> ranges(const std::vector<Node> &order, Hexes hexes, Indices start, Indices corners, int parts) {
-    std::vector<int> range(start.size() - 1, -1), part(start.size() - 1, -1);
-    for (std::size_t k = 0; k < order.size(); ++k) part[order[k]] = range[order[k]] = static_cast<int>(k * parts / order.size());
-    auto with_each = [&](Node i, auto &&body) {
-        for (auto s = start[i]; s < start[i + 1]; ++s)
-            for (Node j : hexes[corners[s] / 8])
-                if (range[j] >= 0) body(j);
-    };
-    for (Node i : order) with_each(i, [&](Node j) { if (part[j] < part[i]) range[i] = parts + part[i] - 1; });
-    // A part shares hexes with itself and the separators on its sides alone, a separator with itself and its two parts.
-    bool sound = true;
-    for (Node i : order)
-        with_each(i, [&](Node j) {
-            int a = range[i], b = range[j];
-            if (a == b) return;
-            if (a > b) std::swap(a, b);
-            sound &= a < parts && (b == parts + a || b == parts + a - 1);
-        });
-    return sound ? range : std::vector<int>{};
+// The least and greatest of some numbers.
+struct Span {
+    int least = std::numeric_limits<int>::max(), greatest = -1;
+
+    void take(int number) { least = std::min(least, number), greatest = std::max(greatest, number); }
+    bool none() const { return greatest < 0; }
+    bool one() const { return least == greatest; }
+};
+
+// The part (from 0), or separator (from `parts`), of each node, -1 if it is fixed; none if so many parts are too thin.
+std::vector<int> ranges(const std::vector<Node> &order, Hexes hexes, std::size_t nodes, int parts) {
+    std::vector<int> part(nodes, -1);
+    for (std::size_t k = 0; k < order.size(); ++k) part[order[k]] = static_cast<int>(k * parts / order.size());
+    std::vector<int> range = part;
+    for (const Hex &hex : hexes) {
+        Span met;
+        for (Node i : hex)
+            if (part[i] >= 0) met.take(part[i]);
+        if (met.none() || met.one()) continue;
+        for (Node i : hex)
+            if (part[i] == met.greatest) range[i] = parts + met.greatest - 1;
+    }
+    // A hex may hold nodes of one part and of one separator at its side, no others.
+    for (const Hex &hex : hexes) {
+        Span part_met, separator_met;
+        for (Node i : hex)
+            if (range[i] >= 0) (range[i] < parts ? part_met : separator_met).take(range[i]);
+        int side = separator_met.greatest - parts - part_met.greatest;
+        bool sound = (part_met.none() || part_met.one()) && (separator_met.none() || separator_met.one()) &&
+                     (part_met.none() || separator_met.none() || side == 0 || side == -1);
+        if (!sound) return {};
+    }
+    return range;
 }
 
 }  // namespace
 
-std::pair<Made<std::int32_t>, Made<std::int32_t>> slots(Hexes hexes, Indices start, Indices corners, Indices ring_start,
-                                                        Indices ring, std::span<const bool> free, int parts) {
+std::pair<Made<std::int32_t>, Made<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
+                                                        std::span<const bool> free, int parts) {
     auto order = near_each_other({ring_start, ring, free});
     std::vector<int> range;
     parts = std::max(parts, 1);
-    while (parts > 1 && (range = ranges(order, hexes, start, corners, parts)).empty()) --parts;
+    while (parts > 1 && (range = ranges(order, hexes, free.size(), parts)).empty()) --parts;
     std::vector<std::int32_t> bounds(2 * parts);
     if (parts == 1) {
         bounds[1] = static_cast<std::int32_t>(order.size());

@@ -46,9 +46,7 @@ class Couplings:
         if parts is None:
             free = np.count_nonzero(mesh.free)
             parts = max((parts for least, parts in _PARTS if free >= least), default=1)
-        self.nodes, self.bounds = ordering.slots(
-            mesh.hexes, corners.start, corners.items, rings.start, rings.items, mesh.free, parts
-        )
+        self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, mesh.free, parts)
         slot = np.full(mesh.n_nodes, -1, np.int32)
         slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
         self.order = np.argsort(self.nodes)
@@ -63,8 +61,8 @@ class Couplings:
         """The slots in `count` shares, and the hexes at the slots of each, as `assembly.assemble` takes them."""
         if count not in self._shares:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
-            slots, size = self.slots, self.nodes.size
-            lowest, highest = np.where(slots < 0, size, slots).min(axis=1), slots.max(axis=1)
+            slots = self.slots
+            lowest, highest = slots.view(np.uint32).min(axis=1), slots.max(axis=1)  # so a fixed corner is no least one
             order = np.argsort(lowest, kind="stable").astype(np.int32)
             lowest, highest = lowest[order], highest[order]
             there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]
