@@ -5,7 +5,8 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 MESH   ?=
 
-.PHONY: help run test lint format bench study pins clean
+.PHONY: help run test lint format bench study pins wheel clean
+.NOTPARALLEL:
 
 help:
 	@echo "make run [MESH=path]   open the viewer (on the demo mesh, or on yours)"
@@ -13,15 +14,16 @@ help:
 	@echo "make lint              check the style;  make format  mends it"
 	@echo "make bench             measure speed and memory"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
+	@echo "make wheel             build a wheel and the sources' archive, and try the wheel: dist/"
 	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
 	@echo "Add PYTHON=/path/to/python3 (3.11 to 3.13) to choose the Python of a new environment."
 
-run: $(VENV)/.app
+run: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages
 	@scripts/run $(BIN) "$(MESH)"
 
-test: $(VENV)/.test
+test: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
 	@$(BIN)/python -m pytest
 
@@ -33,24 +35,36 @@ format: $(VENV)/.test
 	@$(BIN)/ruff check --fix
 	@$(BIN)/ruff format
 
-bench: $(VENV)/.app
+bench: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages
 	@scripts/on-screen $(BIN)/hexmend bench
 
-study: $(VENV)/.app
+study: $(VENV)/.app $(VENV)/.kernels
 	@$(BIN)/hexmend study thesis --quick -o build/study
+
+wheel: $(VENV)/.wheel
+	@scripts/wheel $(BIN)
+	@scripts/try-wheel "$(PYTHON)" dist/*.whl
 
 pins:
 	@scripts/pins "$(PYTHON)"
 
 # The stamps: what an environment holds is decided by these files alone.
 $(VENV)/.app: pyproject.toml constraints.txt scripts/environment
-	@scripts/environment "$(PYTHON)" $(VENV) app
+	@scripts/environment "$(PYTHON)" $(VENV) app,build
 	@touch $@
 
 $(VENV)/.test: pyproject.toml constraints.txt scripts/environment
-	@scripts/environment "$(PYTHON)" $(VENV) app,test
+	@scripts/environment "$(PYTHON)" $(VENV) app,build,test
 	@touch $(VENV)/.app $@
 
+$(VENV)/.wheel: pyproject.toml constraints.txt scripts/environment
+	@scripts/environment "$(PYTHON)" $(VENV) build,wheel
+	@touch $@
+
+$(VENV)/.kernels: $(VENV)/.app scripts/build-kernels $(shell find core/native -type f)
+	@scripts/build-kernels $(BIN)
+	@touch $@
+
 clean:
-	rm -rf $(VENV) build dist .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) build dist .pytest_cache .ruff_cache .hypothesis core/hexmend/kernels/*.so

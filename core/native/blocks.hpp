@@ -138,7 +138,7 @@ template <class T> struct Counted {
         std::memcpy(&left_out, buffer, sizeof left_out);
     }
 
-    auto operator()(int t) const { return (left_out & (1LL << t)) == 0; }
+    auto operator()(int t) const { return (left_out & (std::int64_t{1} << t)) == 0; }
 };
 
 // First and second derivatives of max(eta(H), 0)^p by eta(H), of each hex of a block.

@@ -16,7 +16,7 @@ void put_angle(const Lanes &cosine, std::int64_t first, int count, std::span<dou
 // -1 where one of the vectors has no length.
 Lanes cosine(const V3<Lanes> &a, const V3<Lanes> &b) {
     Lanes product = length(a) * length(b);
-    return (product > 0.0) & (product < INF) ? dot(a, b) / product : all<Lanes>(-1.0);
+    return ((product > 0.0) & (product < INF)) ? dot(a, b) / product : all<Lanes>(-1.0);
 }
 
 }  // namespace
