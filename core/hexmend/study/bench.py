@@ -17,6 +17,7 @@ from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
 from hexmend.study.kernels import KERNELS, PRECONDITIONERS
 from hexmend.study.mending import OPTIMA, SIZES, TANGLED
+from hexmend.study.processes import PROCESSES
 from hexmend.study.section import Section, by_size
 
 #: Seconds per iteration and node in the thesis's tables for BridgeSharp: 4.1 for the optimisers, 4.2 for GETMe, 4.3 for
@@ -34,9 +35,8 @@ THESIS_SECONDS_PER_NODE = {
 
 def sections() -> dict[str, Section]:
     """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
-    found = {
-        section.name: section for section in (KERNELS, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, SCALING, SIZES)
-    }
+    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, SCALING, SIZES
+    found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:
             found[entry.name] = entry.load()
