@@ -19,6 +19,7 @@ FACE = '''"""Compiled kernels: arrays in, arrays out, no classes. Written by scr
 {families}
 
 BUILD: str
+BUILDS: tuple[str, ...]
 LANES: int
 
 def threads() -> int: ...

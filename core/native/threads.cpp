@@ -4,6 +4,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -40,8 +41,11 @@ void await(const std::atomic<std::uint32_t> &number, std::uint32_t old) {
 
 class Team {
   public:
-    explicit Team(int helpers) {
-        for (int i = 0; i < helpers; ++i) helpers_.emplace_back([this] { help(); });
+    explicit Team(int wanted) : wanted_(wanted) {
+        try {
+            for (int i = 0; i < wanted; ++i) helpers_.emplace_back([this] { help(); });
+        } catch (const std::system_error &) {  // as many as the system gives
+        }
     }
 
     ~Team() {
@@ -50,7 +54,7 @@ class Team {
         for (auto &helper : helpers_) helper.join();
     }
 
-    int helpers() const { return static_cast<int>(helpers_.size()); }
+    int wanted() const { return wanted_; }
 
     void share(std::int64_t pieces, void (*body)(const void *, std::int64_t), const void *context) {
         body_ = body, context_ = context, pieces_ = pieces;
@@ -99,6 +103,7 @@ class Team {
 
     static constexpr std::uint32_t OPEN = 1u << 31;
 
+    int wanted_;
     std::vector<std::thread> helpers_;
     std::atomic<std::uint32_t> turn_{0};
     std::atomic<std::uint32_t> gate_{0};  // whether the loop may be joined, and how many helpers are at it
@@ -152,7 +157,7 @@ void detail::share(std::int64_t pieces, void (*body)(const void *, std::int64_t)
         return;
     }
     own.forget();
-    if (!own.team || own.team->helpers() != helpers) {
+    if (!own.team || own.team->wanted() != helpers) {
         own.team.reset();
         own.team = std::make_unique<Team>(helpers);
         own.made_in = process();

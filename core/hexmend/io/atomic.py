@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import secrets
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -42,7 +41,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
             yield path
             return
         target, mode = _writable(path)
-        temporary = target.with_name(f".hexmend-{secrets.token_hex(4)}{target.suffix}")
+        temporary = target.with_name(f".hexmend-{os.urandom(4).hex()}{target.suffix}")
         os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
         yield temporary
         if mode is not None:

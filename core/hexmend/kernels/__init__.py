@@ -29,14 +29,17 @@ from hexmend.kernels import _processor
 _RUNS = {"v4": ("v4", "v3", "v2"), "v3": ("v3", "v2"), "v2": ("v2",), "native": ("native",)}
 
 
+#: Those that this processor can run, the newest first.
+BUILDS = _RUNS.get(_processor.LEVEL, ())
+
+
 def _chosen() -> str:
-    can = _RUNS.get(_processor.LEVEL, ())
-    if not can:
+    if not BUILDS:
         raise ImportError("this processor can run none of the builds of Hexmend's kernels: SSE 4.2 is the least")
-    wanted = os.environ.get("HEXMEND_KERNELS", "").strip() or can[0]
-    if wanted not in can:
+    wanted = os.environ.get("HEXMEND_KERNELS", "").strip() or BUILDS[0]
+    if wanted not in BUILDS:
         raise ParameterError(
-            f"HEXMEND_KERNELS = {wanted!r} names no build that this processor can run: expected {', '.join(can)}"
+            f"HEXMEND_KERNELS = {wanted!r} names no build that this processor can run: expected {', '.join(BUILDS)}"
         )
     return wanted
 

@@ -1,12 +1,29 @@
-"""Reports: records for programs; tables and figures for people."""
+"""Reports: records for programs; tables and figures for people.
 
-from hexmend.report.comparison import comparison_rows, comparison_table, table_of, write_comparison
-from hexmend.report.documents import made_folder, write_csv, write_documents, write_text
-from hexmend.report.latex import latex
+Names are imported when they are first used: a command that writes a record does not wait for tables and figures.
+"""
+
+import importlib as _importlib
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
+from hexmend.report.latex import latex  # their modules have their names
 from hexmend.report.markdown import markdown
-from hexmend.report.records import HISTORY, record, to_json, write_history, write_json
-from hexmend.report.tables import Table
-from hexmend.report.thesis import write_experiment, write_study
+
+if _TYPE_CHECKING:
+    from hexmend.report.comparison import comparison_rows, comparison_table, table_of, write_comparison
+    from hexmend.report.documents import made_folder, write_csv, write_documents, write_text
+    from hexmend.report.records import HISTORY, record, to_json, write_history, write_json
+    from hexmend.report.tables import Table
+    from hexmend.report.thesis import write_experiment, write_study
+
+_HOMES = {
+    "comparison": ("comparison_rows", "comparison_table", "table_of", "write_comparison"),
+    "documents": ("made_folder", "write_csv", "write_documents", "write_text"),
+    "records": ("HISTORY", "record", "to_json", "write_history", "write_json"),
+    "tables": ("Table",),
+    "thesis": ("write_experiment", "write_study"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "HISTORY",
@@ -28,3 +45,9 @@ __all__ = [
     "write_study",
     "write_text",
 ]
+
+
+def __getattr__(name: str) -> object:
+    if name in _HOME_OF:
+        return getattr(_importlib.import_module(f"{__name__}.{_HOME_OF[name]}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
