@@ -28,6 +28,7 @@ from hexmend.kernels import symmetric as symmetric
 from hexmend.kernels import worst_first as worst_first
 
 BUILD: str
+BUILDS: tuple[str, ...]
 LANES: int
 
 def threads() -> int: ...
