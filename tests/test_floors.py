@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 # From the ground up; an import goes down, or stays inside one package's own folder.
 CORE = [
-    {"errors", "hexahedron"},
+    {"arrays", "errors", "hexahedron"},
     {"parameters", "registry"},
     {"kernels"},
     {"topology"},

@@ -95,6 +95,8 @@ inline void put(const Lanes (&rows)[8], int row, double (*out)[ROOM]) {
         for (int i = 0; i < LANES; ++i) out[i][row + k] = rows[k][i];
 }
 
+inline Lanes cut(Lanes value) { return least(all<Lanes>(CUT), greatest(all<Lanes>(-CUT), value)); }
+
 // first * values + second * g g', cut to what single precision holds; a hex after another.
 //
 // A hex that is moved as a whole keeps its energy: the blocks of each of its corners sum up to zero, which gives its own.
@@ -105,20 +107,20 @@ template <class Real> void weigh(const Sums &sums, double p, Real (*out)[ROOM]) 
     for (int k = 0; k < 24; ++k) h[k] = second * g[k];
     int row = 0;
     auto next = [&](Lanes value) __attribute__((always_inline)) {
-        rows[row % 8] = least(greatest(value, all<Lanes>(-CUT)), all<Lanes>(CUT));
+        rows[row % 8] = value;
         if (++row % 8 == 0) put(rows, row - 8, out);
     };
     for (int a = 0; a < 8; ++a)
         for (int b = a + 1; b < 8; ++b)
             unrolled<9>([&](auto at) {
                 constexpr int i = at / 3, j = at % 3;
-                Lanes value = first * sums.at[row] + h[3 * a + i] * g[3 * b + j];
+                Lanes value = cut(first * sums.at[row] + h[3 * a + i] * g[3 * b + j]);
                 // xx xy xz yy yz zz: of the block as it stands for a, of its transpose for b.
                 if constexpr (i <= j) own[6 * a + i * (5 - i) / 2 + j] -= value;
                 if constexpr (i >= j) own[6 * b + j * (5 - j) / 2 + i] -= value;
                 next(value);
             });
-    for (Lanes value : own) next(value);
+    for (Lanes value : own) next(cut(value));
     while (row % 8) next(Lanes{});
 }
 
@@ -214,7 +216,7 @@ void assemble(Points points, double delta, double p, Left left_out, Indices boun
               Hexes hexes, Hexes slots, Targets target, std::span<std::array<Real, 9>> off,
               std::span<std::array<Real, 6>> diagonal) {
     Shared shared{bounds, start, chosen, hexes, slots, target};
-    (delta > 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, p, left_out, shared, off, diagonal);
+    (delta != 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, p, left_out, shared, off, diagonal);
 }
 
 #define FOR_REAL(Real)                                                                                       \

@@ -149,8 +149,8 @@ template <class T> struct BlockWeights {
 
     BlockWeights(T energy, double p) {
         if (p == 2) {
-            auto counts = energy >= 0.0;
-            first = counts ? 2.0 * energy : all<T>(0.0), second = counts ? all<T>(2.0) : all<T>(0.0);
+            auto perfect = energy < 0.0;
+            first = perfect ? all<T>(0.0) : 2.0 * energy, second = perfect ? all<T>(0.0) : all<T>(2.0);
             return;
         }
         for (int i = 0; i < width<T>; ++i) {

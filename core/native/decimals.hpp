@@ -7,6 +7,10 @@
 
 namespace hexmend {
 
-std::string decimals(Numbers values, std::int64_t width);
+using Wholes = std::span<const std::int64_t>;
+
+std::string decimal_lines(Numbers values, std::int64_t width, Wholes last);
+
+std::string whole_lines(Wholes values, std::int64_t width);
 
 }  // namespace hexmend

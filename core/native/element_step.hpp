@@ -41,6 +41,8 @@ template <class T> inline Corners<T> element_step(const Corners<T> &x, double s,
 // Places (m, 8, 3): a row for each hex.
 using Places = std::span<std::array<double, 24>>;
 
+Made<double, 3> step_of_one(Points corners, double s, double rho);
+
 void element_steps(Points points, Hexes hexes, double s, double rho, Places places);
 
 }  // namespace hexmend

@@ -44,6 +44,38 @@ constexpr auto CORNER_FACES = [] {
     return faces;
 }();
 
+namespace detail {
+
+constexpr int corner_at(int x, int y, int z) {
+    for (int c = 0; c < 8; ++c)
+        if (UNIT_CUBE[c][0] == x && UNIT_CUBE[c][1] == y && UNIT_CUBE[c][2] == z) return c;
+    return -1;
+}
+
+// The corners of a hex as the unit cube numbers them after a rotation that makes `corner` its corner 0.
+constexpr std::array<int, 8> turned_corners(int corner) {
+    std::array<int, 8> places{};
+    for (int c = 0; c < 8; ++c) {
+        int at[3] = {};
+        for (int k = 0; k < 3; ++k) {
+            // Corner 0 has its neighbours along y, z and x.
+            auto along = [&](int j) { return UNIT_CUBE[CORNER_TETRAHEDRA[corner][j]][k] - UNIT_CUBE[corner][k]; };
+            at[k] = UNIT_CUBE[corner][k] + UNIT_CUBE[c][1] * along(1) + UNIT_CUBE[c][2] * along(2) +
+                    UNIT_CUBE[c][0] * along(3);
+        }
+        places[c] = corner_at(at[0], at[1], at[2]);
+    }
+    return places;
+}
+
+}  // namespace detail
+
+alignas(32) constexpr std::array<std::array<int, 8>, 8> TURNED = [] {
+    std::array<std::array<int, 8>, 8> all{};
+    for (int c = 0; c < 8; ++c) all[c] = detail::turned_corners(c);
+    return all;
+}();
+
 // body(constant<0>), ..., body(constant<n - 1>): a loop whose number is known to the compiler.
 template <int n> using constant = std::integral_constant<int, n>;
 template <int n, class Body> inline __attribute__((always_inline)) void unrolled(Body &&body) {

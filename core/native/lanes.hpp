@@ -82,6 +82,7 @@ inline double sum_of_lanes(const Lanes &x) {
 #endif
 }
 
+// Where one of the two is no number it is the second that counts.
 template <class T> inline T least(T a, T b) { return a < b ? a : b; }
 template <class T> inline T greatest(T a, T b) { return a > b ? a : b; }
 template <class T> inline T magnitude(T a) { return greatest(a, -a); }

@@ -1,9 +1,17 @@
 #include "local.hpp"
 
+#include <stdexcept>
+
 #include "visit.hpp"
 
 namespace hexmend {
 namespace {
+
+// A patch that is to be looked at alone.
+Patch<Lanes> patch_of(Star star) {
+    if (star.empty()) throw std::invalid_argument("a node that no hex uses has no patch");
+    return Patch<Lanes>(star.size());
+}
 
 // A patch with its table, and what a method sees where the node is.
 template <bool soft> Visit seen(Patch<Lanes> &patch, double delta, double p) {
@@ -16,14 +24,14 @@ template <bool soft> Visit seen(Patch<Lanes> &patch, double delta, double p) {
 void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
            int direction, double delta, double p, double first, double shrink, double c1, int cuts) {
     LocalStep how{direction, delta, p, first, shrink, c1, cuts};
-    (delta > 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, hexes, start, corners, groups, nodes, how);
+    (delta != 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, hexes, start, corners, groups, nodes, how);
 }
 
 std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Points points, Hexes hexes, Indices star,
                                                                               double factor, double delta, double p) {
-    Patch<Lanes> patch(star.size());
+    auto patch = patch_of(star);
     factor = patch.load(points, hexes, star, factor);
-    Visit at = delta > 0 ? seen<true>(patch, delta, p) : seen<false>(patch, delta, p);
+    Visit at = delta != 0 ? seen<true>(patch, delta, p) : seen<false>(patch, delta, p);
     Symmetric h = patch.hessian();
     return {factor, at.value, {at.gradient.x, at.gradient.y, at.gradient.z}, {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}};
 }
@@ -32,27 +40,27 @@ std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(
     Points points, Hexes hexes, Indices star, double factor, int direction, double delta, double p, double first,
     double shrink, double c1, int cuts) {
     LocalStep how{direction, delta, p, first, shrink, c1, cuts};
-    Patch<Lanes> patch(star.size());
+    auto patch = patch_of(star);
     patch.load(points, hexes, star, factor);
-    Visit at = delta > 0 ? seen<true>(patch, delta, p) : seen<false>(patch, delta, p);
+    Visit at = delta != 0 ? seen<true>(patch, delta, p) : seen<false>(patch, delta, p);
     Chosen chosen = choose(patch, at, how);
     Made<double, 3> trials;
     auto tell = [&](double alpha, double value) {
         for (double number : {alpha, value, at.value + c1 * alpha * chosen.slope}) trials.values.push_back(number);
     };
-    double alpha = delta > 0 ? back_line_search<true>(patch, at, chosen, how, tell)
+    double alpha = delta != 0 ? back_line_search<true>(patch, at, chosen, how, tell)
                              : back_line_search<false>(patch, at, chosen, how, tell);
     return {{chosen.d.x, chosen.d.y, chosen.d.z}, chosen.slope, chosen.fallback, alpha, std::move(trials)};
 }
 
 void along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction, double delta,
            double p, std::span<std::array<double, 2>> curve) {
-    Patch<Lanes> patch(star.size());
+    auto patch = patch_of(star);
     patch.load(points, hexes, star, factor);
-    delta > 0 ? patch.tabulate<true>(delta) : patch.tabulate<false>(delta);
+    delta != 0 ? patch.tabulate<true>(delta) : patch.tabulate<false>(delta);
     patch.aim({direction[0], direction[1], direction[2]});
     for (auto &[alpha, value] : curve)
-        value = delta > 0 ? patch.value_along<true>(alpha, delta, p) : patch.value_along<false>(alpha, delta, p);
+        value = delta != 0 ? patch.value_along<true>(alpha, delta, p) : patch.value_along<false>(alpha, delta, p);
 }
 
 }  // namespace hexmend

@@ -72,7 +72,7 @@ void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<
             most_skew = greatest(magnitude(dot(X[i], X[j])) / (l[i] * l[j]), most_skew);
             most_taper = greatest(crossing[i] / least(l[i], l[j]), most_taper);
         });
-        auto sound = (low > 0.0) & (high < INF);
+        auto sound = (l[0] > 0.0) & (l[1] > 0.0) & (l[2] > 0.0) & (high < INF);
         put(sound ? high / low : all<Lanes>(INF), first, count, aspect_ratio);
         put(sound ? least(most_skew, all<Lanes>(1.0)) : all<Lanes>(1.0), first, count, skew);
         put(sound ? most_taper : all<Lanes>(INF), first, count, taper);

@@ -17,7 +17,7 @@ void energies_of(Points points, Hexes hexes, double delta, Left left_out, std::s
             auto e = energy<soft>(x.template edges<t>(), delta, counted(t));
             sum += counted(t) ? e.eta() : all<T>(1.0);
         });
-        sum = greatest(sum * 0.125 - 1.0, all<T>(0.0));  // (B.20)
+        sum = energy_of_sum(sum);
         for (int i = 0; i < count; ++i) eta[first + i] = lane(sum, i);
     });
 }

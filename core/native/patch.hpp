@@ -20,38 +20,6 @@
 
 namespace hexmend {
 
-namespace detail {
-
-constexpr int corner_at(int x, int y, int z) {
-    for (int c = 0; c < 8; ++c)
-        if (UNIT_CUBE[c][0] == x && UNIT_CUBE[c][1] == y && UNIT_CUBE[c][2] == z) return c;
-    return -1;
-}
-
-// The corners of a hex as the unit cube numbers them after a rotation that makes `corner` its corner 0.
-constexpr std::array<int, 8> turned_corners(int corner) {
-    std::array<int, 8> places{};
-    for (int c = 0; c < 8; ++c) {
-        int at[3] = {};
-        for (int k = 0; k < 3; ++k) {
-            // Corner 0 has its neighbours along y, z and x.
-            auto along = [&](int j) { return UNIT_CUBE[CORNER_TETRAHEDRA[corner][j]][k] - UNIT_CUBE[corner][k]; };
-            at[k] = UNIT_CUBE[corner][k] + UNIT_CUBE[c][1] * along(1) + UNIT_CUBE[c][2] * along(2) +
-                    UNIT_CUBE[c][0] * along(3);
-        }
-        places[c] = corner_at(at[0], at[1], at[2]);
-    }
-    return places;
-}
-
-}  // namespace detail
-
-alignas(32) constexpr std::array<std::array<int, 8>, 8> TURNED = [] {
-    std::array<std::array<int, 8>, 8> all{};
-    for (int c = 0; c < 8; ++c) all[c] = detail::turned_corners(c);
-    return all;
-}();
-
 // A hex turned so that `corner` is its corner 0.
 inline Hex turned(const Hex &hex, int corner) {
     Hex there;
@@ -141,7 +109,7 @@ template <class T> class Patch {
                 T sigma = t.sigma + alpha * t.along_g, squared = (t.square + (j ? far : 3 * far)) + alpha * t.along_b;
                 eta += energy_at<soft>(sigma, squared, delta).eta();
             }
-            total += sum_of_powers(eta * 0.125 - 1.0, p, b);
+            total += sum_of_powers(eta, p, b);
         }
         return total;
     }
@@ -161,7 +129,7 @@ template <class T> class Patch {
             }
             block.eta = eta * 0.125 - 1.0;
             block.gradient = all<T>(0.125) * g;
-            answer.value += sum_of_powers(block.eta, p, b);
+            answer.value += sum_of_powers(eta, p, b);
             block.weights = BlockWeights<T>(block.eta, p);
             V3<T> weighted = block.weights.first * block.gradient;
             answer.gradient += V3<double>{sum(weighted.x, b), sum(weighted.y, b), sum(weighted.z, b)};
@@ -234,9 +202,9 @@ template <class T> class Patch {
         return total;
     }
 
-    // Softened by delta, a hex better than perfect counts as perfect.
-    double sum_of_powers(T energy, double p, int b) const {
-        energy = greatest(energy, all<T>(0.0));
+    // Of the sums of eta(T) of the hexes of block b.
+    double sum_of_powers(T sum_of_eta, double p, int b) const {
+        T energy = energy_of_sum(sum_of_eta);
         if (p == 2) return sum(energy * energy, b);
         double total = 0;
         for (int i = 0; i < width<T> && b * width<T> + i < size_; ++i) total += std::pow(lane(energy, i), p);

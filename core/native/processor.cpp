@@ -15,7 +15,13 @@ static const char *level() {
            : IsProcessorFeaturePresent(40) ? "v3"
            : IsProcessorFeaturePresent(38) ? "v2"
                                            : "v1";
-#elif defined(__x86_64__)
+#elif defined(__x86_64__) && !defined(__clang__)
+    __builtin_cpu_init();
+    return __builtin_cpu_supports("x86-64-v4")   ? "v4"
+           : __builtin_cpu_supports("x86-64-v3") ? "v3"
+           : __builtin_cpu_supports("x86-64-v2") ? "v2"
+                                                 : "v1";
+#elif defined(__x86_64__)  // Clang knows levels by name from version 18 on
     __builtin_cpu_init();
     if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("ssse3") || !__builtin_cpu_supports("popcnt"))
         return "v1";

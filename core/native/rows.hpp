@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "hexahedron.hpp"
@@ -18,6 +19,11 @@ using Points = std::span<const Point>;
 using Hexes = std::span<const Hex>;
 using Indices = std::span<const std::int32_t>;
 using Numbers = std::span<const double>;
+
+// For what people outside hand over: as many rows of one array as of another.
+inline void expect(bool fits, const char *what) {
+    if (!fits) throw std::invalid_argument(what);
+}
 
 // What a kernel makes and hands over: an array (n,), or (n, width). Truths are bytes: std::vector<bool> is no array.
 template <class T, std::size_t width = 1> struct Made {

@@ -11,7 +11,7 @@ void powers(Numbers h, std::span<double> powers) {
 void barriers(Numbers sigma, double delta, std::span<double> h, std::span<double> r) {
     for (std::size_t i = 0; i < sigma.size(); ++i) {
         auto s = all<Lanes>(sigma[i]);
-        auto at = delta > 0 ? barrier<true>(s, delta) : barrier<false>(s, delta);
+        auto at = delta != 0 ? barrier<true>(s, delta) : barrier<false>(s, delta);
         h[i] = at.h[0], r[i] = at.r[0];
     }
 }

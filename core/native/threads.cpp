@@ -1,10 +1,10 @@
 #include "threads.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -18,6 +18,9 @@
 
 namespace hexmend {
 namespace {
+
+// More threads than this are asked for by mistake.
+constexpr int MOST = 1024;
 
 // How often a thread looks before it sleeps: some ten microseconds.
 constexpr int LOOKS = 400;
@@ -39,12 +42,16 @@ void await(const std::atomic<std::uint32_t> &number, std::uint32_t old) {
     number.wait(old, std::memory_order_acquire);
 }
 
+// Whether this thread is in a loop that is shared: a loop inside of it is not.
+thread_local bool at_work = false;
+
 class Team {
   public:
     explicit Team(int wanted) : wanted_(wanted) {
+        helpers_.reserve(wanted);
         try {
             for (int i = 0; i < wanted; ++i) helpers_.emplace_back([this] { help(); });
-        } catch (const std::system_error &) {  // as many as the system gives
+        } catch (const std::exception &) {  // as many as the system gives
         }
     }
 
@@ -91,6 +98,7 @@ class Team {
     }
 
     void help() {
+        at_work = true;
         for (std::uint32_t turn = 0;;) {
             await(turn_, turn);
             turn = turn_.load(std::memory_order_acquire);
@@ -128,11 +136,16 @@ std::atomic<int> by_default{1};
 
 struct Own {
     int count = 0;  // 0: the default
-    bool at_work = false;
     long made_in = 0;
     std::unique_ptr<Team> team;
 
-    ~Own() { forget(); }
+    ~Own() {
+#if defined(_WIN32)
+        (void)team.release();  // whose helpers could not end while Windows ends this thread
+#else
+        forget();
+#endif
+    }
 
     void forget() {
         // A process that was forked has the memory of its parent's helpers, but not the helpers.
@@ -146,13 +159,13 @@ thread_local Own own;
 
 int threads() { return own.count ? own.count : by_default.load(); }
 
-void set_threads(int count) { own.count = count < 1 ? 1 : count; }
+void set_threads(int count) { own.count = std::clamp(count, 1, MOST); }
 
-void set_default_threads(int count) { by_default = count < 1 ? 1 : count; }
+void set_default_threads(int count) { by_default = std::clamp(count, 1, MOST); }
 
 void detail::share(std::int64_t pieces, void (*body)(const void *, std::int64_t), const void *context) {
     int helpers = threads() - 1;
-    if (pieces <= 1 || helpers == 0 || own.at_work) {
+    if (pieces <= 1 || helpers == 0 || at_work) {
         for (std::int64_t i = 0; i < pieces; ++i) body(context, i);
         return;
     }
@@ -162,9 +175,9 @@ void detail::share(std::int64_t pieces, void (*body)(const void *, std::int64_t)
         own.team = std::make_unique<Team>(helpers);
         own.made_in = process();
     }
-    own.at_work = true;
+    at_work = true;
     struct Done {
-        ~Done() { own.at_work = false; }
+        ~Done() { at_work = false; }
     } done;
     own.team->share(pieces, body, context);
 }

@@ -70,6 +70,7 @@ inline void visit(Patch<T> (&patch)[nodes], std::span<Point> points, Hexes hexes
         if (scale[k] == 0 || !(0 < at[k].value && at[k].value < INF) || (g.x == 0 && g.y == 0 && g.z == 0)) continue;
         Chosen chosen = choose(patch[k], at[k], how);
         double alpha = back_line_search<soft>(patch[k], at[k], chosen, how, [](double, double) {});
+        if (alpha == 0) continue;
         Point &node = points[hexes[star[k][0] / 8][star[k][0] % 8]];
         node[0] += alpha * chosen.d.x / scale[k];
         node[1] += alpha * chosen.d.y / scale[k];

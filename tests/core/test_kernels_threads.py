@@ -57,7 +57,7 @@ def test_a_number_that_is_none_is_said_plainly(word, tmp_path):
     )  # fmt: skip
     assert done.returncode == 2
     assert done.stderr == (
-        f"hexmend: HEXMEND_THREADS = {word!r} cannot be used: expected a whole number of at least 1\n"
+        f"hexmend: HEXMEND_THREADS = {word!r} cannot be used: expected a whole number from 1 to 1024\n"
     )
     assert not out.exists()
 

@@ -5,9 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.energy import MeshEnergy, energies
+from hexmend import kernels
+from hexmend.energy import Couplings, MeshEnergy, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.kernels import LANES, local, objective, plain
+from hexmend.kernels import LANES, element_step, local, objective, plain, reach
+from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 
 #: One hex, a part of a block, one block and a hex, more than a thread takes at a time.
@@ -134,3 +136,122 @@ def test_an_inverted_tetrahedron_that_is_left_out_makes_no_energy_infinite():
     assert np.isfinite(energy.gradient(x)).all()
     assert np.isfinite(energy.hessian(x) @ np.ones(3 * energy.nodes.size)).all()
     assert np.isfinite(energy.hessian(x).assembled().off).all()
+
+
+def energy_in_numpy(x, delta, p, left_out):
+    """Sum of max(eta(H), 0)^p over hexes with corners x (m, 8, 3), complex or not, as the book writes it."""
+    edges = x[:, CORNER_TETRAHEDRA[:, 1:]] - x[:, CORNER_TETRAHEDRA[:, :1]]
+    sigma = np.linalg.det(edges)
+    h = (sigma + np.sqrt(sigma * sigma + 4 * delta * delta)) / 2
+    eta = (edges * edges).sum(axis=(2, 3)) / (3 * h ** (2 / 3))
+    energy = np.where(np.unpackbits(left_out[:, None], axis=1, bitorder="little") == 1, 1.0, eta).mean(axis=1) - 1
+    return np.where(energy.real > 0, energy, 0.0) ** p
+
+
+@given(**cases)
+def test_energy_and_gradient_are_those_of_numpy(count, case, p, seed, share):
+    points, hexes = some(count, case[0], seed)
+    delta, left_out = case[1], some_left_out(count, share, seed)
+    x = points[hexes]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        expected = energy_in_numpy(x, delta, p, left_out)
+        sound = np.isfinite(expected)
+        eta, shares = energies(points, hexes, delta, left_out), np.empty((count, 8, 3))
+        np.testing.assert_allclose(eta[sound] ** p, expected[sound], rtol=1e-9, atol=1e-11)
+        objective.gradient(points, hexes, delta, p, left_out, shares)
+        for corner, axis in ((0, 0), (3, 1), (6, 2)):
+            there = x.astype(complex)
+            there[:, corner, axis] += 1e-30j
+            slope = energy_in_numpy(there, delta, p, left_out).imag / 1e-30
+            clear = sound & (eta > 1e-6)  # at zero, p = 1 has a kink
+            size = np.abs(shares[clear]).max(initial=1e-300)
+            np.testing.assert_allclose(shares[clear, corner, axis], slope[clear], rtol=1e-7, atol=1e-9 * size)
+
+
+def bad_hexes():
+    """Points and hexes of which none has a finite energy at delta = 0, however they went wrong."""
+    cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1.0]])
+    collapsed, no_number, far = cube.copy(), cube.copy(), cube * 1e160
+    collapsed[[1, 3, 4]] = collapsed[0]
+    no_number[6, 1] = np.nan
+    flat = cube * [1, 1, 0]
+    mirrored = cube * [1, 1, -1]
+    kinds = [collapsed, no_number, far, flat, mirrored, np.zeros((8, 3))]
+    return np.concatenate(kinds), np.arange(8 * len(kinds), dtype=np.int32).reshape(-1, 8)
+
+
+def test_what_has_no_energy_is_never_taken_for_perfect():
+    points, hexes = bad_hexes()
+    assert (energies(points, hexes) == np.inf).all()
+    softened = energies(points, hexes, 0.1)
+    assert (softened[[1, 2]] == np.inf).all()
+    assert (softened[:5] > 0).all()  # a hex of no extent is better than perfect by the formula
+
+
+def test_a_node_beside_a_collapsed_corner_is_left_alone():
+    mesh = scrambled(grid(4), 0.1)
+    points = mesh.points.copy()
+    node = int(np.flatnonzero(mesh.free)[0])
+    star = mesh.topology.node_corners[node]
+    nodes = mesh.hexes[star[0] // 8]
+    tetrahedron = next(t for t in CORNER_TETRAHEDRA if nodes[t[0]] != node)
+    points[nodes[tetrahedron]] = points[node] + 0.3  # a corner of no extent
+    points[node] -= 0.3
+    _, value, gradient, _ = local.look(points, mesh.hexes, star, 0.0, 0.0, 2.0)
+    assert value == np.inf, gradient
+    corners, groups = mesh.topology.node_corners, np.array([0, 1], np.int32)
+    moved = points.copy()
+    local.sweep(
+        moved, mesh.hexes, corners.start, corners.items, groups, np.array([node], np.int32),
+        local.STEEPEST_DESCENT, 0.0, 2.0, 1.0, 0.7, 1e-4, 60,
+    )  # fmt: skip
+    np.testing.assert_array_equal(moved, points)
+
+
+def test_arrays_that_do_not_fit_are_refused():
+    mesh = grid(2)
+    for left_out, eta in ((np.zeros(3, np.uint8), np.empty(8)), (np.zeros(8, np.uint8), np.empty(7))):
+        with pytest.raises(ValueError, match="one for each hex"):
+            objective.energies(mesh.points, mesh.hexes, 0.0, left_out, eta)
+    with pytest.raises(TypeError):
+        objective.energies(mesh.points.astype(np.float32), mesh.hexes, 0.0, np.zeros(8, np.uint8), np.empty(8))
+    with pytest.raises(ValueError, match="no patch"):
+        local.look(mesh.points, mesh.hexes, np.empty(0, np.int32), 0.0, 0.0, 2.0)
+
+
+def test_public_functions_take_any_whole_numbers_and_order():
+    mesh = scrambled(grid(3), 0.2)
+    points, hexes = np.asfortranarray(mesh.points), mesh.hexes.astype(np.int64)
+    np.testing.assert_array_equal(energies(points, hexes), energies(mesh.points, mesh.hexes))
+    np.testing.assert_array_equal(measure(points, hexes.tolist()).q, measure(mesh.points, mesh.hexes).q)
+    energy = MeshEnergy(mesh)
+    assert energy.value(energy.scaled(points)) == energy.value(energy.scaled(mesh.points))
+
+
+@pytest.mark.parametrize("parts", [1, 3])
+def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
+    mesh = scrambled(grid(20), 0.3)
+    energy = MeshEnergy(mesh)
+    energy.couplings = Couplings(mesh, parts)
+    assert energy.couplings.bounds.size == 2 * parts
+    x, most, answers = energy.scaled(mesh.points), kernels.threads(), []
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
+    rings = mesh.topology.rings
+    try:
+        for threads in (1, 2, 3, 5):
+            kernels.set_threads(threads)
+            matrix = energy.hessian(x, 0.1).assembled()
+            solved = matrix.solve(-energy.gradient(x, 0.1).ravel(), 1e-6, 60)
+            swept, places, step = x.copy(), np.empty((mesh.n_hexes, 8, 3)), solved.x.reshape(-1, 3).copy()
+            local.sweep(
+                swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
+                local.NEWTON, 0.1, 2.0, 1.0, 0.7, 1e-4, 60,
+            )  # fmt: skip
+            element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
+            reach.shorten(step, x, rings.start, rings.items, energy.nodes, 0.1)
+            pattern = Couplings(mesh, parts)
+            found = matrix.off, matrix.diagonal, solved.x, swept, places, step, pattern.target, pattern.columns
+            answers.append([array.tobytes() for array in (*found, matrix @ solved.x, pattern.slots)])
+    finally:
+        kernels.set_threads(most)
+    assert all(answer == answers[0] for answer in answers[1:])

@@ -76,10 +76,12 @@ def test_the_result_moves_turns_and_scales_with_the_mesh(name, seed, exponent):
 
 def test_runs_are_bitwise_repeatable_whatever_the_number_of_threads(name):
     mesh, most, results = scrambled(grid(8), 0.4), kernels.threads(), []
-    for threads in (1, 2, 3, 5):
-        kernels.set_threads(threads)
-        results.append(points_after(mesh, METHODS[name](), 3)[-1])
-    kernels.set_threads(most)
+    try:
+        for threads in (1, 2, 3, 5):
+            kernels.set_threads(threads)
+            results.append(points_after(mesh, METHODS[name](), 3)[-1])
+    finally:
+        kernels.set_threads(most)
     for result in results[1:]:
         np.testing.assert_array_equal(results[0], result)
 

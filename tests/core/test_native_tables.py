@@ -18,3 +18,12 @@ def test_the_faces_at_a_corner_turn_their_triangle_outwards():
         a, b, c = centres[list(faces)]
         towards = 2 * corner - 1
         np.testing.assert_array_equal(np.cross(b - a, c - a), 0.25 * towards)
+
+
+def test_a_turned_hex_is_the_same_hex():
+    for corner, turned in enumerate(native.TURNED):
+        assert turned[0] == corner
+        x, there = hexahedron.UNIT_CUBE[list(turned)], hexahedron.UNIT_CUBE
+        distances = [np.linalg.norm(places[:, None] - places, axis=-1) for places in (x, there)]
+        np.testing.assert_array_equal(*distances)
+        assert np.linalg.det(x[[1, 3, 4]] - x[0]) == 1  # turned, not mirrored

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import as_hexes, as_points
 from hexmend.kernels import objective as kernels
 
 
@@ -34,7 +35,7 @@ def energies(
     """
     eta = np.empty(len(hexes))
     out = np.zeros(len(hexes), np.uint8) if left_out is None else left_out
-    kernels.energies(points, hexes, float(delta), out, eta)
+    kernels.energies(as_points(points), as_hexes(hexes), float(delta), out, eta)
     return eta
 
 

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.arrays import as_points
 from hexmend.energy.assembled import Assembled
 from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import energies
@@ -74,7 +75,7 @@ class MeshEnergy:
 
     def scaled(self, points: np.ndarray) -> np.ndarray:
         """Points in mean edge lengths, (n, 3)."""
-        return points / self.unit
+        return as_points(points) / self.unit
 
     def placed(self, x: np.ndarray) -> np.ndarray:
         """Points in the mesh's own unit of length, (n, 3); fixed nodes to the last bit where they were."""
@@ -84,7 +85,7 @@ class MeshEnergy:
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         """x (n, 3) with its free nodes displaced by alpha times step (k, 3)."""
-        there = np.empty_like(x)
+        there = np.empty(x.shape)
         reach.displaced(x, self.nodes, step, alpha, there)
         return there
 
@@ -149,11 +150,12 @@ class Hessian(SymmetricOperator):
         dtype : numpy.float32 or numpy.float64
             Of the blocks.
         room : Assembled, optional
-            Another matrix of the same energy and precision, which is not needed any more: this one takes its place.
-            Memory that has been touched before is faster.
+            Another matrix that is not needed any more: this one takes its place if its pattern and precision are the
+            same. Memory that has been touched before is faster.
         """
         energy, couplings = self.energy, self.energy.couplings
-        matrix = Assembled.zero(couplings, dtype) if room is None else room.cleared()
+        fits = room is not None and room.couplings is couplings and room.off.dtype == dtype
+        matrix = room.cleared() if fits else Assembled.zero(couplings, dtype)
         assembly.assemble(
             self.x, self.delta, energy.p, energy.left_out, *couplings.shares(threads()), matrix.off, matrix.diagonal
         )

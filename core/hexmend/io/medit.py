@@ -72,7 +72,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     with open(path, "wb") as file:
         file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{mesh.n_nodes}\n".encode())
         for part in blocks(mesh.n_nodes):
-            file.write(lines(np.column_stack([mesh.points[part], refs[part]])))
+            file.write(lines(mesh.points[part], refs[part]))
         for name, rows in sections.items():
             file.write(f"{name}\n{len(rows)}\n".encode())
             for part in blocks(len(rows)):

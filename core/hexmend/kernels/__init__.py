@@ -5,7 +5,7 @@ them. Every kernel releases the GIL, so that a window stays alive beside it. Res
 threads: parallel loops write disjoint rows, and sums are taken over those rows afterwards.
 
 There is a build for each generation of processors; the newest that this one can run is loaded. The variable
-`HEXMEND_KERNELS` names another: v2, v3 or v4 (x86-64-v2 and so on).
+`HEXMEND_KERNELS` names another: v2, v3 or v4 (x86-64-v2 and so on); other kinds of processors have one build, native.
 
 Loops are shared by as many threads as `HEXMEND_THREADS` says, else OpenMP's variables (`OMP_NUM_THREADS`,
 `OMP_THREAD_LIMIT`), else by as many as there are processors that this process may use. `set_threads` chooses another
@@ -23,7 +23,11 @@ import sys
 from types import ModuleType
 
 from hexmend.errors import ParameterError
-from hexmend.kernels import _processor
+
+try:
+    from hexmend.kernels import _processor
+except ImportError as error:
+    raise ImportError("the kernels of Hexmend are not built: run  make run  or  scripts/build-kernels BIN") from error
 
 #: Builds, the newest first, that a processor of each level can run.
 _RUNS = {"v4": ("v4", "v3", "v2"), "v3": ("v3", "v2"), "v2": ("v2",), "native": ("native",)}
@@ -49,7 +53,7 @@ def _default_threads() -> int:
     wanted = os.environ.get("HEXMEND_THREADS", "").strip()
     if wanted:
         if _positive(wanted) is None:
-            raise ParameterError(f"HEXMEND_THREADS = {wanted!r} cannot be used: expected a whole number of at least 1")
+            raise ParameterError(f"HEXMEND_THREADS = {wanted!r} cannot be used: expected a whole number from 1 to 1024")
         return int(wanted)
     theirs = _positive(os.environ.get("OMP_NUM_THREADS", "").split(",")[0])  # of nested loops, the outer ones'
     limit = _positive(os.environ.get("OMP_THREAD_LIMIT", ""))
@@ -60,7 +64,8 @@ def _default_threads() -> int:
 
 def _positive(word: str) -> int | None:
     word = word.strip()
-    return int(word) if word.isascii() and word.isdecimal() and 0 < len(word) < 7 and int(word) else None
+    number = int(word) if word.isascii() and word.isdecimal() and len(word) < 7 else 0
+    return number if 0 < number <= 1024 else None
 
 
 #: The build that is loaded.
@@ -71,6 +76,7 @@ _native.set_default_threads(_default_threads())
 
 threads, set_threads, LANES = _native.threads, _native.set_threads, _native.LANES
 
+# So that a family is imported like a module of its own: `from hexmend.kernels.local import sweep`.
 for _name, _family in vars(_native).items():
     if isinstance(_family, ModuleType):
         globals()[_name] = sys.modules[f"{__name__}.{_name}"] = _family

@@ -19,7 +19,7 @@ def assemble(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), ord
 
     left_out: bit t set: corner tetrahedron t of the hex is left out, as if it were perfect. The slots of share
     k are those from bounds[k] to bounds[k + 1], its hexes those from start[k] to start[k + 1] of: chosen, their
-    numbers; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from `couplings.targets`.
+    numbers; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from `couplings.pattern`.
     off (blocks + 1, 9): blocks above the diagonal, by rows, and one that is none. diagonal (k, 6): xx xy xz
     yy yz zz.
     """

@@ -6,7 +6,7 @@ import numpy
 from numpy.typing import NDArray
 
 
-def element_steps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], s: float, rho: float, places: Annotated[NDArray[numpy.float64], dict(shape=(None, 24), order='C', device='cpu')]) -> None:
+def element_steps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], s: float, rho: float, places: Annotated[NDArray[numpy.float64], dict(shape=(None, 8, 3), order='C', device='cpu')]) -> None:
     """
     Where the corners of every hex go; writes places (m, 8, 3).
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.arrays import dot, norm
 from hexmend.energy import MeshEnergy, energies
 from hexmend.kernels.reach import shorten
 from hexmend.optimise.direction import Direction, Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
-from hexmend.optimise.vectors import dot, norm
 
 
 @dataclass(frozen=True, eq=False)

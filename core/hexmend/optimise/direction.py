@@ -7,11 +7,11 @@ from typing import Protocol
 
 import numpy as np
 
+from hexmend.arrays import norm
 from hexmend.energy import Hessian
 from hexmend.energy.assembled import Assembled, full
 from hexmend.optimise.blas import one_blas_thread
 from hexmend.optimise.linear import LinearSolver
-from hexmend.optimise.vectors import norm
 
 
 @dataclass(frozen=True)

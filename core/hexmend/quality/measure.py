@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.arrays import as_hexes, as_points
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import elements
 
@@ -58,7 +59,7 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
     array([1.])
     """
     q, sigma, jacobian, eta = np.empty((4, len(hexes)))
-    elements.measure(points, hexes, q, sigma, jacobian, eta)
+    elements.measure(as_points(points), as_hexes(hexes), q, sigma, jacobian, eta)
     return ElementQuality(q, sigma, jacobian, eta)
 
 
@@ -97,7 +98,7 @@ def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray
     """
     chosen = hexes if which is None else hexes[which]
     sigma = np.empty((len(chosen), 8))
-    elements.corner_determinants(points, chosen, sigma)
+    elements.corner_determinants(as_points(points), as_hexes(chosen), sigma)
     return sigma
 
 
@@ -122,10 +123,3 @@ def corner_qualities(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     sigma = np.maximum(np.linalg.det(edges), 0.0)
     square = np.square(edges).sum(axis=(2, 3))
     return 3 * np.cbrt(sigma) ** 2 / np.where(square > 0, square, 1.0)
-
-
-def read_only(array: np.ndarray) -> np.ndarray:
-    """A read-only view: kernels are compiled once, for arrays that they do not write to."""
-    view = array.view()
-    view.flags.writeable = False
-    return view

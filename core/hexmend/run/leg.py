@@ -8,10 +8,10 @@ from time import perf_counter
 
 import numpy as np
 
+from hexmend.arrays import as_points, read_only
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Outcome, StageResult, Stop
 from hexmend.quality import measure, objective
-from hexmend.quality.measure import read_only
 from hexmend.recipe import Stage
 from hexmend.smoothers import Smoother
 
@@ -87,7 +87,7 @@ class Leg:
             self.end(end.value or Outcome.FINISHED)
             return None
         seconds = self.last.seconds + perf_counter() - began
-        points, before = read_only(step.points), self._at
+        points, before = read_only(as_points(step.points)), self._at
         move = float(np.sqrt(np.square(points - before.points).sum(axis=1).max())) / self._unit
         figures = step.figures if step.figures is not None else measure(points, self._hexes)
         notes = {**step.notes, "stage": self.number, "method": self.smoother.name}

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from hexmend.arrays import read_only
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Outcome, Result, Stop
 from hexmend.quality import measure, summarise
-from hexmend.quality.measure import read_only
 from hexmend.recipe import Recipe, Stage
 from hexmend.run.leg import Leg
 from hexmend.run.words import changes, iterations

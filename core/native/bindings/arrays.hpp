@@ -35,8 +35,11 @@ template <class T> struct type_caster<std::span<T>> {
     using Number = typename Scalar<T>::type;
     static constexpr std::size_t width = WIDTH<std::remove_const_t<T>>;
     using Array = ndarray<Number, c_contig, device::cpu>;
-    using Shaped = std::conditional_t<width == 1, ndarray<Number, ndim<1>, c_contig, device::cpu>,
-                                      ndarray<Number, shape<-1, (ssize_t)width>, c_contig, device::cpu>>;
+    // Vectors at the eight corners of each hex are (m, 8, 3) to those who call.
+    using Shaped = std::conditional_t<
+        width == 1, ndarray<Number, ndim<1>, c_contig, device::cpu>,
+        std::conditional_t<width == 24, ndarray<Number, shape<-1, 8, 3>, c_contig, device::cpu>,
+                           ndarray<Number, shape<-1, (ssize_t)width>, c_contig, device::cpu>>>;
 
     NB_TYPE_CASTER(std::span<T>, make_caster<Shaped>::Name)
 

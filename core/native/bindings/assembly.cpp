@@ -13,7 +13,7 @@ template <class Real> void bind_assemble(nb::module_ &m) {
           "block is the sum over its hexes in one order, however many shares there are.\n\n"
           "left_out: bit t set: corner tetrahedron t of the hex is left out, as if it were perfect. The slots of share\n"
           "k are those from bounds[k] to bounds[k + 1], its hexes those from start[k] to start[k + 1] of: chosen, their\n"
-          "numbers; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from `couplings.targets`.\n"
+          "numbers; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from `couplings.pattern`.\n"
           "off (blocks + 1, 9): blocks above the diagonal, by rows, and one that is none. diagonal (k, 6): xx xy xz\n"
           "yy yz zz.");
 }

@@ -3,19 +3,6 @@
 #include "arrays.hpp"
 
 namespace hexmend {
-namespace {
-
-Made<double, 3> one(Points corners, double s, double rho) {
-    constexpr Hex ALL_EIGHT[] = {{0, 1, 2, 3, 4, 5, 6, 7}};
-    if (corners.size() != 8) throw std::invalid_argument("a hex has 8 corners");
-    auto y = element_step(gathered<double>(corners, ALL_EIGHT, 0, 1), s, rho);
-    std::vector<double> places(24);
-    std::memcpy(places.data(), &y, sizeof y);
-    return {std::move(places)};
-}
-
-}  // namespace
-
 void bind_element_step(nb::module_ &m) {
     m.doc() = "GETMe's element step: a hex grows more regular by itself.";
     m.def("element_steps", &element_steps, "points"_a, "hexes"_a, "s"_a, "rho"_a, "places"_a, Unlocked(),
@@ -23,7 +10,7 @@ void bind_element_step(nb::module_ &m) {
           "Corner k goes to c_k + s n_k/sqrt(|n_k|), centroid and normal of the triangle of the centroids of its\n"
           "three faces; the hex keeps its mean edge length, and a share rho of the way is gone.\n"
           "Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2.");
-    m.def("element_step", &one, "x"_a, "s"_a, "rho"_a, Unlocked(),
+    m.def("element_step", &step_of_one, "x"_a, "s"_a, "rho"_a, Unlocked(),
           "The same of one hex x (8, 3), as `worst_first` takes it: its places (8, 3).");
 }
 
