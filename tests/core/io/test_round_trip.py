@@ -166,3 +166,13 @@ def test_pins_that_changed_after_reading_are_what_is_written(suffix, encoding, p
     io.write(tmp_path / f"b{suffix}", mesh.replace(pinned=pinned), encoding=encoding)
     back = io.read(tmp_path / f"b{suffix}")
     np.testing.assert_array_equal(back.fixed, mesh.replace(pinned=pinned).fixed)
+
+
+def test_references_of_a_medit_file_are_whole_numbers_however_round(tmp_path):
+    mesh = grid(1)
+    data = {"medit:ref": np.array([100000, 10**6, 7, 0, -300000, 1, 2, 10**9])}
+    path = tmp_path / "round.mesh"
+    io.write(path, Mesh(mesh.points, mesh.hexes, node_data=data))
+    lines = path.read_text().splitlines()
+    begin = lines.index("Vertices") + 2
+    assert [int(line.split()[3]) for line in lines[begin : begin + 8]] == data["medit:ref"].tolist()
