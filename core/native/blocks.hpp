@@ -132,7 +132,7 @@ inline void put(const Lanes &x, std::int64_t first, int count, std::span<double>
 template <class T> struct Counted {
     bits_of<T> left_out;
 
-    Counted(std::span<const std::uint8_t> bits, std::int64_t first, int count) {
+    Counted(Left bits, std::int64_t first, int count) {
         alignas(64) std::int64_t buffer[width<T>] = {};
         for (int i = 0; i < count; ++i) buffer[i] = bits[first + i];
         std::memcpy(&left_out, buffer, sizeof left_out);
@@ -140,6 +140,16 @@ template <class T> struct Counted {
 
     auto operator()(int t) const { return (left_out & (std::int64_t{1} << t)) == 0; }
 };
+
+// body(counted) for a block of hexes, counted(t) telling of which hexes tetrahedron t counts; of most blocks all do, which
+// the compiler is told.
+template <class T, class Body>
+inline __attribute__((always_inline)) void with_counted(Left left_out, std::int64_t first, int count, const Body &body) {
+    bool some = false;
+    for (int i = 0; i < count; ++i) some |= left_out[first + i] != 0;
+    if (some) body(Counted<T>(left_out, first, count));
+    else body([](int) { return std::true_type{}; });
+}
 
 // First and second derivatives of max(eta(H), 0)^p by eta(H), of each hex of a block.
 template <class T> struct BlockWeights {

@@ -8,9 +8,6 @@
 
 namespace hexmend {
 
-// A byte a hex: bit t is set where its corner tetrahedron t is left out, as if it were perfect.
-using Left = std::span<const std::uint8_t>;
-
 // Vectors at the eight corners of each hex.
 using Shares = std::span<std::array<double, 24>>;
 

@@ -11,11 +11,12 @@ template <bool soft, class T>
 void energies_of(Points points, Hexes hexes, double delta, Left left_out, std::span<double> eta) {
     blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gathered<T>(points, hexes, first, count);
-        Counted<T> counted(left_out, first, count);
         T sum{};
-        unrolled<8>([&](auto t) {
-            auto e = energy<soft>(x.template edges<t>(), delta, counted(t));
-            sum += counted(t) ? e.eta() : all<T>(1.0);
+        with_counted<T>(left_out, first, count, [&](auto counted) {
+            unrolled<8>([&](auto t) {
+                auto e = energy<soft>(x.template edges<t>(), delta, counted(t));
+                sum += counted(t) ? e.eta() : all<T>(1.0);
+            });
         });
         sum = energy_of_sum(sum);
         for (int i = 0; i < count; ++i) eta[first + i] = lane(sum, i);

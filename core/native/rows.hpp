@@ -25,6 +25,9 @@ inline void expect(bool fits, const char *what) {
     if (!fits) throw std::invalid_argument(what);
 }
 
+// A byte a hex: bit t is set where its corner tetrahedron t is left out, as if it were perfect.
+using Left = std::span<const std::uint8_t>;
+
 // What a kernel makes and hands over: an array (n,), or (n, width). Truths are bytes: std::vector<bool> is no array.
 template <class T, std::size_t width = 1> struct Made {
     std::vector<std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>> values;
