@@ -5,10 +5,12 @@ from __future__ import annotations
 import itertools
 import os
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 from statistics import median
 from typing import Any
 
+from hexmend.errors import FileError, MeshError
 from hexmend.gallery import make
 from hexmend.io import read, readable_suffixes
 from hexmend.mesh import Mesh
@@ -31,11 +33,14 @@ def _optima() -> dict[str, Any]:
 
 
 def _real() -> list[Mesh]:
-    """The meshes of the folder that the variable HEXMEND_MESHES names, if it does."""
+    """The meshes of the folder that the variable HEXMEND_MESHES names, if it does, and that can be read."""
     folder = os.environ.get("HEXMEND_MESHES")
-    return (
-        [read(path) for path in sorted(Path(folder).iterdir()) if path.suffix in readable_suffixes()] if folder else []
-    )
+    found = []
+    for path in sorted(Path(folder).iterdir()) if folder else []:
+        if path.suffix in readable_suffixes():
+            with suppress(FileError, MeshError):
+                found.append(read(path))
+    return found
 
 
 def _row(mesh: Mesh) -> dict[str, Any]:
@@ -95,6 +100,7 @@ def _tangled_lines(figures: dict[str, Any]) -> list[str]:
 
 _PROBE = """
 import json, sys
+from hexmend.errors import FileError, MeshError
 from hexmend.gallery import make
 from hexmend.run import Stop, iterate
 from hexmend.study.section import peak_mb
