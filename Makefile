@@ -4,6 +4,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 MESH   ?=
+CXX_SOURCES = $(shell find core/native -name "*.cpp" -o -name "*.hpp")
 
 .PHONY: help run test lint format bench study pins wheel clean
 .NOTPARALLEL:
@@ -30,10 +31,12 @@ test: $(VENV)/.test $(VENV)/.kernels
 lint: $(VENV)/.test
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
+	@$(BIN)/clang-format --dry-run -Werror $(CXX_SOURCES)
 
 format: $(VENV)/.test
 	@$(BIN)/ruff check --fix
 	@$(BIN)/ruff format
+	@$(BIN)/clang-format -i $(CXX_SOURCES)
 
 bench: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages

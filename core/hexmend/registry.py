@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Generic, TypeVar
 
@@ -35,6 +36,7 @@ class Registry(Mapping[str, T], Generic[T]):
     def __init__(self, kind: str, others: Callable[[], None] | None = None):
         self.kind = kind
         self._others = others
+        self._asked = threading.RLock()
         self._entries: dict[str, T] = {}
 
     def add(self, name: str, entry: T) -> T:
@@ -63,7 +65,8 @@ class Registry(Mapping[str, T], Generic[T]):
         return len(self._all())
 
     def _all(self) -> dict[str, T]:
-        if self._others is not None:
-            add, self._others = self._others, None
-            add()
+        with self._asked:  # a second thread waits until the first has found them all
+            if self._others is not None:
+                add, self._others = self._others, None
+                add()
         return self._entries

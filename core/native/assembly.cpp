@@ -9,8 +9,8 @@
 namespace hexmend {
 namespace {
 
-// Values of a hex: the blocks of its 28 pairs of corners, by rows, then the symmetric ones of its 8 corners, xx xy xz yy
-// yz zz; and as many more as make whole vectors.
+// Values of a hex: the blocks of its 28 pairs of corners, by rows, then the symmetric ones of its 8 corners, xx xy xz
+// yy yz zz; and as many more as make whole vectors.
 constexpr int OWN = 9 * PAIRS, VALUES = OWN + 6 * 8, ROOM = (VALUES + 7) / 8 * 8;
 
 // Beyond it a value is cut, so that single precision holds sums of it.
@@ -43,8 +43,8 @@ struct Sums {
 // Add eta(T) of corner tetrahedron t, an eighth of its gradient, and of its second derivatives by its nodes: (B.19),
 // mended, as `tetrahedron` has it.
 //
-// With s and c what the columns of S and of C are to a node (of the apex: minus their sum), and p = mixed s + half c, the
-// block of two nodes is c p' + p c' and what d2 sigma and (V, W) add.
+// With s and c what the columns of S and of C are to a node (of the apex: minus their sum), and p = mixed s + half c,
+// the block of two nodes is c p' + p c' and what d2 sigma and (V, W) add.
 template <bool soft, int t> inline void add(const Corners<Lanes> &x, double delta, Bits counted, Sums &sums) {
     constexpr auto &n = CORNER_TETRAHEDRA[t];
     auto s = x.edges<t>();
@@ -99,7 +99,8 @@ inline Lanes cut(Lanes value) { return least(all<Lanes>(CUT), greatest(all<Lanes
 
 // first * values + second * g g', cut to what single precision holds; a hex after another.
 //
-// A hex that is moved as a whole keeps its energy: the blocks of each of its corners sum up to zero, which gives its own.
+// A hex that is moved as a whole keeps its energy: the blocks of each of its corners sum up to zero, which gives its
+// own.
 template <class Real> void weigh(const Sums &sums, double p, Real (*out)[ROOM]) {
     Lanes g[24], h[24], own[48] = {}, rows[8];
     auto [first, second] = BlockWeights<Lanes>(sums.eta * 0.125 - 1.0, p);
@@ -216,10 +217,11 @@ void assemble(Points points, double delta, double p, Left left_out, Indices boun
               Hexes hexes, Hexes slots, Targets target, std::span<std::array<Real, 9>> off,
               std::span<std::array<Real, 6>> diagonal) {
     Shared shared{bounds, start, chosen, hexes, slots, target};
-    (delta != 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, p, left_out, shared, off, diagonal);
+    (delta != 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, p, left_out, shared, off,
+                                                                      diagonal);
 }
 
-#define FOR_REAL(Real)                                                                                       \
+#define FOR_REAL(Real)                                                                                           \
     template void assemble<Real>(Points, double, double, Left, Indices, Indices, Indices, Hexes, Hexes, Targets, \
                                  std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>);
 FOR_REAL(float)

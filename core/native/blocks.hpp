@@ -70,8 +70,10 @@ inline void transpose(Lanes (&rows)[LANES]) {
         rows[k + 4] = __builtin_shufflevector(b[k], b[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
     }
 #elif defined(__AVX__)
-    Lanes a = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6), b = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
-    Lanes c = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6), d = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+    Lanes a = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6),
+          b = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
+    Lanes c = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6),
+          d = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
     rows[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5), rows[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
     rows[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7), rows[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 #else
@@ -85,8 +87,7 @@ template <class T> inline Corners<T> gathered(Points points, Hexes hexes, std::i
     const Hex *hex[width<T>];
     for (int i = 0; i < width<T>; ++i) hex[i] = &hexes[first + (i < count ? i : count - 1)];
     Corners<T> x;
-    for (int c = 0; c < 8; ++c)
-        x.at[c] = side_by_side<T>([&](int i) -> const Point & { return points[(*hex[i])[c]]; });
+    for (int c = 0; c < 8; ++c) x.at[c] = side_by_side<T>([&](int i) -> const Point & { return points[(*hex[i])[c]]; });
     return x;
 }
 
@@ -141,10 +142,11 @@ template <class T> struct Counted {
     auto operator()(int t) const { return (left_out & (std::int64_t{1} << t)) == 0; }
 };
 
-// body(counted) for a block of hexes, counted(t) telling of which hexes tetrahedron t counts; of most blocks all do, which
-// the compiler is told.
+// body(counted) for a block of hexes, counted(t) telling of which hexes tetrahedron t counts; of most blocks all do,
+// which the compiler is told.
 template <class T, class Body>
-inline __attribute__((always_inline)) void with_counted(Left left_out, std::int64_t first, int count, const Body &body) {
+inline __attribute__((always_inline)) void with_counted(Left left_out, std::int64_t first, int count,
+                                                        const Body &body) {
     bool some = false;
     for (int i = 0; i < count; ++i) some |= left_out[first + i] != 0;
     if (some) body(Counted<T>(left_out, first, count));

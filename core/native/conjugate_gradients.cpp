@@ -5,67 +5,27 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "symmetric.hpp"
-#include "threads.hpp"
+#include "block_matrix.hpp"
 
 namespace hexmend {
 namespace {
 
-// Vectors by slots have four numbers a slot, the fourth being 0: a row of a block is loaded as four numbers, the last of
-// which belongs to the row behind it, or to nobody, meets that 0 and counts nowhere. The array of blocks has one block
-// more than it needs.
-template <class Real> struct Four {
-    typedef Real type __attribute__((vector_size(4 * sizeof(Real))));
-};
-template <class Real> using Vector = typename Four<Real>::type;
-
-template <class Real> inline Vector<Real> loaded(const Real *from) {
-    Vector<Real> x;
-    std::memcpy(&x, from, sizeof x);
-    return x;
-}
-
-// A symmetric block, by its columns: times a vector without a sum across.
-template <class Real> struct Block {
-    Vector<Real> x, y, z;
-
-    Vector<Real> operator*(const Vector<Real> &v) const { return x * v[0] + y * v[1] + z * v[2]; }
-};
-
-template <class Real> Block<Real> block(const Symmetric &a) {
-    auto column = [](double x, double y, double z) {
-        return Vector<Real>{static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z), 0};
-    };
-    return {column(a.xx, a.xy, a.xz), column(a.xy, a.yy, a.yz), column(a.xz, a.yz, a.zz)};
-}
-
-inline Symmetric operator*(double k, const Symmetric &a) {
-    return {k * a.xx, k * a.xy, k * a.xz, k * a.yy, k * a.yz, k * a.zz};
-}
-
-template <class Real> Symmetric widened(const std::array<Real, 6> &a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
-
 // D: a diagonal block with its least eigenvalue raised as in Algorithm A.4; and D^-1.
 inline std::pair<Symmetric, Symmetric> positive(Symmetric a) {
-    auto inverse = [](const Symmetric &a) {
-        double cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.xz * a.yz - a.xy * a.zz, cxz = a.xy * a.yz - a.xz * a.yy;
-        double det = a.xx * cxx + a.xy * cxy + a.xz * cxz;
-        double cyy = a.xx * a.zz - a.xz * a.xz, cyz = a.xy * a.xz - a.xx * a.yz, czz = a.xx * a.yy - a.xy * a.xy;
-        return std::tuple(det, czz, (1 / det) * Symmetric{cxx, cxy, cxz, cyy, cyz, czz});
-    };
     {
         // Of most blocks no eigenvalue need be known: positive ones of sum t and product det are none below det/t^2.
-        auto [det, minor, inverted] = inverse(a);
+        auto [adjugate, det] = adjugate_of(a);
         double t = a.xx + a.yy + a.zz;
-        if (a.xx > 0 && minor > 0 && det >= 0.001 * t * t * t && std::isfinite(t)) return {a, inverted};
+        if (a.xx > 0 && adjugate.zz > 0 && det >= 0.001 * t * t * t && std::isfinite(t))
+            return {a, (1 / det) * adjugate};
     }
     auto [least, greatest] = extreme_eigenvalues(a);
     double size = std::max(std::abs(least), std::abs(greatest));
     if (size == 0) size = 1;
     // So small a D beside the blocks off the diagonal would make the triangular solves grow without bound.
     a.raise(least < 0 ? 0.5 * size - least : std::max(0.001 * size - least, 0.0));
-    auto [det, minor, inverted] = inverse(a);
-    if (det > 0) return {a, inverted};
+    auto [adjugate, det] = adjugate_of(a);
+    if (det > 0) return {a, (1 / det) * adjugate};
     double one = 1 / size;  // all but of rank 1 or 2: its scale alone
     return {{size, 0, 0, size, 0, size}, {one, 0, 0, one, 0, one}};
 }
@@ -74,91 +34,6 @@ template <class V> inline double dot(const V &a, const V &b) {
     auto product = a * b;
     return static_cast<double>(product[0] + product[1] + product[2]);
 }
-
-// A matrix of blocks of one precision, for vectors of the same or another.
-template <class Real, class Number = Real> class System {
-  public:
-    using V = Vector<Number>;
-
-    System(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off)
-        : bounds_(bounds), row_start_(row_start), columns_(columns), off_(off.data()->data()),
-          parts_(static_cast<int>(bounds.size()) / 2), size_(bounds.back()) {}
-
-    std::int64_t size() const { return size_; }
-
-    // Sum of what body(begin, end, range) returns for the parts, or for the separators, taken side by side; in order.
-    template <class Body> double over_parts(const Body &body) { return over(0, parts_, body); }
-    template <class Body> double over_separators(const Body &body) { return over(parts_, 2 * parts_ - 1, body); }
-
-    // The sum of the blocks of a row times t of their columns; the nearest, known last, comes last.
-    V row_times(std::int32_t i, const V *t) const {
-        V x{}, y{}, z{};
-        for (auto s = row_start_[i + 1] - 1; s >= row_start_[i]; --s) {
-            const V &of = t[columns_[s]];
-            x += row(s, 0) * of, y += row(s, 1) * of, z += row(s, 2) * of;
-        }
-        // Sums across, of the three at once.
-        V xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + __builtin_shufflevector(x, y, 2, 6, 3, 7);
-        V z0 = __builtin_shufflevector(z, V{}, 0, 4, 1, 5) + __builtin_shufflevector(z, V{}, 2, 6, 3, 7);
-        return __builtin_shufflevector(xy, z0, 0, 1, 4, 5) + __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
-    }
-
-    // The blocks of a row, transposed, times p: added to w in the slots of their columns.
-    void add_transposed(std::int32_t i, const V &p, V *w) const {
-        V x = p[0] - V{}, y = p[1] - V{}, z = p[2] - V{};
-        for (auto s = row_start_[i]; s < row_start_[i + 1]; ++s)
-            w[columns_[s]] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
-    }
-
-    // From the first slot to the last: body(i, sum of the blocks left of the diagonal times what it returned there)
-    // returns that for slot i, and what is to be summed over all. `w` is zero before and after; what two parts add to
-    // one separator has a vector each.
-    template <class Body> double forward(V *const (&w)[2], const Body &body) {
-        double total = over_parts([&](std::int32_t begin, std::int32_t end, int part) {
-            V *below = w[part % 2];
-            double sum = 0;
-            for (auto i = begin; i < end; ++i) {
-                auto [p, square] = body(i, std::exchange(below[i], V{}));
-                add_transposed(i, p, below);
-                sum += square;
-            }
-            return sum;
-        });
-        return total + over_separators([&](std::int32_t begin, std::int32_t end, int) {
-            V *below = w[0], *other = w[1];
-            double sum = 0;
-            for (auto i = begin; i < end; ++i) {
-                auto [p, square] = body(i, std::exchange(below[i], V{}) + std::exchange(other[i], V{}));
-                add_transposed(i, p, below);
-                sum += square;
-            }
-            return sum;
-        });
-    }
-
-  private:
-    Indices bounds_, row_start_, columns_;
-    const Real *off_;
-    int parts_;
-    std::int64_t size_;
-    std::vector<double> sums_ = std::vector<double>(2 * parts_);
-
-    V row(std::int32_t s, int k) const {
-        auto four = loaded(off_ + 9 * static_cast<std::int64_t>(s) + 3 * k);
-        if constexpr (std::is_same_v<Real, Number>) return four;
-        else return __builtin_convertvector(four, V);
-    }
-
-    template <class Body> double over(int first, int last, const Body &body) {
-        parallel(last - first, [&](std::int64_t k) {
-            int range = first + static_cast<int>(k);
-            sums_[range] = body(bounds_[range], bounds_[range + 1], range);
-        });
-        double total = 0;
-        for (int range = first; range < last; ++range) total += sums_[range];
-        return total;
-    }
-};
 
 // What an iteration works with.
 template <class Real> class Solver {
@@ -312,13 +187,12 @@ void product(Indices bounds, Indices row_start, Indices columns, std::span<const
     for (std::size_t k = 0; k < x.size(); ++k) std::memcpy(y[k].data(), &there[order[k]], sizeof y[k]);
 }
 
-#define FOR_REAL(Real)                                                                                               \
-    template std::pair<int, int> solve<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,        \
-                                             std::span<const std::array<Real, 6>>, double,                           \
-                                             std::span<const std::array<Real, 4>>, double, int,                      \
-                                             std::span<std::array<Real, 4>>, std::span<Real>);                       \
-    template void product<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,                     \
-                                std::span<const std::array<Real, 6>>, std::span<const std::int64_t>, Points,         \
+#define FOR_REAL(Real)                                                                                                 \
+    template std::pair<int, int> solve<Real>(                                                                          \
+        Indices, Indices, Indices, std::span<const std::array<Real, 9>>, std::span<const std::array<Real, 6>>, double, \
+        std::span<const std::array<Real, 4>>, double, int, std::span<std::array<Real, 4>>, std::span<Real>);           \
+    template void product<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,                       \
+                                std::span<const std::array<Real, 6>>, std::span<const std::int64_t>, Points,           \
                                 std::span<Point>);
 FOR_REAL(float)
 FOR_REAL(double)

@@ -13,7 +13,7 @@ constexpr std::int64_t PIECES = 16;
 }  // namespace
 
 std::tuple<Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t, PAIRS>> pattern(Hexes slots, Indices nodes,
-                                                                                       Indices start, Indices corners) {
+                                                                                      Indices start, Indices corners) {
     std::int64_t count = nodes.size(), size = std::max<std::int64_t>((count + PIECES - 1) / PIECES, 1);
     std::vector<std::int32_t> row_start(count + 1), found[PIECES];
     parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {
@@ -44,7 +44,8 @@ std::tuple<Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t, PAIRS>> pa
                 for (int b = 0; b < 8; ++b) {
                     auto j = slots[h][b];
                     if (j < i || a == b) continue;
-                    target[PAIRS * std::int64_t{h} + pair_of(std::min(a, b), std::max(a, b))] = j > i ? block[j] : -2 - i;
+                    target[PAIRS * std::int64_t{h} + pair_of(std::min(a, b), std::max(a, b))] =
+                        j > i ? block[j] : -2 - i;
                 }
             }
         }

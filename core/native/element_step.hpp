@@ -33,8 +33,7 @@ template <class T> inline Corners<T> element_step(const Corners<T> &x, double s,
     });
     T before = edge_lengths(x), after = edge_lengths(y);
     T zeta = after > 0.0 ? before / after : all<T>(0.0);
-    for (int c = 0; c < 8; ++c)
-        y.at[c] = x.at[c] + all<T>(rho) * (middle + zeta * (y.at[c] - middle) - x.at[c]);
+    for (int c = 0; c < 8; ++c) y.at[c] = x.at[c] + all<T>(rho) * (middle + zeta * (y.at[c] - middle) - x.at[c]);
     return y;
 }
 

@@ -39,7 +39,7 @@ void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> 
             auto number = magnitude(det) < INF;  // no longer one where products overflow
             auto sound = (det > 0.0) & number;
             Lanes shape = (squares[u] + squares[v] + squares[w]) * power_minus_two_thirds(det) * (1.0 / 3.0);
-            energy += sound ? shape : all<Lanes>(INF);        // eta(T), (3.1)
+            energy += sound ? shape : all<Lanes>(INF);         // eta(T), (3.1)
             quality += sound ? 1.0 / shape : all<Lanes>(0.0);  // q(T), (2.8)
             Lanes product = lengths[u] * lengths[v] * lengths[w];
             Lanes scaled = (product > 0.0) & number ? det / product : all<Lanes>(0.0);

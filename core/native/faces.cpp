@@ -25,7 +25,7 @@ void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<do
     blocks_of<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gathered<Lanes>(points, hexes, first, count);
         Lanes low = all<Lanes>(1.0), high = all<Lanes>(-1.0);  // cosines
-        unrolled<8>([&](auto t) {  // the edges from a corner make the angles of three faces
+        unrolled<8>([&](auto t) {                              // the edges from a corner make the angles of three faces
             auto [u, v, w] = x.template edges<t>();
             Lanes a = length(u), b = length(v), c = length(w), product = a * b * c;
             auto sound = (product > 0.0) & (product < INF);

@@ -79,8 +79,8 @@ alignas(32) constexpr std::array<std::array<int, 8>, 8> TURNED = [] {
 // body(constant<0>), ..., body(constant<n - 1>): a loop whose number is known to the compiler.
 template <int n> using constant = std::integral_constant<int, n>;
 template <int n, class Body> inline __attribute__((always_inline)) void unrolled(Body &&body) {
-    [&]<int... i>(std::integer_sequence<int, i...>) __attribute__((always_inline)) { (body(constant<i>{}), ...); }
-    (std::make_integer_sequence<int, n>{});
+    [&]<int... i>(std::integer_sequence<int, i...>)
+        __attribute__((always_inline)) { (body(constant<i>{}), ...); }(std::make_integer_sequence<int, n>{});
 }
 
 // A vector at each of the eight corners.

@@ -36,9 +36,11 @@ std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Po
     return {factor, at.value, {at.gradient.x, at.gradient.y, at.gradient.z}, {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}};
 }
 
-std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(
-    Points points, Hexes hexes, Indices star, double factor, int direction, double delta, double p, double first,
-    double shrink, double c1, int cuts) {
+std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(Points points, Hexes hexes,
+                                                                                Indices star, double factor,
+                                                                                int direction, double delta, double p,
+                                                                                double first, double shrink, double c1,
+                                                                                int cuts) {
     LocalStep how{direction, delta, p, first, shrink, c1, cuts};
     auto patch = patch_of(star);
     patch.load(points, hexes, star, factor);
@@ -49,7 +51,7 @@ std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(
         for (double number : {alpha, value, at.value + c1 * alpha * chosen.slope}) trials.values.push_back(number);
     };
     double alpha = delta != 0 ? back_line_search<true>(patch, at, chosen, how, tell)
-                             : back_line_search<false>(patch, at, chosen, how, tell);
+                              : back_line_search<false>(patch, at, chosen, how, tell);
     return {{chosen.d.x, chosen.d.y, chosen.d.z}, chosen.slope, chosen.fallback, alpha, std::move(trials)};
 }
 

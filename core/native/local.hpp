@@ -22,9 +22,11 @@ void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners,
 std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Points points, Hexes hexes, Indices star,
                                                                               double factor, double delta, double p);
 
-std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(
-    Points points, Hexes hexes, Indices star, double factor, int direction, double delta, double p, double first,
-    double shrink, double c1, int cuts);
+std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(Points points, Hexes hexes,
+                                                                                Indices star, double factor,
+                                                                                int direction, double delta, double p,
+                                                                                double first, double shrink, double c1,
+                                                                                int cuts);
 
 void along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction, double delta,
            double p, std::span<std::array<double, 2>> curve);

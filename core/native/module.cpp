@@ -7,12 +7,12 @@
 
 namespace nb = nanobind;
 
-#define HEXMEND_FAMILIES(family) \
-    family(assembly) family(binning) family(conjugate_gradients) family(corner_values) \
-    family(couplings) family(decimals) family(element_step) family(elements) family(faces) family(getme) \
-    family(hexahedron) family(incidence) family(laplacian) family(local) family(metrics) \
-    family(objective) family(ordering) family(plain) family(polygons) family(reach) family(shape) \
-    family(sides) family(skin) family(structure) family(symmetric) family(worst_first)
+#define HEXMEND_FAMILIES(family)                                                                                 \
+    family(assembly) family(binning) family(conjugate_gradients) family(corner_values) family(couplings)         \
+        family(decimals) family(element_step) family(elements) family(faces) family(getme) family(hexahedron)    \
+            family(incidence) family(laplacian) family(local) family(metrics) family(objective) family(ordering) \
+                family(plain) family(polygons) family(reach) family(shape) family(sides) family(skin)            \
+                    family(structure) family(symmetric) family(worst_first)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_ &);
@@ -25,10 +25,10 @@ NB_MODULE(HEXMEND_MODULE, m) {
     m.def("threads", &hexmend::threads, "How many threads share a loop of the calling thread.");
     m.def("set_threads", &hexmend::set_threads, "count"_a, "Choose it for the calling thread.");
     m.def("set_default_threads", &hexmend::set_default_threads, "count"_a, "Choose it for threads that have not.");
-#define BIND(name)                                \
-    {                                             \
+#define BIND(name)                                   \
+    {                                                \
         nb::module_ family = m.def_submodule(#name); \
-        hexmend::bind_##name(family);             \
+        hexmend::bind_##name(family);                \
     }
     HEXMEND_FAMILIES(BIND)
 }

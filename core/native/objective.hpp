@@ -13,11 +13,10 @@ using Shares = std::span<std::array<double, 24>>;
 
 void energies(Points points, Hexes hexes, double delta, Left left_out, std::span<double> eta);
 
-void gradient(Points points, Hexes hexes, double delta, double p, Left left_out,
-              Shares shares);
+void gradient(Points points, Hexes hexes, double delta, double p, Left left_out, Shares shares);
 
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p,
-                     Left left_out, Shares shares);
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p, Left left_out,
+                     Shares shares);
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows);
 

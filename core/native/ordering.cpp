@@ -21,8 +21,8 @@ class Graph {
 
     int degree(Node i) const { return degree_[i]; }
 
-    // Walk breadth first from the last node of `order`, appending what is not `seen`, of each node's neighbours those of
-    // fewer neighbours first. Returns where the last level begins.
+    // Walk breadth first from the last node of `order`, appending what is not `seen`, of each node's neighbours those
+    // of fewer neighbours first. Returns where the last level begins.
     std::size_t walk(std::vector<Node> &order, std::vector<bool> &seen) const {
         std::vector<std::pair<int, Node>> next;
         std::size_t at = order.size() - 1, level = at;

@@ -1,7 +1,7 @@
 // The energy of a node's patch as a function of that node alone.
 //
-// Each attached hex has four corner tetrahedra that hold the node: the one whose apex it is, and those of its three edge
-// neighbours. The other four do not change as the node moves. At the node's displacement y,
+// Each attached hex has four corner tetrahedra that hold the node: the one whose apex it is, and those of its three
+// edge neighbours. The other four do not change as the node moves. At the node's displacement y,
 //
 //     sigma = sigma_0 + g . y          |S|^2 = s_0 + b . y + k |y|^2,   k = 3 at the apex, else 1,
 //

@@ -16,8 +16,8 @@ void plain::gradient(Points points, Hexes hexes, double delta, double p, Left le
 
 void plain::hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p,
                             Left left_out, Shares shares) {
-    (delta != 0 ? product_of<true, double> : product_of<false, double>)(points, hexes, slots, values, delta, p, left_out,
-                                                                       shares);
+    (delta != 0 ? product_of<true, double> : product_of<false, double>)(points, hexes, slots, values, delta, p,
+                                                                        left_out, shares);
 }
 
 void plain::sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,

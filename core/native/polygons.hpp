@@ -10,7 +10,7 @@ namespace hexmend {
 using Places = std::span<const std::int64_t>;
 
 std::tuple<Made<double, 3>, Made<std::int64_t>, Made<std::int64_t>> before(Points points, Places start, Places places,
-                                                                          Places owner, Points normals,
-                                                                          Numbers offsets);
+                                                                           Places owner, Points normals,
+                                                                           Numbers offsets);
 
 }  // namespace hexmend

@@ -11,16 +11,16 @@ static const char *level() {
 #if defined(_WIN32) && defined(__x86_64__)
     // By Windows' own numbers, since what Clang's questions need is not linked there: 41 is AVX-512 F, 40 AVX2, 38 SSE
     // 4.2. What else a level asks for came to processors together with these.
-    return IsProcessorFeaturePresent(41)   ? "v4"
-           : IsProcessorFeaturePresent(40) ? "v3"
-           : IsProcessorFeaturePresent(38) ? "v2"
-                                           : "v1";
+    return IsProcessorFeaturePresent(41) ? "v4"
+         : IsProcessorFeaturePresent(40) ? "v3"
+         : IsProcessorFeaturePresent(38) ? "v2"
+                                         : "v1";
 #elif defined(__x86_64__) && !defined(__clang__)
     __builtin_cpu_init();
-    return __builtin_cpu_supports("x86-64-v4")   ? "v4"
-           : __builtin_cpu_supports("x86-64-v3") ? "v3"
-           : __builtin_cpu_supports("x86-64-v2") ? "v2"
-                                                 : "v1";
+    return __builtin_cpu_supports("x86-64-v4") ? "v4"
+         : __builtin_cpu_supports("x86-64-v3") ? "v3"
+         : __builtin_cpu_supports("x86-64-v2") ? "v2"
+                                               : "v1";
 #elif defined(__x86_64__)  // Clang knows levels by name from version 18 on
     __builtin_cpu_init();
     if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("ssse3") || !__builtin_cpu_supports("popcnt"))
@@ -38,7 +38,8 @@ static const char *level() {
 #endif
 }
 
-static PyModuleDef processor = {PyModuleDef_HEAD_INIT, "_processor", nullptr, -1, nullptr, nullptr, nullptr, nullptr, nullptr};
+static PyModuleDef processor = {
+    PyModuleDef_HEAD_INIT, "_processor", nullptr, -1, nullptr, nullptr, nullptr, nullptr, nullptr};
 
 PyMODINIT_FUNC PyInit__processor() {
     PyObject *module = PyModule_Create(&processor);

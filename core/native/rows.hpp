@@ -12,8 +12,9 @@
 namespace hexmend {
 
 // Row i of an (n, width) array is rows[i]. Read where T is const.
-template <class T, std::size_t width> using Rows =
-    std::span<std::conditional_t<std::is_const_v<T>, const std::array<std::remove_const_t<T>, width>, std::array<T, width>>>;
+template <class T, std::size_t width>
+using Rows = std::span<
+    std::conditional_t<std::is_const_v<T>, const std::array<std::remove_const_t<T>, width>, std::array<T, width>>>;
 
 using Points = std::span<const Point>;
 using Hexes = std::span<const Hex>;

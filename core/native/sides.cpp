@@ -39,7 +39,7 @@ void touched(Points points, Hexes hexes, Points normals, Numbers offsets, bool n
                 low = std::min(low, heights[node * planes + p]);
                 high = std::max(high, heights[node * planes + p]);
             }
-            bool before = high < offsets[p] - slack[p], beyond = low > offsets[p] + slack[p];
+            bool before = high<offsets[p] - slack[p], beyond = low> offsets[p] + slack[p];
             answer[h * planes + p] = !(before || beyond);
             if (notch ? before : beyond) {  // nothing of this hex is seen in any section
                 std::fill_n(&answer[h * planes], planes, false);

@@ -32,14 +32,28 @@ inline Extremes extreme_eigenvalues(const Symmetric &a) {
     return {mean + 2 * spread * std::cos(angle + 2 * std::numbers::pi / 3), mean + 2 * spread * std::cos(angle)};
 }
 
-// Solution of the linear system by cofactors; zero where the matrix is singular.
+inline Symmetric operator*(double k, const Symmetric &a) {
+    return {k * a.xx, k * a.xy, k * a.xz, k * a.yy, k * a.yz, k * a.zz};
+}
+
+struct Adjugate {
+    Symmetric adjugate;
+    double det;
+};
+
+// The cofactors, and the determinant by which they are divided in the inverse.
+inline Adjugate adjugate_of(const Symmetric &a) {
+    double xx = a.yy * a.zz - a.yz * a.yz, xy = a.xz * a.yz - a.xy * a.zz, xz = a.xy * a.yz - a.xz * a.yy;
+    double yy = a.xx * a.zz - a.xz * a.xz, yz = a.xy * a.xz - a.xx * a.yz, zz = a.xx * a.yy - a.xy * a.xy;
+    return {{xx, xy, xz, yy, yz, zz}, a.xx * xx + a.xy * xy + a.xz * xz};
+}
+
+// Solution of the linear system; zero where the matrix is singular.
 inline V3<double> solve(const Symmetric &a, const V3<double> &b) {
-    double cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.xz * a.yz - a.xy * a.zz, cxz = a.xy * a.yz - a.xz * a.yy;
-    double det = a.xx * cxx + a.xy * cxy + a.xz * cxz;
+    auto [c, det] = adjugate_of(a);
     if (det == 0) return {};
-    double cyy = a.xx * a.zz - a.xz * a.xz, cyz = a.xy * a.xz - a.xx * a.yz, czz = a.xx * a.yy - a.xy * a.xy;
-    return {(cxx * b.x + cxy * b.y + cxz * b.z) / det, (cxy * b.x + cyy * b.y + cyz * b.z) / det,
-            (cxz * b.x + cyz * b.y + czz * b.z) / det};
+    return {(c.xx * b.x + c.xy * b.y + c.xz * b.z) / det, (c.xy * b.x + c.yy * b.y + c.yz * b.z) / det,
+            (c.xz * b.x + c.yz * b.y + c.zz * b.z) / det};
 }
 
 }  // namespace hexmend

@@ -41,8 +41,8 @@ template <class T> inline T power_minus_two_thirds(T h) {
     return h > HUGE_ ? all<T>(0.0) : q;
 }
 
-// eta(H) of the sum of its eight eta(T), (B.20). Softened by delta, a hex better than perfect counts as perfect; one that
-// has no number, because corners coincide or overflow, is infinitely bad.
+// eta(H) of the sum of its eight eta(T), (B.20). Softened by delta, a hex better than perfect counts as perfect; one
+// that has no number, because corners coincide or overflow, is infinitely bad.
 template <class T> inline T energy_of_sum(T sum) {
     T energy = sum * 0.125 - 1.0;
     return energy > 0.0 ? energy : energy <= 0.0 ? all<T>(0.0) : all<T>(INF);
@@ -100,11 +100,10 @@ template <class T> inline M3<T> gradient(const Derivatives<T> &d, const M3<T> &s
 }
 
 // Second derivative of eta/8 along A, by the columns of S: (B.19).
-template <class T>
-inline M3<T> product(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof, const M3<T> &a) {
+template <class T> inline M3<T> product(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof, const M3<T> &a) {
     T along_s = dot(a, s), along_c = dot(a, cof);
-    T p = d.mixed * along_c;                              // what multiplies S
-    T q = d.mixed * along_s + 2.0 * d.half * along_c;     // what multiplies C
+    T p = d.mixed * along_c;                           // what multiplies S
+    T q = d.mixed * along_s + 2.0 * d.half * along_c;  // what multiplies C
     // dC: its columns are av x w + v x aw, and so on round.
     return {
         p * s.u + q * cof.u + d.k * a.u - d.c * (cross(a.v, s.w) + cross(s.v, a.w)),

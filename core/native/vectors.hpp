@@ -8,8 +8,14 @@ namespace hexmend {
 template <class T> struct V3 {
     T x{}, y{}, z{};
 
-    V3 &operator+=(const V3 &b) { x += b.x, y += b.y, z += b.z; return *this; }
-    V3 &operator-=(const V3 &b) { x -= b.x, y -= b.y, z -= b.z; return *this; }
+    V3 &operator+=(const V3 &b) {
+        x += b.x, y += b.y, z += b.z;
+        return *this;
+    }
+    V3 &operator-=(const V3 &b) {
+        x -= b.x, y -= b.y, z -= b.z;
+        return *this;
+    }
 };
 
 template <class T> inline V3<T> operator+(const V3<T> &a, const V3<T> &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -29,7 +35,9 @@ template <class T> struct M3 {
     V3<T> u, v, w;
 };
 
-template <class T> inline T dot(const M3<T> &a, const M3<T> &b) { return dot(a.u, b.u) + dot(a.v, b.v) + dot(a.w, b.w); }
+template <class T> inline T dot(const M3<T> &a, const M3<T> &b) {
+    return dot(a.u, b.u) + dot(a.v, b.v) + dot(a.w, b.w);
+}
 template <class T> inline T square(const M3<T> &a) { return dot(a, a); }
 
 // The derivative of the determinant of [u, v, w]: columns v x w, w x u, u x v.

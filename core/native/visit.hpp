@@ -99,7 +99,9 @@ void sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corne
         auto group = nodes.subspan(groups[g], groups[g + 1] - groups[g]);
         parallel_chunks(group.size(), NODES, [&](std::int64_t begin, std::int64_t end) {
             Patch<T> alone[1]{Patch<T>(most)}, several[TOGETHER]{Patch<T>(most), Patch<T>(most)};
-            auto star = [&](std::int64_t k) { return corners.subspan(start[group[k]], start[group[k] + 1] - start[group[k]]); };
+            auto star = [&](std::int64_t k) {
+                return corners.subspan(start[group[k]], start[group[k] + 1] - start[group[k]]);
+            };
             std::int64_t k = begin;
             if constexpr (width<T> > 1)
                 for (; k + TOGETHER <= end; k += TOGETHER)

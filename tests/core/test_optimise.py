@@ -44,7 +44,7 @@ def test_symmetric_matrices_of_three_rows(seed, exponent):
 def test_special_symmetric_matrices():
     assert symmetric.extreme_eigenvalues([2.0, 0.0, 0.0, 2.0, 0.0, 2.0]) == (2.0, 2.0)
     assert symmetric.extreme_eigenvalues([1.0, 0.0, 0.0, 3.0, 0.0, 3.0]) == pytest.approx((1, 3))
-    assert symmetric.solve([0.0] * 6, [1.0, 2.0, 3.0]) == (0.0, 0.0, 0.0)
+    assert symmetric.solve([0.0] * 6, [1.0, 2.0, 3.0]) == [0.0, 0.0, 0.0]
 
 
 @given(seeds)

@@ -36,10 +36,10 @@ template <class T> struct type_caster<std::span<T>> {
     static constexpr std::size_t width = WIDTH<std::remove_const_t<T>>;
     using Array = ndarray<Number, c_contig, device::cpu>;
     // Vectors at the eight corners of each hex are (m, 8, 3) to those who call.
-    using Shaped = std::conditional_t<
-        width == 1, ndarray<Number, ndim<1>, c_contig, device::cpu>,
-        std::conditional_t<width == 24, ndarray<Number, shape<-1, 8, 3>, c_contig, device::cpu>,
-                           ndarray<Number, shape<-1, (ssize_t)width>, c_contig, device::cpu>>>;
+    using Shaped =
+        std::conditional_t<width == 1, ndarray<Number, ndim<1>, c_contig, device::cpu>,
+                           std::conditional_t<width == 24, ndarray<Number, shape<-1, 8, 3>, c_contig, device::cpu>,
+                                              ndarray<Number, shape<-1, (ssize_t)width>, c_contig, device::cpu>>>;
 
     NB_TYPE_CASTER(std::span<T>, make_caster<Shaped>::Name)
 
@@ -58,7 +58,8 @@ template <class T> struct type_caster<std::span<T>> {
 };
 
 template <class T, std::size_t width> struct type_caster<hexmend::Made<T, width>> {
-    using Array = std::conditional_t<width == 1, ndarray<numpy, T, ndim<1>>, ndarray<numpy, T, shape<-1, (ssize_t)width>>>;
+    using Array =
+        std::conditional_t<width == 1, ndarray<numpy, T, ndim<1>>, ndarray<numpy, T, shape<-1, (ssize_t)width>>>;
 
     using Arrays = hexmend::Made<T, width>;
     NB_TYPE_CASTER(Arrays, make_caster<Array>::Name)
@@ -69,7 +70,8 @@ template <class T, std::size_t width> struct type_caster<hexmend::Made<T, width>
         capsule owner(kept, [](void *p) noexcept { delete static_cast<Values *>(p); });
         std::size_t shape[2] = {kept->size() / width, width};
         auto *data = reinterpret_cast<T *>(kept->data());
-        return make_caster<Array>::from_cpp(Array(data, width == 1 ? 1 : 2, shape, owner), rv_policy::reference, cleanup);
+        return make_caster<Array>::from_cpp(Array(data, width == 1 ? 1 : 2, shape, owner), rv_policy::reference,
+                                            cleanup);
     }
 };
 

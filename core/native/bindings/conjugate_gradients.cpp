@@ -14,9 +14,11 @@ template <class Real> void bind_for(nb::module_ &m) {
           "bounds, row_start, columns: pattern, as `ordering` makes it. off (blocks + 1, 9): the blocks above the\n"
           "diagonal, the last being none. diagonal (k, 6). damping: this multiple of D is added to the diagonal.\n"
           "tolerance: of the residual, relative to the right-hand side, both in the norm of M^-1. most: limit of\n"
-          "iterations. work (64 k + 16,): room to work in. Writes x; returns iterations, and DONE, NEGATIVE_CURVATURE or TOO_MANY.");
+          "iterations. work (64 k + 16,): room to work in. Writes x; returns iterations, and DONE, NEGATIVE_CURVATURE "
+          "or TOO_MANY.");
     m.def("product", &product<Real>, "bounds"_a, "row_start"_a, "columns"_a, "off"_a, "diagonal"_a, "order"_a, "x"_a,
-          "y"_a, Unlocked(), "A times x (k, 3), in double precision; writes y (k, 3).\n\n"
+          "y"_a, Unlocked(),
+          "A times x (k, 3), in double precision; writes y (k, 3).\n\n"
           "Row k of both is that of slot order[k].");
 }
 

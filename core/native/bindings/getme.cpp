@@ -5,8 +5,9 @@
 namespace hexmend {
 
 void bind_getme(nb::module_ &m) {
-    m.doc() = "GETMe: nodes go to means of the places that their hexes give them. start, corners: "
-              "`Topology.node_corners`.";
+    m.doc() =
+        "GETMe: nodes go to means of the places that their hexes give them. start, corners: "
+        "`Topology.node_corners`.";
     m.def("weighted_means", &weighted_means, "places"_a, "weights"_a, "start"_a, "corners"_a, "nodes"_a, "targets"_a,
           Unlocked(),
           "Write, for each of `nodes`, the mean of its places (m, 8, 3) in its hexes by the hexes' weights (m,);\n"
