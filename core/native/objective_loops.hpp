@@ -56,11 +56,11 @@ void product_of(Points points, Hexes hexes, Hexes slots, Points values, double d
             auto s = x.template edges<t>(), a = v.template edges<t>();
             auto cof = cofactors(s);
             auto d = derivatives<soft>(s, cof, delta, counted(t));
-            auto by_s = gradient(d, s, cof);
+            Along<T> along{dot(a, s), dot(a, cof)};
             sum += counted(t) ? d.eta : all<T>(1.0);
-            slope += dot(by_s, a);
-            g.template scatter<t>(by_s);
-            h.template scatter<t>(product(d, s, cof, a));
+            slope += along.slope(d);
+            g.template scatter<t>(gradient(d, s, cof));
+            h.template scatter<t>(product(d, s, cof, a, along));
         });
         BlockWeights<T> by(sum * 0.125 - 1.0, p);
         T along = by.second * slope;

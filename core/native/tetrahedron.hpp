@@ -99,11 +99,19 @@ template <class T> inline M3<T> gradient(const Derivatives<T> &d, const M3<T> &s
     return {d.k * s.u - d.c * cof.u, d.k * s.v - d.c * cof.v, d.k * s.w - d.c * cof.w};
 }
 
+// What the columns of S and of C are along a direction A: (A, S) and (A, C).
+template <class T> struct Along {
+    T s, c;
+
+    // d eta(A)/8, (B.3).
+    T slope(const Derivatives<T> &d) const { return d.k * s - d.c * c; }
+};
+
 // Second derivative of eta/8 along A, by the columns of S: (B.19).
-template <class T> inline M3<T> product(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof, const M3<T> &a) {
-    T along_s = dot(a, s), along_c = dot(a, cof);
-    T p = d.mixed * along_c;                           // what multiplies S
-    T q = d.mixed * along_s + 2.0 * d.half * along_c;  // what multiplies C
+template <class T>
+inline M3<T> product(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof, const M3<T> &a, const Along<T> &along) {
+    T p = d.mixed * along.c;                           // what multiplies S
+    T q = d.mixed * along.s + 2.0 * d.half * along.c;  // what multiplies C
     // dC: its columns are av x w + v x aw, and so on round.
     return {
         p * s.u + q * cof.u + d.k * a.u - d.c * (cross(a.v, s.w) + cross(s.v, a.w)),
