@@ -18,14 +18,15 @@ from hexmend.study.section import Section
 _TIMES = 15
 
 
-def _seconds(call: Callable[[], Any]) -> float:
-    call()
-    took = []
-    for _ in range(_TIMES):
-        began = perf_counter()
-        call()
-        took.append(perf_counter() - began)
-    return median(took)
+def _seconds(*calls: Callable[[], Any]) -> list[float]:
+    """What each of some calls takes: they are timed in turn, so that a machine that slows down slows all of them."""
+    took: list[list[float]] = [[] for _ in calls]
+    for _ in range(1 + _TIMES):
+        for call, seconds in zip(calls, took, strict=True):
+            began = perf_counter()
+            call()
+            seconds.append(perf_counter() - began)
+    return [median(seconds[1:]) for seconds in took]
 
 
 def _kernels() -> dict[str, Any]:
@@ -66,11 +67,12 @@ def _kernels() -> dict[str, Any]:
     try:
         for name, call, reference, times in rows:
             set_threads(1)
-            alone, plainly = _seconds(call) / times, _seconds(reference) if reference else None
+            alone, plainly = _seconds(call, reference) if reference else (*_seconds(call), None)
+            alone /= times
             set_threads(all_threads)
             answer[name] = {
                 "ns_per_tetrahedron": alone / (8 * m) * 1e9,
-                "ns_per_tetrahedron_all_threads": _seconds(call) / times / (8 * m) * 1e9,
+                "ns_per_tetrahedron_all_threads": _seconds(call)[0] / times / (8 * m) * 1e9,
                 "ns_per_tetrahedron_plain": plainly and plainly / (8 * m) * 1e9,
                 "ratio": plainly and plainly / alone,
             }
