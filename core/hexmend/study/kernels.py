@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from statistics import median
+from statistics import median, quantiles
 from time import perf_counter
 from typing import Any
 
@@ -18,15 +18,15 @@ from hexmend.study.section import Section
 _TIMES = 15
 
 
-def _seconds(*calls: Callable[[], Any]) -> list[float]:
-    """What each of some calls takes: they are timed in turn, so that a machine that slows down slows all of them."""
+def _seconds(*calls: Callable[[], Any]) -> list[list[float]]:
+    """What each of some calls took each time: they are timed in turn, so that a machine that slows down slows all."""
     took: list[list[float]] = [[] for _ in calls]
     for _ in range(1 + _TIMES):
         for call, seconds in zip(calls, took, strict=True):
             began = perf_counter()
             call()
             seconds.append(perf_counter() - began)
-    return [median(seconds[1:]) for seconds in took]
+    return [seconds[1:] for seconds in took]
 
 
 def _kernels() -> dict[str, Any]:
@@ -67,14 +67,17 @@ def _kernels() -> dict[str, Any]:
     try:
         for name, call, reference, times in rows:
             set_threads(1)
-            alone, plainly = _seconds(call, reference) if reference else (*_seconds(call), None)
-            alone /= times
+            alone, *plainly = _seconds(call, *filter(None, [reference]))
             set_threads(all_threads)
+            (shared,) = _seconds(call)
+            ratios = [plain * times / own for own, plain in zip(alone, *plainly, strict=True)] if plainly else []
+            low, middle, high = quantiles(ratios, n=4) if ratios else (None, None, None)
             answer[name] = {
-                "ns_per_tetrahedron": alone / (8 * m) * 1e9,
-                "ns_per_tetrahedron_all_threads": _seconds(call)[0] / times / (8 * m) * 1e9,
-                "ns_per_tetrahedron_plain": plainly and plainly / (8 * m) * 1e9,
-                "ratio": plainly and plainly / alone,
+                "ns_per_tetrahedron": median(alone) / times / (8 * m) * 1e9,
+                "ns_per_tetrahedron_all_threads": median(shared) / times / (8 * m) * 1e9,
+                "ns_per_tetrahedron_plain": median(plainly[0]) / (8 * m) * 1e9 if plainly else None,
+                "ratio": middle,
+                "ratio_quartiles": [low, high] if ratios else None,
             }
     finally:
         set_threads(all_threads)
@@ -82,10 +85,10 @@ def _kernels() -> dict[str, Any]:
 
 
 def _kernel_lines(figures: dict[str, Any]) -> list[str]:
-    lines = [f"{'ns a corner tetrahedron':<36}{'plain loop':>11}{'1 thread':>10}{'all':>8}{'ratio':>8}"]
+    lines = [f"{'ns a corner tetrahedron':<36}{'plain loop':>11}{'1 thread':>10}{'all':>8}{'ratio':>8}  quartiles"]
     for name, row in figures["kernels"].items():
         plain = f"{row['ns_per_tetrahedron_plain']:11.1f}" if row["ns_per_tetrahedron_plain"] else " " * 11
-        ratio = f"{row['ratio']:7.1f}x" if row["ratio"] else ""
+        ratio = "{:7.1f}x  {:.1f} to {:.1f}".format(row["ratio"], *row["ratio_quartiles"]) if row["ratio"] else ""
         lines.append(
             f"{name:<36}{plain}{row['ns_per_tetrahedron']:10.1f}{row['ns_per_tetrahedron_all_threads']:8.1f}{ratio}"
         )
