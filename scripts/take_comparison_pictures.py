@@ -14,10 +14,10 @@ from take_screenshots import opened, shoot, shut, turn, until
 
 from hexmend.gallery import make
 from hexmend.io import write
+from hexmend_app.scene.palette import Choice
+from hexmend_app.shell.window import Window
 from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.theme import Choice
 from hexmend_app.widgets.theming import choose
-from hexmend_app.window import Window
 
 _SHOWN = ("laplacian", "getme", "mend")
 

@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 from take_screenshots import take, turn, until
 
+from hexmend_app.scene.palette import Choice
+from hexmend_app.shell.window import Window
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import ColourScale, RangeMode, Structure, ValueRange
 from hexmend_app.state.run import Phase
-from hexmend_app.state.theme import Choice
 from hexmend_app.widgets.theming import choose
-from hexmend_app.window import Window
 
 
 def worst(window: Window) -> None:

@@ -15,12 +15,12 @@ from PySide6.QtCore import QEventLoop, QSettings, QTimer
 
 from hexmend.gallery import make
 from hexmend.io import write
-from hexmend_app.program import application
+from hexmend_app.scene.palette import Choice
+from hexmend_app.shell.program import application
+from hexmend_app.shell.window import Window
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.run import Phase
-from hexmend_app.state.theme import Choice
 from hexmend_app.widgets.theming import choose
-from hexmend_app.window import Window
 
 #: What is photographed: what is done in the window, the gallery's mesh that is open in it, and how that is made.
 Scenes = Sequence[tuple[Callable[[Window], object], str, dict]]

@@ -10,13 +10,13 @@ from pathlib import Path
 
 from take_screenshots import take, turn, until
 
+from hexmend_app.scene.palette import Choice
+from hexmend_app.shell.window import Window
 from hexmend_app.state.breakpoints import Breakpoints
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, Since, Traces
 from hexmend_app.state.run import Phase
-from hexmend_app.state.theme import Choice
 from hexmend_app.widgets.theming import choose
-from hexmend_app.window import Window
 
 
 def run(window: Window, method: str, iterations: int) -> None:

@@ -10,8 +10,9 @@ from PySide6.QtCore import QEvent, QSettings
 from PySide6.QtWidgets import QApplication, QMessageBox
 
 from hexmend import gallery, io
-from hexmend_app.program import application
-from hexmend_app.window import Window
+from hexmend_app.shell.program import application
+from hexmend_app.shell.window import Window
+from hexmend_app.widgets.style import apply_style
 from tests.app.driving import open_and_wait
 
 
@@ -23,6 +24,28 @@ def pytest_collection_modifyitems(items):
 #: Windows of tests that are over. Garbage, they would take along what VTK draws with at whatever moment Python collects
 #: it, and crash there.
 CLOSED: list[Window] = []
+
+
+@pytest.fixture(scope="session")
+def qapp(qapp):
+    """The application in the program's own look."""
+    apply_style(qapp, dark=False)
+    return qapp
+
+
+@pytest.fixture
+def shown(qtbot):
+    """Shows a widget in a window of its own that has the keyboard focus."""
+
+    def show(widget, width=360, height=0):
+        qtbot.addWidget(widget)
+        widget.resize(width, height or widget.sizeHint().height())
+        with qtbot.waitActive(widget):
+            widget.show()
+            widget.activateWindow()
+        return widget
+
+    return show
 
 
 @pytest.fixture(scope="session")

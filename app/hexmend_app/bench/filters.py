@@ -15,7 +15,7 @@ from hexmend.study.section import Section, peak_mb
 from hexmend_app.bench.windows import draw, measured, report, turning_ms
 
 if TYPE_CHECKING:
-    from hexmend_app.window import Window
+    from hexmend_app.shell.window import Window
 
 _CHANGES = 9
 

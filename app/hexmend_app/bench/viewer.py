@@ -16,7 +16,7 @@ from hexmend.study.section import Section
 from hexmend_app.bench.windows import draw, measured, report, turn
 
 if TYPE_CHECKING:
-    from hexmend_app.window import Window
+    from hexmend_app.shell.window import Window
 
 _FRAMES = 40
 _SECONDS = 6.0

@@ -14,8 +14,8 @@ from hexmend.study.section import Section
 from hexmend_app.bench.windows import draw, measured, report, turn, turning_ms
 
 if TYPE_CHECKING:
+    from hexmend_app.shell.window import Window
     from hexmend_app.state.document import State
-    from hexmend_app.window import Window
 
 _SIZES = (("bridge-sharp", {}), ("five-side", {"size": 110450}))
 

@@ -14,7 +14,7 @@ from hexmend.study.section import Section
 from hexmend_app.bench.windows import draw, measured, report, turn
 
 if TYPE_CHECKING:
-    from hexmend_app.window import Window
+    from hexmend_app.shell.window import Window
 
 _SCRUBBED, _ITERATIONS, _STOPS = 200, 500, 5
 

@@ -12,7 +12,7 @@ from hexmend.errors import HexmendError
 
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
-    from hexmend_app.window import Window
+    from hexmend_app.shell.window import Window
 
 _FRAMES = 40
 _PATIENCE = 60.0  # seconds for a frame
@@ -20,15 +20,15 @@ _PATIENCE = 60.0  # seconds for a frame
 
 def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) -> dict[str, Any]:
     """A row of figures for each mesh, found in a window of its own; why not, where there is no display."""
-    from hexmend_app.display import DisplayError, check_display
+    from hexmend_app.shell.display import DisplayError, check_display
 
     try:
         check_display()
     except DisplayError as error:
         return {"skipped": str(error), "meshes": []}
-    from hexmend_app.program import application
+    from hexmend_app.shell.program import application
+    from hexmend_app.shell.window import Window
     from hexmend_app.state.document import State
-    from hexmend_app.window import Window
 
     app = application()
     rows = []

@@ -39,7 +39,7 @@ class Film:
         mesh = read(args.mesh)
         look = looks.look_of(args, mesh)
         prepare_off_screen()
-        from hexmend_app.scene.film import format_of, pictures, write_film
+        from hexmend_app.scene.export.film import format_of, pictures, write_film
         from hexmend_app.state.document import State
         from hexmend_app.state.history import History
         from hexmend_app.state.shots import chosen as shown

@@ -43,8 +43,8 @@ class Render:
         from hexmend_app.scene.graphics import prepare_off_screen
 
         prepare_off_screen()
-        from hexmend_app.scene.figure import Panel, figure
-        from hexmend_app.scene.picture import picture
+        from hexmend_app.scene.export.figure import Panel, figure
+        from hexmend_app.scene.export.picture import picture
 
         how = {"view": view, "transparent": args.transparent, "bar": not args.no_bar}
         if len(meshes) == 1:

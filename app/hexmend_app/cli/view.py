@@ -15,10 +15,10 @@ class ViewCommand:
         parser.add_argument("mesh", metavar="MESH", nargs="?", help="the mesh file")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend_app.display import check_display
+        from hexmend_app.shell.display import check_display
 
         check_display()
-        from hexmend_app.program import open_window
+        from hexmend_app.shell.program import open_window
 
         return open_window(args.mesh)
 

@@ -12,11 +12,11 @@ from vtkmodules.vtkRenderingCore import vtkActor2D
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.colours import declared_ends
+from hexmend_app.scene.palette import LINE
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
 from hexmend_app.state.movement import Movement
-from hexmend_app.state.theme import LINE
 from hexmend_app.state.views import MOST, Wipe
 
 #: How many views a plotter has to have room for: the first, and those beside it.

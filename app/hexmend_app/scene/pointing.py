@@ -10,10 +10,10 @@ from vtkmodules.vtkRenderingCore import vtkCellPicker, vtkRenderer
 
 from hexmend.node_step import NodeStep
 from hexmend.quality import Node, corner_qualities
-from hexmend_app.scene.highlight import Highlight
-from hexmend_app.scene.node_step import NodeStepMarks
+from hexmend_app.scene.layers.highlight import Highlight
+from hexmend_app.scene.layers.node_step import NodeStepMarks
+from hexmend_app.scene.layers.surface import Surface, hex_of
 from hexmend_app.scene.pane import Pane
-from hexmend_app.scene.surface import Surface, hex_of
 
 
 class Pointing:

@@ -9,25 +9,25 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
-from hexmend_app.scene import cut
-from hexmend_app.scene.arrows import ArrowLayer
-from hexmend_app.scene.axes import Axes
-from hexmend_app.scene.coarse import MANY, coarse
+from hexmend_app.scene.camera.fitting import fit
+from hexmend_app.scene.camera.flight import ELEMENT_FAR, PATCH_FAR, Flight
 from hexmend_app.scene.colours import Colouring, fitted, resolve
+from hexmend_app.scene.cutting import cut
 from hexmend_app.scene.filters import Filters
-from hexmend_app.scene.fitting import fit
-from hexmend_app.scene.flight import ELEMENT_FAR, PATCH_FAR, Flight
-from hexmend_app.scene.halo import Halo
+from hexmend_app.scene.layers.arrows import ArrowLayer
+from hexmend_app.scene.layers.axes import Axes
+from hexmend_app.scene.layers.coarse import MANY, coarse
+from hexmend_app.scene.layers.halo import Halo
+from hexmend_app.scene.layers.silhouette import Silhouette
+from hexmend_app.scene.layers.structure import StructureLayers, uncut
+from hexmend_app.scene.layers.surface import Surface, hexes_of, quads, set_colours, set_points
+from hexmend_app.scene.palette import BACKGROUND
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.pointing import Pointing
-from hexmend_app.scene.silhouette import Silhouette
 from hexmend_app.scene.skin import Faces, Skin
-from hexmend_app.scene.structure import StructureLayers, uncut
-from hexmend_app.scene.surface import Surface, hexes_of, quads, set_colours, set_points
 from hexmend_app.state.look import Arrows, Look
 from hexmend_app.state.measured import values
 from hexmend_app.state.movement import MOVEMENTS, Movement
-from hexmend_app.state.theme import BACKGROUND
 
 _LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
-from hexmend_app.state.theme import BUTTON, HOVER
+from hexmend_app.scene.palette import BUTTON, HOVER
 from hexmend_app.widgets.style import BLUE, LINE, dress, explain
 
 

@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
-from hexmend_app.state.theme import AMBER, BLUE, TOLD, WARNED, WORSE, WRONG
+from hexmend_app.scene.palette import AMBER, BLUE, TOLD, WARNED, WORSE, WRONG
 from hexmend_app.widgets.style import dress, explain, icon
 
 _MAX_SHOWN = 700

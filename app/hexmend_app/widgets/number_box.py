@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
-from hexmend_app.state.theme import FIELD, MUTED, PANEL, TEXT, WORSE, WRONG, Role
+from hexmend_app.scene.palette import FIELD, MUTED, PANEL, TEXT, WORSE, WRONG, Role
 from hexmend_app.widgets.style import dress, smaller, tabular
 from hexmend_app.widgets.wording import short_number
 

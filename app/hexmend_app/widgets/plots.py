@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QFrame
 
-from hexmend_app.state.theme import LINE, MUTED, Role
+from hexmend_app.scene.palette import LINE, MUTED, Role
 from hexmend_app.widgets.style import dress, smaller, tabular
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from superqt import QCollapsible
 
-from hexmend_app.state.theme import BLUE, HOVER, MUTED
+from hexmend_app.scene.palette import BLUE, HOVER, MUTED
 from hexmend_app.widgets.style import dress, explain, icon
 
 # Qt's QWIDGETSIZE_MAX, which PySide6 does not hand on.

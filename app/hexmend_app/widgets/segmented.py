@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
-from hexmend_app.state.theme import BLUE, CHOSEN, FAINT, FIELD, HOVER, LINE, ON_CHOSEN, TEXT
+from hexmend_app.scene.palette import BLUE, CHOSEN, FAINT, FIELD, HOVER, LINE, ON_CHOSEN, TEXT
 from hexmend_app.widgets.style import dress, explain
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import qtawesome
-from PySide6.QtCore import QObject, QPoint, QRect, QSize, Qt
+from PySide6.QtCore import QObject, QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QIcon, QIconEngine, QPainter, QPalette, QPixmap
 from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QToolTip, QWidget
 
 from hexmend_app.scene.colours import INVERTED as SCENE_INVERTED
-from hexmend_app.state.theme import (
+from hexmend_app.scene.palette import (
     ACCENT,
     AMBER,
     BETTER,
@@ -65,6 +65,15 @@ _PALETTE = (
 _FRAMED = ("QCheckBox", "QPushButton", "QComboBox", "QAbstractSpinBox", "QLineEdit", "QSlider", "QMenu")
 
 
+class _Mirror(QObject):
+    """Tells what is dressed that the theme is another."""
+
+    changed = Signal()
+
+
+_MIRROR = _Mirror()
+
+
 def apply_style(app: QApplication, dark: bool) -> None:
     """Give the program the Fusion look in the light theme or the dark one, and have all widgets change with it."""
     if app.property("dark") is dark:
@@ -81,7 +90,8 @@ def apply_style(app: QApplication, dark: bool) -> None:
     palette.setColor(_ROLES.Window, QColor(FRAME.of(dark)))
     for control in _FRAMED:
         app.setPalette(palette, control)
-    THEME.set_dark(dark)
+    THEME.dark = dark
+    _MIRROR.changed.emit()
 
 
 class _Dress(QObject):
@@ -90,7 +100,7 @@ class _Dress(QObject):
     def __init__(self, widget: QWidget, put_on: Callable[[], object]):
         super().__init__(widget)
         self._put_on = put_on
-        THEME.changed.connect(self.put_on)
+        _MIRROR.changed.connect(self.put_on)
         self.put_on()
 
     def put_on(self) -> None:

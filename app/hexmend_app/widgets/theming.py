@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from enum import Enum
+
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtWidgets import QApplication
 
-from hexmend_app.state.theme import Choice
 from hexmend_app.widgets.style import apply_style
+
+
+class Choice(Enum):
+    """Which theme the user wants."""
+
+    LIGHT = "light"
+    DARK = "dark"
+    DESKTOP = "desktop"
+
 
 _SCHEMES = {
     Choice.LIGHT: Qt.ColorScheme.Light,

@@ -5,9 +5,9 @@ import pytest
 import pyvista as pv
 
 from hexmend.quality import measure
-from hexmend_app.scene.figure import Panel, figure
+from hexmend_app.scene.export.figure import Panel, figure
+from hexmend_app.scene.export.picture import picture
 from hexmend_app.scene.panes import ROOM, Panes, columns, grid
-from hexmend_app.scene.picture import picture
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
 from hexmend_app.state.movement import Moment, Movement

@@ -7,7 +7,7 @@ import pyvista as pv
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.scene.colours import INVERTED
-from hexmend_app.scene.plane_widget import PlaneWidget
+from hexmend_app.scene.cutting.plane_widget import PlaneWidget
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import ClipPlane, PlaneClip
 from hexmend_app.state.look import ColourScale, Look, RangeMode, ValueRange

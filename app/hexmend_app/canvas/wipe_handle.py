@@ -1,0 +1,104 @@
+"""The edge between two views that lie over one another, to be dragged."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPoint, QRect, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QRegion
+from PySide6.QtWidgets import QWidget
+
+from hexmend_app.scene.palette import ACCENT, BLUE, FIELD, LINE, TEXT
+from hexmend_app.widgets.style import explain
+
+#: Pixels: of the line, and of the knob on it.
+_LINE, _KNOB = 5, 22
+
+#: Share of the width by which a stroke of a key moves the edge.
+STEP = 0.02
+
+
+class WipeHandle(QWidget):
+    """A line from top to bottom of the view with a knob in its middle; drag it, or press the arrow keys.
+
+    Parameters
+    ----------
+    over : QWidget
+        The view.
+
+    Signals
+    -------
+    moved(share)
+        The user wants the edge at this share of the view's width.
+    """
+
+    moved = Signal(float)
+
+    def __init__(self, over: QWidget):
+        super().__init__(over)
+        self._share = 0.5
+        self._grip: int | None = None  # where on the handle the mouse holds it
+        self.setCursor(Qt.CursorShape.SplitHCursor)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        explain(self, "Wipe", "Drag to see more of one view and less of the other; arrow keys do the same.")
+        self.hide()
+
+    def set_share(self, share: float) -> None:
+        """Stand at a share of the view's width."""
+        self._share = share
+        self.fit()
+
+    def fit(self) -> None:
+        """Stand where it has to: the view's size may be another."""
+        share = self._share
+        over = self.parentWidget().size()
+        self.setGeometry(round(share * over.width()) - _KNOB // 2, 0, _KNOB, over.height())
+        self.setMask(QRegion(self._line) + QRegion(self._knob, QRegion.RegionType.Ellipse))
+
+    @property
+    def _line(self) -> QRect:
+        return QRect((_KNOB - _LINE) // 2, 0, _LINE, self.height())
+
+    @property
+    def _knob(self) -> QRect:
+        return QRect(0, (self.height() - _KNOB) // 2, _KNOB, _KNOB)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the line and the knob; in the accent's colour while the keys would move it."""
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), QColor(str(LINE)))
+        inside = QColor(str(ACCENT if self.hasFocus() or self._grip is not None else TEXT))
+        painter.fillRect(self._line.adjusted(1, 0, -1, 0), inside)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QColor(str(BLUE if self.hasFocus() else LINE)))
+        painter.setBrush(QColor(str(FIELD)))
+        painter.drawEllipse(self._knob.adjusted(1, 1, -2, -2))
+        painter.setBrush(inside)
+        painter.setPen(Qt.PenStyle.NoPen)
+        middle = self._knob.center()
+        for way in (-1, 1):
+            tip, back = middle + QPoint(8 * way, 0), middle + QPoint(3 * way, 0)
+            painter.drawPolygon([tip, back + QPoint(0, -4), back + QPoint(0, 4)])
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Take hold of it."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._grip = round(event.position().x()) - _KNOB // 2
+            self.update()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Follow the hand."""
+        if self._grip is not None:
+            place = self.mapToParent(event.position().toPoint()).x() - self._grip
+            self.moved.emit(place / max(self.parentWidget().width(), 1))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Let go."""
+        self._grip = None
+        self.update()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Step aside by an arrow key."""
+        way = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
+        if way is None:
+            super().keyPressEvent(event)
+        else:
+            self.moved.emit(self._share + way * STEP)

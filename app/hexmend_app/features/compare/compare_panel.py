@@ -1,0 +1,195 @@
+"""Methods on one mesh, side by side: which, how far they are, the table of their results and what to do with one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
+from superqt import QElidingLabel
+
+from hexmend_app.features.compare.comparison_table import INITIAL, METHOD, VIEW, ComparisonModel, Entry
+from hexmend_app.scene.palette import CHOSEN, FRAME, ON_CHOSEN
+from hexmend_app.widgets.element_table import shape_table
+from hexmend_app.widgets.style import MUTED, dress, explain, icon, smaller, tabular, tint
+
+_HINT = "Tick methods and press Run: each begins with the mesh as it is now."
+
+#: Pixels of a column beside its text, and beside its text and a check.
+_AROUND, _CHECK = 14, 26
+
+
+class ComparePanel(QWidget):
+    """Asks for methods to be compared, and for their results to be shown, taken and saved.
+
+    Parameters
+    ----------
+    ticks : sequence of str
+        The methods that are ticked at first.
+
+    Signals
+    -------
+    run_requested(names)
+        The user wants these methods to run, in the order of the table as it was made.
+    cancel_requested
+    view_toggled(name, on)
+        The user wants a row's mesh in a view, or out of it.
+    take_requested(name)
+        The user wants a row's mesh as the mesh.
+    save_requested
+        The user wants the table as a file.
+    wipe_toggled(bool)
+        The user wants two views over one another, or all side by side.
+    offer_changed
+        Whether methods can run has changed.
+    """
+
+    run_requested = Signal(list)
+    cancel_requested = Signal()
+    view_toggled = Signal(str, bool)
+    take_requested = Signal(str)
+    save_requested = Signal()
+    wipe_toggled = Signal(bool)
+    offer_changed = Signal()
+
+    def __init__(self, ticks: Sequence[str] = (), parent: QWidget | None = None):
+        super().__init__(parent)
+        self._runnable = self._editable = False
+        self._names: list[str] = []
+        self._model = ComparisonModel(ticks, self)
+        self._model.view_toggled.connect(self.view_toggled)
+        self._model.ticked.connect(self._enable)
+        self._run = QPushButton(icon("play"), "Run")
+        explain(self._run, "Run the comparison", "Run the ticked methods one after another; the mesh stays as it is.")
+        self._cancel = QPushButton(icon("stop"), "Cancel")
+        explain(
+            self._cancel, "Cancel the comparison", "End after the iteration at hand, and keep what has been reached."
+        )
+        self._wipe = QPushButton(icon("compare"), "Wipe")
+        self._wipe.setCheckable(True)
+        explain(self._wipe, "Wipe", "Lay two views over one another, with an edge between them that is dragged (W).")
+        self._wipe.toggled.connect(self._paint_wipe)
+        dress(self._wipe, self._paint_wipe)
+        self._take = QPushButton("Take result")
+        explain(self._take, "Take result", "Let the chosen row's result be the mesh; undo takes it back.")
+        self._save = QPushButton(icon("content-save-outline"), "")
+        explain(self._save, "Save table", "Save the table as CSV, Markdown, LaTeX or JSON.")
+        self._status = QElidingLabel()
+        self._status.setFont(tabular(smaller(self._status.font())))
+        self._status.setAccessibleName("Progress of the comparison")
+        tint(self._status, MUTED)
+        self._table = self._make_table()
+        self._lay_out()
+        self._run.clicked.connect(self.run)
+        self._cancel.clicked.connect(self.cancel_requested)
+        self._wipe.clicked.connect(self.wipe_toggled)
+        self._take.clicked.connect(lambda: self.take_requested.emit(self._chosen()))
+        self._save.clicked.connect(self.save_requested)
+        self.set_status()
+
+    def _paint_wipe(self) -> None:
+        """Show that the button is pressed by more than Fusion's shade, which the dark theme swallows."""
+        palette = QPalette()
+        if self._wipe.isChecked():
+            palette.setColor(QPalette.ColorRole.Button, QColor(str(CHOSEN)))
+            palette.setColor(QPalette.ColorRole.ButtonText, QColor(str(ON_CHOSEN)))
+        self._wipe.setPalette(palette)
+
+    def _make_table(self) -> QTableView:
+        table = QTableView()
+        table.setModel(self._model)
+        shape_table(table, "Comparison of methods", METHOD)
+        header = table.horizontalHeader()
+        header.setSectionResizeMode(header.ResizeMode.Interactive)
+        header.setSortIndicator(METHOD, Qt.SortOrder.AscendingOrder)
+        header.setSectionsClickable(True)
+        table.setSortingEnabled(True)
+        dress(table, lambda: self._frame_checks(table))
+        table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
+        table.selectionModel().selectionChanged.connect(self._enable)
+        table.doubleClicked.connect(self._toggle)
+        return table
+
+    @staticmethod
+    def _frame_checks(table: QTableView) -> None:
+        """Fusion frames the checks of a table by a darker shade of the window's colour."""
+        palette = table.palette()
+        palette.setColor(QPalette.ColorRole.Window, QColor(str(FRAME)))
+        table.setPalette(palette)
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        buttons = (self._run, self._cancel, self._wipe, self._take, self._save)
+        height = max(button.sizeHint().height() for button in buttons)  # with an icon, or without
+        for button in buttons:
+            button.setFixedHeight(height)
+            head.addWidget(button)
+        head.insertStretch(2)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setSpacing(4)
+        layout.addLayout(head)
+        layout.addWidget(self._table, 1)
+        layout.addWidget(self._status)
+
+    def set_entries(self, entries: Sequence[Entry], full: bool, busy: bool) -> None:
+        """Show rows; `full` where there is no room for another view, `busy` while methods are at work."""
+        self._names = [one.name for one in entries]
+        self._model.fill(entries, full, busy)
+        self._fit_columns()
+        self._enable()
+
+    def _fit_columns(self) -> None:
+        """Make columns as wide as what is in them: the dock is narrow."""
+        table, model = self._table, self._model
+        head, text = table.horizontalHeader().fontMetrics(), table.fontMetrics()
+        for column in range(model.columnCount()):
+            title = model.headerData(column, Qt.Orientation.Horizontal)
+            words = [model.index(row, column).data() for row in range(model.rowCount())]
+            room = _CHECK if column == METHOD else _AROUND
+            inside = max((text.horizontalAdvance(f"{word}0") for word in words if word), default=0) + room
+            table.setColumnWidth(column, max(head.horizontalAdvance(title) + _AROUND, inside))
+
+    def set_state(self, runnable: bool, editable: bool, several: bool, wiping: bool) -> None:
+        """Say whether methods may run, the mesh may be changed, there are several views, two of them are wiped."""
+        self._runnable, self._editable = runnable, editable
+        self._wipe.setEnabled(several)
+        self._wipe.setChecked(wiping)
+        self._enable()
+
+    def set_status(self, text: str = "") -> None:
+        """Say how far the work is, or what there is to do."""
+        self._status.setText(text or _HINT)
+        self._status.setToolTip(text)
+
+    def run(self) -> None:
+        """Ask for the ticked methods to run."""
+        if self._run.isEnabled():
+            self.run_requested.emit([name for name in self._names if name in self._model.ticks])
+
+    @property
+    def can_run(self) -> bool:
+        """Whether methods are ticked, and may run."""
+        return self._runnable and bool(self._model.ticks)
+
+    def _chosen(self) -> str:
+        rows = self._table.selectionModel().selectedRows()
+        return self._model.entries[rows[0].row()].name if rows else ""
+
+    def _toggle(self, index: object) -> None:
+        if index.column() != METHOD:
+            view = self._model.index(index.row(), VIEW)
+            if self._model.flags(view) & Qt.ItemFlag.ItemIsUserCheckable:
+                entry = self._model.entries[index.row()]
+                self.view_toggled.emit(entry.name, not entry.shown)
+
+    def _enable(self) -> None:
+        model, name = self._model, self._chosen()
+        if self._run.isEnabled() != self.can_run:
+            self._run.setEnabled(self.can_run)
+            self.offer_changed.emit()
+        self._cancel.setEnabled(model.busy)
+        has_mesh = any(one.name == name and one.has_mesh for one in model.entries)
+        self._take.setEnabled(self._editable and has_mesh)
+        self._save.setEnabled(any(one.record and one.name != INITIAL for one in model.entries) and not model.busy)

@@ -1,0 +1,223 @@
+"""The rows of a comparison: the mesh as it was, and each method with its figures once they are known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt, Signal
+from PySide6.QtGui import QBrush, QColor, QFont
+
+from hexmend.report.comparison import FIGURES
+from hexmend.report.tables import Figure, of
+from hexmend_app.features.quality.statistics import ROWS
+from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
+
+METHOD, VIEW, _FIRST = 0, 1, 2
+
+#: What the row of the mesh as it was is called.
+INITIAL = "initial"
+
+#: Which way each figure is better; those that are not here are neither.
+_BETTER = {row.key: row.better for row in ROWS} | dict.fromkeys(
+    ("seconds", "iterations", "seconds_per_iteration", "seconds_per_iteration_and_node"), -1
+)
+_HELP = {row.key: row.help for row in ROWS} | {
+    "q_max": "Quality of the best element.",
+    "seconds": "Seconds in the method, without its preparation and without measuring.",
+    "iterations": "Iterations until the run ended.",
+    "seconds_per_iteration": "Milliseconds of an iteration, on average.",
+    "seconds_per_iteration_and_node": "Microseconds of an iteration for each node that may move.",
+    "outcome": "Why the run ended; the row's tooltip says it in words.",
+}
+_RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+_LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+_Role, _Flag = Qt.ItemDataRole, Qt.ItemFlag
+_CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """A row.
+
+    Parameters
+    ----------
+    name : str
+        Of the method, or `INITIAL`.
+    help : str
+        What the row's tooltip says.
+    record : mapping
+        The figures, by the keys of `hexmend.report.comparison.FIGURES`; empty while there are none.
+    has_mesh : bool
+        Whether there is a mesh to be shown or taken.
+    shown : bool
+        Whether it is in a view.
+    """
+
+    name: str
+    help: str
+    record: Mapping[str, Any]
+    has_mesh: bool = False
+    shown: bool = False
+
+
+def best(entries: Sequence[Entry], figure: Figure) -> set[str]:
+    """Names of the methods whose figure is the best; none where there is nothing to choose.
+
+    >>> rows = [Entry("a", "", {"q_min": 0.1}), Entry("b", "", {"q_min": 0.3}), Entry("c", "", {})]
+    >>> best(rows, next(one for one in FIGURES if one.key == "q_min"))
+    {'b'}
+    """
+    sense = _BETTER.get(figure.key, 0)
+    known = {
+        one.name: sense * one.record[figure.key]
+        for one in entries
+        if one.name != INITIAL and one.record.get(figure.key) is not None
+    }
+    if not sense or len(set(known.values())) < 2:
+        return set()
+    most = max(known.values())
+    return {name for name, value in known.items() if value == most}
+
+
+class ComparisonModel(QAbstractTableModel):
+    """Rows that can be sorted, the mesh as it was always first; checks for what is to run and what is in a view.
+
+    Signals
+    -------
+    view_toggled(name, on)
+        The user wants a row's mesh in a view, or out of it.
+    ticked
+        Other methods are to run.
+    """
+
+    view_toggled = Signal(str, bool)
+    ticked = Signal()
+
+    def __init__(self, ticks: Sequence[str], parent: QObject | None = None):
+        super().__init__(parent)
+        self.entries: list[Entry] = []
+        self.ticks = set(ticks)
+        self.full = self.busy = False
+        self._order = (METHOD, Qt.SortOrder.AscendingOrder)
+        self._best: list[set[str]] = [set() for _ in FIGURES]
+
+    def fill(self, entries: Sequence[Entry], full: bool, busy: bool) -> None:
+        """Take rows, whether there is no room for another view, and whether methods are at work."""
+        entries = self._sorted(entries)
+        same = [one.name for one in entries] == [one.name for one in self.entries]
+        if not same:
+            self.beginResetModel()
+        self.entries, self.full, self.busy = entries, full, busy
+        self._best = [best(entries, figure) for figure in FIGURES]
+        if same:  # the view keeps what is chosen, and where it is scrolled to
+            self.dataChanged.emit(self.index(0, 0), self.index(len(entries) - 1, self.columnCount() - 1))
+        else:
+            self.endResetModel()
+
+    def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
+        """Order the rows by a column; what has no figure comes last."""
+        self._order = (column, order)
+        self.layoutAboutToBeChanged.emit()
+        before = [one.name for one in self.entries]
+        self.entries = self._sorted(self.entries)
+        now = [one.name for one in self.entries]
+        for index in self.persistentIndexList():
+            self.changePersistentIndex(index, self.index(now.index(before[index.row()]), index.column()))
+        self.layoutChanged.emit()
+
+    def _sorted(self, entries: Sequence[Entry]) -> list[Entry]:
+        column, order = self._order
+        first = [one for one in entries if one.name == INITIAL]
+        known, without = [], []
+        for one in entries:
+            if one.name != INITIAL:
+                (known if self._value(one, column) is not None else without).append(one)
+        known.sort(key=lambda one: self._value(one, column), reverse=order == Qt.SortOrder.DescendingOrder)
+        return first + known + without
+
+    def _value(self, entry: Entry, column: int) -> Any:
+        if column == METHOD:  # those that have run first
+            return not entry.record, entry.name
+        return entry.shown if column == VIEW else entry.record.get(FIGURES[column - _FIRST].key)
+
+    def rowCount(self, parent: QModelIndex | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else len(self.entries)
+
+    def columnCount(self, parent: QModelIndex | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else _FIRST + len(FIGURES)
+
+    def flags(self, index: QModelIndex) -> Qt.ItemFlag:
+        entry, plain = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
+        if index.column() == METHOD and entry.name != INITIAL:
+            return plain | _Flag.ItemIsUserCheckable if not self.busy else plain
+        if index.column() == VIEW:
+            free = entry.has_mesh and (entry.shown or not self.full)
+            return plain | _Flag.ItemIsUserCheckable if free else _Flag.ItemIsSelectable
+        return plain
+
+    def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
+        entry, column = self.entries[index.row()], index.column()
+        figure = FIGURES[column - _FIRST] if column >= _FIRST else None
+        if role == _Role.DisplayRole:
+            return entry.name if column == METHOD else of(entry.record, figure) if figure and entry.record else ""
+        if role == _Role.CheckStateRole:
+            return self._check(entry, column)
+        if role == _Role.TextAlignmentRole:
+            return _RIGHT if figure and figure.key != "outcome" else _LEFT
+        if role == _Role.ToolTipRole:
+            if column == VIEW and entry.has_mesh and self.full and not entry.shown:
+                return "Close a view first: there is room for four."
+            return f"<qt>{entry.help}</qt>"
+        if figure is not None:
+            return self._emphasis(entry, figure, entry.name in self._best[column - _FIRST], role)
+        return None
+
+    def _check(self, entry: Entry, column: int) -> Qt.CheckState | None:
+        if column == METHOD and entry.name != INITIAL:
+            return _CHECKS[entry.name in self.ticks]
+        return _CHECKS[entry.shown] if column == VIEW and entry.has_mesh else None
+
+    def _emphasis(self, entry: Entry, figure: Figure, is_best: bool, role: int) -> Any:
+        if role == _Role.FontRole and is_best:
+            font = tabular(QFont())
+            font.setBold(True)
+            return font
+        if role == _Role.AccessibleTextRole and is_best:
+            return f"{of(entry.record, figure)}, best"
+        if role == _Role.ForegroundRole:
+            wrong = figure.key == "inverted" and entry.record.get("inverted")
+            colour = WORSE if wrong else BETTER if is_best else None
+            return colour and QBrush(QColor(str(colour)))
+        return None
+
+    def setData(self, index: QModelIndex, value: Any, role: int = _Role.EditRole) -> bool:
+        if role != _Role.CheckStateRole:
+            return False
+        on, name = Qt.CheckState(value) == Qt.CheckState.Checked, self.entries[index.row()].name
+        if index.column() == VIEW:
+            self.view_toggled.emit(name, on)
+        else:
+            (self.ticks.add if on else self.ticks.discard)(name)
+            self.dataChanged.emit(index, index)
+            self.ticked.emit()
+        return True
+
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = _Role.DisplayRole) -> Any:
+        if orientation != Qt.Orientation.Horizontal:
+            return None
+        figure = FIGURES[section - _FIRST] if section >= _FIRST else None
+        if role == _Role.DisplayRole:
+            return figure.label if figure else ("Method", "View")[section]
+        if role == _Role.TextAlignmentRole:
+            return _RIGHT if figure and figure.key != "outcome" else _LEFT
+        if role == _Role.ForegroundRole:
+            return QBrush(QColor(str(MUTED)))
+        if role == _Role.ToolTipRole:
+            words = _HELP[figure.key] if figure else (
+                "What is ticked runs. A click on a column's head sorts by it.",
+                "What is ticked is seen in a view of its own beside the mesh as it is now.",
+            )[section]  # fmt: skip
+            return f"<qt>{words}</qt>"
+        return None

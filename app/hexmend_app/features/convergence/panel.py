@@ -1,0 +1,258 @@
+"""How runs converge: charts of their figures below one another, and what is plotted in them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from PySide6.QtCore import QPointF, QSize, Qt, Signal
+from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QHBoxLayout,
+    QScrollArea,
+    QSizePolicy,
+    QToolTip,
+    QVBoxLayout,
+    QWidget,
+)
+
+from hexmend_app.canvas.colour_bar import nice_ticks
+from hexmend_app.features.convergence.plot import ConvergencePlot
+from hexmend_app.features.convergence.run_legend import RunLegend
+from hexmend_app.features.convergence.words import describe
+from hexmend_app.state.convergence import CHARTS, FIRST, Curve
+from hexmend_app.state.history import Record
+from hexmend_app.widgets.menu_button import MenuButton
+from hexmend_app.widgets.segmented import Segmented
+from hexmend_app.widgets.style import icon, note, smaller
+
+_NONE = "No method has run on this mesh yet. Its figures will appear here, iteration by iteration."
+_LOG = "Axes by powers of ten, but for quality and the counts of CG iterations and cuts; zero stands below them."
+_FROM_ZERO = "Lay all runs over one another from their start, rather than let a branch begin where it left its parent."
+
+#: Width of what stands beside the charts, and of the whole from which on it does so.
+_SIDE, _WIDE = 158, 420
+
+# Qt's QWIDGETSIZE_MAX, which PySide6 does not hand on.
+_UNBOUNDED = (1 << 24) - 1
+
+
+class ConvergencePanel(QWidget):
+    """Plots runs.
+
+    Signals
+    -------
+    picked(Record, number)
+        The user wants to go to an iteration.
+    toggled(Record, bool), forget_requested(Record)
+        The user wants a run plotted or not, or forgotten.
+    choice_changed
+        The user wants it plotted otherwise.
+    came_into_view
+        What was put off while nobody saw it is due.
+    save_requested
+        The user wants the charts as a file.
+    """
+
+    picked = Signal(object, int)
+    toggled = Signal(object, bool)
+    forget_requested = Signal(object)
+    choice_changed = Signal()
+    came_into_view = Signal()
+    save_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.curves: Sequence[Curve] = ()
+        self._foot: tuple = ()
+        self._shown: tuple[Record, int] | None = None
+        self.plots = {key: ConvergencePlot(chart) for key, chart in CHARTS.items()}
+        for plot in self.plots.values():
+            plot.picked.connect(self.picked)
+            plot.hovered.connect(partial(self._on_hovered, plot))
+        self._make_controls()
+        self._lay_out()
+        self._arrange()
+        self.set_curves(())
+
+    # What it is made of
+
+    def _make_controls(self) -> None:
+        self.charts = {key: self._action(chart.title, chart.help, key in FIRST) for key, chart in CHARTS.items()}
+        for action in self.charts.values():
+            action.toggled.connect(self._arrange)
+        self.which = MenuButton("Charts", "Which figures are plotted, each in a chart of its own.")
+        self.which.setText("Charts ▾")
+        self.which.menu().addActions(list(self.charts.values()))
+        self.log = self._action("Logarithmic axes", _LOG, True)
+        self.log.toggled.connect(self._redraw)
+        self.from_zero = self._action("Branches begin at 0", _FROM_ZERO, False)
+        self.from_zero.toggled.connect(self.choice_changed)
+        self.save = self._action("Save…", "Save the charts as SVG, PDF or PNG, or the figures of all runs as CSV.")
+        self.save.triggered.connect(self.save_requested)
+        self.more = MenuButton("More of the charts", "Logarithmic axes, where branches begin, and saving.")
+        self.more.setIcon(icon("dots-vertical"))
+        self.more.menu().addActions([self.log, self.from_zero, self.save])
+        self.axis = Segmented(
+            "Axis of the charts",
+            [
+                ("iteration", "Iteration", "Plot against the number of the iteration."),
+                ("time", "Time", "Plot against the seconds that the method took."),
+            ],
+        )
+        self.axis.setFont(smaller(self.font()))
+        self.axis.chosen.connect(self._redraw)
+        self.legend = RunLegend()
+        self.legend.toggled.connect(self.toggled)
+        self.legend.forget_requested.connect(self.forget_requested)
+
+    def _action(self, text: str, help: str, on: bool | None = None) -> QAction:
+        action = QAction(text, self)
+        action.setCheckable(on is not None)
+        action.setChecked(bool(on))
+        action.setToolTip(f"<qt>{help}</qt>")
+        return action
+
+    def _lay_out(self) -> None:
+        stack = QWidget()
+        charts = QVBoxLayout(stack)
+        charts.setContentsMargins(0, 0, 0, 0)
+        charts.setSpacing(2)
+        for plot in self.plots.values():
+            charts.addWidget(plot, 1)
+        self._none = note(_NONE)
+        self._none.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._charts, self._runs = _scrolled(stack), _scrolled(self.legend)
+        buttons = QHBoxLayout()
+        self.which.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        for part in (self.which, self.more):
+            part.setFixedHeight(self.axis.sizeHint().height())
+            buttons.addWidget(part)
+        self._head = QBoxLayout(QBoxLayout.Direction.TopToBottom)
+        self._head.addLayout(buttons, 1)
+        self._head.addWidget(self.axis)
+        side = QVBoxLayout()
+        side.setContentsMargins(0, 0, 0, 0)
+        side.addLayout(self._head)
+        side.addWidget(self._runs, 1)
+        self._side = QWidget()
+        self._side.setLayout(side)
+        self._layout = QBoxLayout(QBoxLayout.Direction.RightToLeft, self)
+        self._layout.setContentsMargins(6, 4, 6, 4)
+        for part, stretch in ((self._side, 0), (self._charts, 1), (self._none, 1)):
+            self._layout.addWidget(part, stretch)
+
+    def minimumSizeHint(self) -> QSize:
+        """What the buttons need in a row."""
+        return QSize(_SIDE + 120, 150)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Put the runs beside the charts, or above them where that leaves too little room."""
+        super().resizeEvent(event)
+        self._place()
+
+    def _place(self) -> None:
+        beside = self.width() >= _WIDE
+        directions = QBoxLayout.Direction
+        self._layout.setDirection(directions.RightToLeft if beside else directions.TopToBottom)
+        self._head.setDirection(directions.TopToBottom if beside else directions.LeftToRight)
+        self._side.setMinimumWidth(_SIDE if beside else 0)
+        self._side.setMaximumWidth(_SIDE if beside else _UNBOUNDED)
+        row = self.fontMetrics().height() + 3
+        self._runs.setMaximumHeight(_UNBOUNDED if beside else min(2, len(self.curves)) * row)
+
+    # What is plotted
+
+    @property
+    def by_time(self) -> bool:
+        """Whether the axis is of seconds."""
+        return self.axis.value() == "time"
+
+    @property
+    def drawn(self) -> list[ConvergencePlot]:
+        """The charts that are chosen, in their order."""
+        return [plot for key, plot in self.plots.items() if self.charts[key].isChecked()]
+
+    def set_curves(self, curves: Sequence[Curve]) -> None:
+        """Plot these runs, the oldest first."""
+        self.curves = curves
+        self.legend.set_curves(curves)
+        self.save.setEnabled(bool(curves))
+        self._none.setVisible(not curves)
+        self._charts.setVisible(bool(curves))
+        self._place()
+        self._redraw()
+
+    def set_shown(self, record: Record | None, number: int = 0) -> None:
+        """Mark the iteration that the view shows; None where that is none."""
+        self._shown = None if record is None else (record, number)
+        self._mark()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Draw what was put off."""
+        super().showEvent(event)
+        self.came_into_view.emit()
+
+    def _arrange(self) -> None:
+        drawn = self.drawn
+        for plot in self.plots.values():
+            plot.setVisible(plot in drawn)
+        self._foot = ()
+        self._redraw()
+
+    def _redraw(self) -> None:
+        self._fit()
+        for plot in self.drawn:
+            plot.draw(self.curves, self.by_time, self.log.isChecked())
+        self._mark()
+
+    def _fit(self) -> None:
+        """Let the axis reach as far as the runs; while one goes on, in steps, so that it seldom changes."""
+        places = [curve.x(self.by_time) for curve in self.curves if curve.shown and len(curve.columns)]
+        low = min((float(x[0]) for x in places), default=0.0)
+        high = max((float(x[-1]) for x in places), default=1.0)
+        high = max(high, low + (1e-3 if self.by_time else 1.0))
+        if any(curve.going for curve in self.curves):
+            step = 10.0 ** len(f"{high - low:.0f}") / 20
+            high = low + step * (1 + (high - low) // step)
+        foot = (low, high, self.by_time)
+        if foot == self._foot:
+            return
+        self._foot = foot
+        spare = 0.012 * (high - low)
+        ticks = [(tick, f"{tick:,.6g}") for tick in nice_ticks(low, high, 8) if self.by_time or tick == round(tick)]
+        left = self.fontMetrics().horizontalAdvance("000,000")
+        label = "seconds in the method" if self.by_time else "iteration"
+        for plot in self.drawn:
+            plot.set_span(low - spare, high + spare)
+            plot.set_foot(label if plot is self.drawn[-1] else None, ticks, left)
+
+    def _mark(self) -> None:
+        found = None
+        if self._shown is not None:
+            record, number = self._shown
+            curve = next((one for one in self.curves if one.record is record and one.shown), None)
+            if curve is not None and number < len(curve.columns):
+                found = float(curve.x(self.by_time)[number])
+        for plot in self.drawn:
+            plot.mark(found)
+
+    # Under the mouse
+
+    def _on_hovered(self, plot: ConvergencePlot, place: QPointF | None) -> None:
+        text = ""
+        if place is not None:
+            text = describe(plot.chart, self.curves, plot.view.mapSceneToView(place).x(), self.by_time)
+        at = plot.plot.mapToGlobal(plot.plot.mapFromScene(place)) if place is not None else plot.mapToGlobal(plot.pos())
+        QToolTip.showText(at, text, plot.plot)
+
+
+def _scrolled(widget: QWidget) -> QScrollArea:
+    area = QScrollArea()
+    area.setWidget(widget)
+    area.setWidgetResizable(True)
+    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    area.setFrameShape(QScrollArea.Shape.NoFrame)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    return area

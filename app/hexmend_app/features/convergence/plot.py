@@ -1,0 +1,231 @@
+"""One small chart of a run's figures against its iterations, of several runs over one another."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from hexmend_app.features.convergence.axis import UNIT, Scale, plain, powers
+from hexmend_app.features.convergence.line import MOST, RunLine, colour_of
+from hexmend_app.scene.palette import TEXT
+from hexmend_app.state.convergence import Chart, Curve, Quantity, thinned
+from hexmend_app.state.history import Record
+from hexmend_app.widgets.plots import calm_plot
+from hexmend_app.widgets.style import dress, explain, note, smaller
+
+_STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine)
+_DASHES = ("—", "- -")
+
+#: Pixels from a curve within which a click means it rather than the run that is gone through.
+_REACH = 12
+
+_LEAST_HEIGHT = 46
+_HELP = "Click or drag in the chart to go to an iteration."
+
+
+class _PickView(pg.ViewBox):
+    """Tells where it is clicked and where a drag goes."""
+
+    picked = Signal(QPointF, bool)
+
+    def __init__(self):
+        super().__init__(enableMenu=False, defaultPadding=0)
+
+    def mouseClickEvent(self, ev) -> None:
+        """Tell where."""
+        if ev.button() == Qt.MouseButton.LeftButton:
+            ev.accept()
+            self.picked.emit(ev.scenePos(), True)
+
+    def mouseDragEvent(self, ev, axis=None) -> None:
+        """Tell where it goes."""
+        if ev.button() != Qt.MouseButton.LeftButton:
+            ev.ignore()
+            return
+        ev.accept()
+        self.picked.emit(ev.scenePos(), ev.isStart())
+
+    def wheelEvent(self, ev, axis=None) -> None:
+        """Leave the wheel to the panel, which scrolls."""
+        ev.ignore()
+
+
+class ConvergencePlot(QWidget):
+    """Draws one chart; which iterations there are and where they lie it is told.
+
+    Parameters
+    ----------
+    chart : Chart
+
+    Signals
+    -------
+    picked(Record, number)
+        The user clicked at an iteration, or dragged there.
+    hovered(QPointF or None)
+        The mouse is over a place of `plot`'s scene.
+    """
+
+    picked = Signal(object, int)
+    hovered = Signal(object)
+
+    def __init__(self, chart: Chart, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.chart = chart
+        self.view = _PickView()
+        self.plot = calm_plot(self.view)
+        self.plot.setMinimumHeight(_LEAST_HEIGHT)
+        self.plot.setAccessibleName(f"Chart of {chart.title}")
+        self.plot.setAccessibleDescription(f"{chart.help} {_HELP}")
+        self.plot.setWhatsThis(f"{chart.help} {_HELP}")
+        self.title = note()
+        self.title.setWordWrap(False)
+        explain(self.title, chart.title, f"{chart.help} {_HELP}")
+        self._mark = pg.InfiniteLine(0, movable=False)
+        self._mark.setZValue(20)
+        self.plot.addItem(self._mark, ignoreBounds=True)
+        self.plot.getAxis("bottom").setStyle(showValues=False)
+        self.plot.getAxis("bottom").label.setFont(smaller(self.font()))
+        self._lines: dict[tuple[int, str], RunLine] = {}
+        self._curves: Sequence[Curve] = ()
+        self._by_time = self._log = False
+        self._held: Record | None = None  # whose curve a drag has hold of
+        self._scale = Scale(0.0, 0.0, ())
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.title)
+        layout.addWidget(self.plot, 1)
+        self.view.picked.connect(self._on_picked)
+        self.plot.scene().sigMouseMoved.connect(self._on_moved)
+        dress(self, self._paint)
+
+    def _paint(self) -> None:
+        self._mark.setPen(pg.mkPen(str(TEXT), width=1))
+        self.draw(self._curves, self._by_time, self._log)
+
+    # What is drawn
+
+    def draw(self, curves: Sequence[Curve], by_time: bool, log: bool) -> None:
+        """Draw runs against iterations or seconds, figures by powers of ten where that says more."""
+        self._curves, self._by_time, self._log = [one for one in curves if one.shown], by_time, log
+        self._fit()
+        wanted = {(curve.slot, quantity.key) for curve in self._curves for quantity in self.chart.quantities}
+        for key in self._lines.keys() - wanted:
+            for item in self._lines.pop(key).items:
+                self.plot.removeItem(item)
+        for curve in self._curves:
+            for style, quantity in zip(_STYLES, self.chart.quantities, strict=False):
+                self._draw_curve(curve, quantity, style)
+        self.title.setText(self._words())
+
+    def _draw_curve(self, curve: Curve, quantity: Quantity, style: Qt.PenStyle) -> None:
+        line = self._lines.get((curve.slot, quantity.key))
+        if line is None:
+            line = self._lines[curve.slot, quantity.key] = RunLine()
+            for item in line.items:
+                self.plot.addItem(item, ignoreBounds=True)
+        how = (str(colour_of(curve)), curve.current, style)
+        what = (curve.record, len(curve.columns), curve.begins, self._by_time, self.is_log, self._scale.floor)
+        line.draw(
+            how, what, lambda: thinned(curve.x(self._by_time), self.heights(curve.columns.of(quantity.key)), MOST)
+        )
+
+    def heights(self, values: np.ndarray) -> np.ndarray:
+        """Where values lie on the axis."""
+        if not self.is_log:
+            return values
+        with np.errstate(divide="ignore", invalid="ignore"):
+            heights = np.log10(values)
+        if self._scale.floor is not None:
+            heights[values <= 0] = self._scale.floor
+        return heights
+
+    @property
+    def is_log(self) -> bool:
+        """Whether the axis goes by powers of ten."""
+        return self._log and self.chart.quantities[0].log
+
+    def mark(self, x: float | None) -> None:
+        """Draw the line of the iteration that is shown; None for none."""
+        self._mark.setVisible(x is not None)
+        if x is not None:
+            self._mark.setValue(x)
+
+    def set_span(self, low: float, high: float) -> None:
+        """Take the ends of the axis that all charts share."""
+        self.plot.setXRange(low, high, padding=0)
+
+    def set_foot(self, label: str | None, ticks: list[tuple[float, str]], left: int) -> None:
+        """Take ticks below and what they count, None where another chart below says so, and the room at the left."""
+        bottom = self.plot.getAxis("bottom")
+        bottom.setTicks([ticks])
+        bottom.setStyle(showValues=label is not None)
+        bottom.showLabel(label is not None)
+        line = self.fontMetrics().height()
+        if label is not None:
+            bottom.setLabel(label)
+        bottom.setHeight(2 * line if label is not None else 5)
+        self.plot.setMinimumHeight(_LEAST_HEIGHT + (2 * line if label is not None else 0))
+        self.plot.getAxis("left").setWidth(left)
+        bottom.resizeEvent()
+
+    def _fit(self) -> None:
+        """Let the axis of figures reach as far as they do."""
+        parts = [curve.columns.of(one.key) for curve in self._curves for one in self.chart.quantities]
+        known = np.concatenate([*parts, np.empty(0)])
+        known, whole = known[np.isfinite(known)], self.chart.quantities[0].whole
+        scale = UNIT if self.chart.key == "quality" else (powers if self.is_log else plain)(known, whole)
+        if scale != self._scale:
+            self._scale = scale
+            self.plot.getAxis("left").setTicks([list(scale.ticks)])
+            self.plot.setYRange(scale.low, scale.high, padding=0.08)
+
+    def _words(self) -> str:
+        quantities = self.chart.quantities
+        if len(quantities) > 1:
+            text = ", ".join(f"{one.title} {dash}" for one, dash in zip(quantities, _DASHES, strict=False))
+        else:
+            text = self.chart.title
+        silent = [one.record.name for one in self._curves if not any(one.columns.told(each.key) for each in quantities)]
+        if silent:
+            several = len(silent) > 1
+            text += f": {' and '.join(silent)} {'do' if several else 'does'} not tell this"
+        return text
+
+    # Under the mouse
+
+    def at(self, place: QPointF) -> tuple[Curve, int] | None:
+        """The run and the iteration that a place of the scene means; None where nothing is drawn."""
+        if not self._curves:
+            return None
+        here = self.view.mapSceneToView(place)
+        wide, high = self.view.viewPixelSize()
+        best, least = None, _REACH
+        for curve in self._curves:
+            number = curve.nearest(here.x(), self._by_time)
+            for quantity in self.chart.quantities:
+                y = self.heights(curve.columns.of(quantity.key)[number : number + 1])[0]
+                x = curve.x(self._by_time)[number]
+                away = math.hypot((x - here.x()) / wide, (y - here.y()) / high)
+                if away < least:
+                    best, least = (curve, number), away
+        if best is None:
+            curve = next((one for one in self._curves if one.current), self._curves[0])
+            best = curve, curve.nearest(here.x(), self._by_time)
+        return best
+
+    def _on_picked(self, place: QPointF, begins: bool) -> None:
+        found = self.at(place)
+        if begins:
+            self._held = None if found is None else found[0].record
+        held = next((one for one in self._curves if one.record is self._held), None)
+        if held is not None:
+            self.picked.emit(held.record, held.nearest(self.view.mapSceneToView(place).x(), self._by_time))
+
+    def _on_moved(self, place: QPointF) -> None:
+        self.hovered.emit(place if self.view.sceneBoundingRect().contains(place) else None)

@@ -1,0 +1,139 @@
+"""The histogram's legend: what is drawn in which colour, and what is kept, to be renamed or removed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QFocusEvent
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
+from superqt import QFlowLayout
+
+from hexmend_app.scene.palette import HOVER, Role
+from hexmend_app.widgets.legend import Swatch, legend_entry
+from hexmend_app.widgets.style import BLUE, FIELD, GREY, LINE, MUTED, dress, explain, icon, smaller
+
+#: Colours of what is kept, by slot: Okabe and Ito's without the blue of what is now, and without their yellow, which is
+#: too pale for a line.
+KEPT_COLOURS = (
+    Role("#d55e00", "#d55e00"),
+    Role("#009e73", "#009e73"),
+    Role("#e69f00", "#e69f00"),
+    Role("#56b4e9", "#56b4e9"),
+    Role("#000000", "#ffffff"),
+    Role("#cc79a7", "#cc79a7"),
+)
+
+_WIDEST, _HEIGHT = 150, 18
+
+
+def _sheet() -> str:
+    return f"""
+QLineEdit {{ border: 1px solid transparent; border-radius: 3px; background: transparent; color: {MUTED}; padding: 0; }}
+QLineEdit:hover {{ border-color: {LINE}; }}
+QLineEdit:focus {{ border-color: {BLUE}; background: {FIELD}; }}
+QToolButton {{ border: none; border-radius: 3px; padding: 0; }}
+QToolButton:hover {{ background: {HOVER}; }}
+QToolButton:focus {{ border: 1px solid {BLUE}; }}
+"""
+
+
+class HistogramLegend(QWidget):
+    """Names what is drawn, in as many rows as it takes.
+
+    Signals
+    -------
+    renamed(slot, name)
+    removed(slot)
+    """
+
+    renamed = Signal(int, str)
+    removed = Signal(int)
+
+    def __init__(self, help: str, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._flow = QFlowLayout(self)
+        self._flow.setContentsMargins(0, 0, 0, 0)
+        self._flow.setHorizontalSpacing(6)
+        self._flow.setVerticalSpacing(1)
+        dress(self, lambda: self.setStyleSheet(_sheet()))
+        self.entries: dict[int, KeptEntry] = {}
+        for text, colour in (("at the start", GREY), ("now", BLUE)):
+            entry = legend_entry(text, colour)
+            explain(entry, text, help)
+            entry.setMinimumHeight(_HEIGHT)  # or a row of both kinds does not line up
+            self._flow.addWidget(entry)
+
+    def set_kept(self, kept: Sequence[tuple[int, str]]) -> None:
+        """Take slots and names of what is kept."""
+        for slot in self.entries.keys() - {slot for slot, _ in kept}:
+            entry = self.entries.pop(slot)
+            self._flow.removeWidget(entry)
+            entry.hide()
+            entry.deleteLater()  # its button is the one that was clicked
+        for slot, name in kept:
+            if slot not in self.entries:
+                entry = self.entries[slot] = KeptEntry(slot)
+                entry.name.renamed.connect(lambda name, slot=slot: self.renamed.emit(slot, name))
+                entry.cross.clicked.connect(lambda _=False, slot=slot: self.removed.emit(slot))
+                self._flow.addWidget(entry)
+            self.entries[slot].name.show_name(name)
+            explain(self.entries[slot].cross, f"Remove {name}", f"Keep {name} no longer.")
+        self.updateGeometry()
+
+
+class KeptEntry(QWidget):
+    """A colour, a name that can be changed in place, and a cross."""
+
+    def __init__(self, slot: int):
+        super().__init__()
+        self.name = _Name()
+        self.cross = QToolButton()
+        self.cross.setIcon(icon("close", MUTED))
+        self.cross.setIconSize(QSize(11, 11))
+        self.cross.setFixedSize(16, 16)
+        self.cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setFixedHeight(_HEIGHT)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 4, 0)
+        layout.setSpacing(2)
+        for part in (Swatch(KEPT_COLOURS[slot]), self.name, self.cross):
+            layout.addWidget(part)
+
+
+class _Name(QLineEdit):
+    """A name as wide as its text, up to a limit; a click begins to change it, Return or leaving it ends that."""
+
+    renamed = Signal(str)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._name = ""
+        self.setFont(smaller(self.font()))
+        self.setTextMargins(0, 0, 0, 0)
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.textChanged.connect(self._fit)
+        self.returnPressed.connect(self.clearFocus)
+
+    def show_name(self, name: str) -> None:
+        """Show a name, without a signal."""
+        self._name = name
+        self.setText(name)
+        self.setCursorPosition(0)
+        explain(self, f"Name of {name}", f"{name}, as it was kept. Click on the name to change it.")
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Take what was typed; nothing is no name."""
+        super().focusOutEvent(event)
+        name = self.text().strip()
+        if name and name != self._name:
+            self.renamed.emit(name)
+        self.setText(self._name)
+        self.setCursorPosition(0)
+        self.deselect()
+
+    def _fit(self) -> None:
+        self.ensurePolished()
+        text = self.fontMetrics().horizontalAdvance(self.text())
+        self.setFixedWidth(min(max(text, 24) + 8, _WIDEST))
+        self.updateGeometry()

@@ -1,0 +1,254 @@
+"""The histogram of a metric, in which a range is brushed to look at its elements."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from PySide6.QtCore import QPointF, Signal
+from PySide6.QtWidgets import QToolTip, QVBoxLayout, QWidget
+from superqt.utils import QSignalThrottler
+
+from hexmend.quality import METRICS
+from hexmend_app.features.histogram.axis import Axis
+from hexmend_app.features.histogram.bins import Distribution, distribute
+from hexmend_app.features.histogram.head import HistogramHead
+from hexmend_app.features.histogram.legend import KEPT_COLOURS, HistogramLegend
+from hexmend_app.features.histogram.plot import HistogramPlot, Series
+from hexmend_app.features.histogram.range import RangeRow
+from hexmend_app.features.histogram.words import describe, sentence
+from hexmend_app.state.look import ValueRange
+from hexmend_app.widgets.style import BLUE, GREY, note, tabular
+
+_PERIOD_MS = 33
+_HELP = (
+    "How many elements have which value. Inverted elements stand apart at the left, whatever the metric. Drag over the "
+    "plot to see only the elements of a range; double-click to see all."
+)
+
+
+class QualityHistogram(QWidget):
+    """Distribution of a metric at the start, now, and as it was kept, with a range of values to brush.
+
+    Signals
+    -------
+    metric_chosen(str)
+        The user chose a metric, or "", that of the colours.
+    range_changed(ValueRange or None)
+        The user brushed another range, or cleared it; at most thirty times a second.
+    keep_requested
+        The user wants to keep what is now.
+    renamed(slot, name), removed(slot)
+        The user calls what is kept otherwise, or keeps it no longer.
+    save_requested
+        The user wants the histogram as a file.
+    """
+
+    metric_chosen = Signal(str)
+    range_changed = Signal(object)
+    keep_requested = Signal()
+    renamed = Signal(int, str)
+    removed = Signal(int)
+    save_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._axis = Axis("q")
+        self._initial: Distribution | None = None
+        self._current: Distribution | None = None
+        self._kept: list[tuple[int, str, Distribution]] = []
+        self._range: ValueRange | None = None
+        self._throttler = QSignalThrottler(parent=self)
+        self._throttler.setTimeout(_PERIOD_MS)
+        self._throttler.triggered.connect(lambda: self.range_changed.emit(self._range))
+        self._make_parts()
+        layout = QVBoxLayout(self)
+        layout.setSpacing(4)
+        for part in (self.head, self.legend, self._plot, self.ends, self._text):
+            layout.addWidget(part, 1 if part is self._plot else 0)
+        self._plot.set_axis(self._axis)
+        self._refresh()
+        self._show_range(None)
+
+    def _make_parts(self) -> None:
+        self.head, self.legend = HistogramHead(), HistogramLegend(_HELP)
+        self._plot, self.ends = HistogramPlot(), RangeRow()
+        self.head.metric_chosen.connect(self.metric_chosen)
+        self.head.scale_changed.connect(self._on_scale)
+        self.head.bins_changed.connect(self._recount)
+        self.head.keep_requested.connect(self.keep_requested)
+        self.head.save_requested.connect(self.save_requested)
+        self.legend.renamed.connect(self.renamed)
+        self.legend.removed.connect(self.removed)
+        self.ends.chosen.connect(self._choose)
+        self.ends.cleared.connect(lambda: self._choose())
+        # Over the plot the tooltip says the counts; the legend above it explains.
+        self._plot.plot.setAccessibleName("Histogram of element quality")
+        self._plot.plot.setAccessibleDescription(_HELP)
+        self._plot.plot.setWhatsThis(_HELP)
+        self._plot.view.brushed.connect(self._on_brushed)
+        self._plot.view.cleared.connect(lambda: self._choose())
+        self._plot.plot.scene().sigMouseMoved.connect(self._hover)
+        self._text = note()
+        self._text.setFont(tabular(self._text.font()))
+        self._text.setWordWrap(False)  # a second line would push the view about while a range is brushed
+        self._text.setAccessibleName("Elements shown")
+
+    # What is drawn
+
+    def set_metric(self, name: str, as_colours: bool = False) -> None:
+        """Draw another metric, of which `set_initial` and the others then bring the values.
+
+        Parameters
+        ----------
+        name : str
+            Of `hexmend.quality.METRICS`.
+        as_colours : bool
+            Whether it is the colours' that the histogram follows.
+        """
+        self.head.show_metric(name, as_colours)
+        if name != self._axis.metric:
+            self.clear()
+            self._set_axis(Axis.fitted(name, np.empty(0), np.empty(0, bool)))
+
+    def set_initial(self, values: np.ndarray, inverted: np.ndarray) -> None:
+        """Take the metric's values (m,) and (m,) bool of the elements at the start, which the axis is made for.
+
+        Raises
+        ------
+        ValueError
+            Where the two differ in shape.
+        """
+        values, inverted = np.asarray(values, dtype=np.float64), np.asarray(inverted, dtype=bool)
+        self._initial = self._count(values, inverted)
+        axis = Axis.fitted(self._axis.metric, values, inverted)
+        if axis != self._axis:
+            self._set_axis(axis)
+            self._recount()
+        self._refresh()
+
+    def set_current(self, values: np.ndarray, inverted: np.ndarray) -> None:
+        """Take values (m,) and (m,) bool of the elements now; raises as `set_initial`."""
+        self._current = self._count(values, inverted)
+        self._refresh()
+
+    def set_kept(self, kept: Sequence[tuple[int, str, np.ndarray, np.ndarray]]) -> None:
+        """Take slots, names, values (m,) and (m,) bool of what is kept."""
+        before = {slot: part for slot, _, part in self._kept}
+        self._kept = []
+        for slot, name, values, inverted in kept:
+            part = before.get(slot)
+            if part is None or part.values is not values:
+                part = self._count(values, inverted)
+            self._kept.append((slot, name, part))
+        self.legend.set_kept([(slot, name) for slot, name, _ in self._kept])
+        self._refresh()
+
+    def clear(self) -> None:
+        """Show no distribution."""
+        self._initial = self._current = None
+        self._kept = []
+        self.legend.set_kept([])
+        self._refresh()
+
+    def series(self) -> list[Series]:
+        """What is drawn, in the order of the legend."""
+        drawn = []
+        if self._initial is not None:
+            drawn.append(Series("start", "at the start", GREY, self._initial, filled=True))
+        if self._current is not None:
+            drawn.append(Series("now", "now", BLUE, self._current, filled=True, current=True))
+        return drawn + [Series(str(slot), name, KEPT_COLOURS[slot], part) for slot, name, part in self._kept]
+
+    @property
+    def log(self) -> bool:
+        """Whether heights go by powers of ten."""
+        return self._plot.log
+
+    @property
+    def cumulative(self) -> bool:
+        """Whether heights are shares of elements up to a value."""
+        return self._plot.cumulative
+
+    @property
+    def axis(self) -> Axis:
+        """Which values the bins span."""
+        return self._axis
+
+    # The range
+
+    def range(self) -> ValueRange | None:
+        """The range shown; None for all."""
+        return self._range
+
+    def set_range(self, range: ValueRange | None) -> None:
+        """Show a range of the histogram's metric, or all; without a signal."""
+        self._throttler.cancel()
+        self._show_range(range if range is not None and range.metric == self._axis.metric else None)
+
+    def _on_brushed(self, places: tuple[float, float]) -> None:
+        axis = self._axis
+        low, high = (axis.value(place) for place in places)
+        if high - low < axis.grain / 2:  # at least as wide as can be told apart, and on the axis
+            low = min(max(low, axis.low), axis.high - axis.grain)
+            low, high = (round(end, axis.decimals) for end in (low, low + axis.grain))
+        self._choose(low, high)
+
+    def _choose(self, low: float = -np.inf, high: float = np.inf) -> None:
+        least, most = METRICS[self._axis.metric].full_range
+        whole = low <= least and high >= most
+        chosen = None if whole else ValueRange(self._axis.metric, low, high)
+        if chosen != self._range:
+            self._show_range(chosen)
+            self._throttler.throttle()
+
+    def _show_range(self, chosen: ValueRange | None) -> None:
+        self._range = chosen
+        ends = None if chosen is None else (chosen.low, chosen.high)
+        self._plot.show_range(ends and (self._axis.place(ends[0]), self._axis.place(ends[1])))
+        self.ends.show_ends(ends)
+        self._say()
+
+    # Drawing
+
+    def _count(self, values: np.ndarray, inverted: np.ndarray) -> Distribution:
+        return distribute(values, inverted, self._axis, self.head.bins.value())
+
+    def _recount(self) -> None:
+        self._initial, self._current, *kept = (
+            part and self._count(part.values, part.is_inverted)
+            for part in (self._initial, self._current, *(part for _, _, part in self._kept))
+        )
+        self._kept = [(slot, name, part) for (slot, name, _), part in zip(self._kept, kept, strict=True)]
+        self._refresh()
+
+    def _set_axis(self, axis: Axis) -> None:
+        self._axis = axis
+        self._plot.set_axis(axis)
+        self.ends.set_axis(axis)
+        self._show_range(None if self._range is None or self._range.metric != axis.metric else self._range)
+
+    def _on_scale(self) -> None:
+        self._plot.log, self._plot.cumulative = self.head.log, self.head.cumulative.isChecked()
+        self._refresh()
+
+    def _refresh(self) -> None:
+        self.head.set_offered(self._current is not None, len(self._kept) == len(KEPT_COLOURS))
+        self._plot.draw(self.series())
+        self._say()
+
+    def _say(self) -> None:
+        self._text.setText(sentence(self._current, self._range))
+        self._text.setToolTip(self._text.text())
+
+    # Under the mouse
+
+    def describe_at(self, x: float) -> str:
+        """The counts of the bin at x of the plot, or the shares up to it, of all that is drawn; "" beside the bins."""
+        return describe(self.series(), x, self.cumulative)
+
+    def _hover(self, at: QPointF) -> None:
+        view, plot = self._plot.view, self._plot.plot
+        inside = view.sceneBoundingRect().contains(at)
+        text = self.describe_at(view.mapSceneToView(at).x()) if inside else ""
+        QToolTip.showText(plot.mapToGlobal(plot.mapFromScene(at)), text, plot)

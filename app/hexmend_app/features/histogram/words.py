@@ -1,0 +1,77 @@
+"""What the histogram says: of a bin under the mouse, and of the range that is shown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from hexmend.quality import METRICS
+from hexmend_app.features.histogram.axis import Axis
+from hexmend_app.features.histogram.bins import Distribution
+from hexmend_app.features.histogram.plot import Series
+from hexmend_app.state.look import ValueRange
+from hexmend_app.widgets.metrics import in_sentence
+from hexmend_app.widgets.wording import counted
+
+
+def describe(drawn: Sequence[Series], x: float, cumulative: bool) -> str:
+    """The counts of the bin at x of the plot, or the shares up to it, of all that is drawn; "" beside the bins."""
+    found = _bin_at(drawn[0].part, x, cumulative) if drawn else None
+    if found is None:
+        return ""
+    title, count = found
+    rows = [title]
+    for one in drawn:
+        number = count(one.part.cumulated() if cumulative else one.part)
+        share = f"{100 * number / max(one.part.total, 1):.4g} %, " if cumulative else ""
+        rows.append(f"{one.name}: {share}{counted(number, 'element')}")
+    return "\n".join(rows)
+
+
+def _bin_at(part: Distribution, x: float, cumulative: bool) -> tuple[str, Callable[[Distribution], int]] | None:
+    """What the bin at x is called, and how its count is got from a distribution."""
+    axis = part.axis
+    words = in_sentence(METRICS[axis.metric])
+    low, high = axis.text(axis.low), axis.text(axis.high)
+    for bar, title, count in (
+        (axis.inverted, "inverted", lambda part: part.inverted),
+        (axis.below, f"inverted, or {words} < {low}" if cumulative else f"{words} < {low}", lambda part: part.below),
+        (axis.above, "all" if cumulative else f"{words} ≥ {high}", lambda part: part.above),
+    ):
+        if bar is not None and bar[0] <= x <= bar[1]:
+            return title, count
+    if not 0 <= x < 1:
+        return None
+    at = int(x * len(part.counts))
+    low, high = _bin_texts(part, at)
+    title = f"inverted, or {words} up to {high}" if cumulative else f"{words} {low} – {high}"
+    return title, lambda part: int(part.counts[at])
+
+
+def _bin_texts(part: Distribution, at: int) -> tuple[str, str]:
+    """The ends of a bin, in as many digits as its width needs."""
+    width = (part.axis.high - part.axis.low) / len(part.counts)
+    ends = part.axis.low + width * at, part.axis.low + width * (at + 1)
+    if not 0 <= part.axis.decimals <= 4:
+        return tuple(part.axis.text(end) for end in ends)
+    decimals = next((d for d in range(7) if abs(round(width, d) - width) < 0.05 * width), 7)
+    return tuple(f"{end:.{decimals}f}" for end in ends)
+
+
+def sentence(now: Distribution | None, chosen: ValueRange | None) -> str:
+    """How many elements there are, or are shown by a range of their metric."""
+    if now is None:
+        return "No mesh is open."
+    if chosen is None:
+        return f"{counted(now.total, 'element')}, {now.inverted:,} of them inverted"
+    inside, inverted = now.within(chosen.low, chosen.high)
+    also = f", {inverted:,} of them inverted" if inverted else ""
+    return f"{inside:,} of {counted(now.total, 'element')} {_where(now.axis, chosen)}{also}"
+
+
+def _where(axis: Axis, chosen: ValueRange) -> str:
+    low, high = axis.text(chosen.low), axis.text(chosen.high)
+    unit = f" {METRICS[axis.metric].unit}".rstrip()
+    if math.isinf(chosen.high):
+        return f"from {low}{unit}"
+    return f"up to {high}{unit}" if math.isinf(chosen.low) else f"in {low} – {high}{unit}"

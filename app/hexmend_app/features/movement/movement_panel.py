@@ -1,0 +1,205 @@
+"""How the mesh has moved: compared with when, shown by what, and in figures."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
+
+from hexmend_app.scene.layers.arrows import MOST
+from hexmend_app.state.look import Arrows, Since, Traces
+from hexmend_app.state.movement import Counts
+from hexmend_app.widgets.segmented import Segmented
+from hexmend_app.widgets.style import explain, note, tabular
+from hexmend_app.widgets.wording import counted, figure, short_number
+
+_SINCE = [
+    (Since.OPENED.value, "Opening", "Compare with the mesh as it was opened."),
+    (Since.RUN.value, "Run", "Compare with the mesh as the run began of which an iteration is shown."),
+    (
+        Since.ITERATION.value,
+        "Iteration",
+        "Compare each iteration with the one before it, or with the nearest before it that is kept.",
+    ),
+]
+_COLOURS = [
+    ("", "Quality", "Colour by the metric that the panel of colours names."),
+    ("moved-most", "Displacement", "Colour each element by the longest way that one of its nodes has gone."),
+    (
+        "q-change",
+        "Δq",
+        "Colour each element by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
+        "elements have colours of their own.",
+    ),
+]
+_ARROWS = [
+    (Arrows.NONE.value, "None", "No arrows."),
+    (
+        Arrows.SIGHT.value,
+        "In sight",
+        "An arrow from where a node was to where it is, for nodes of the faces in sight. Boundary nodes stay: cut "
+        "or peel the mesh. Pale where something is before it.",
+    ),
+    (Arrows.ALL.value, "All shown", "Arrows of all elements that are shown, through whatever is before them."),
+]
+_FIGURES = {
+    "Nodes": "Nodes that are elsewhere than they were.",
+    "Distance": "How far these are from where they were, in mean edge lengths of the mesh as it was opened.",
+    "Elements": "Elements whose q(H) is higher or lower than it was.",
+    "Inverted": "Elements that were not inverted and are, and that were and no longer are.",
+}
+_FACTOR = "How many times as long as the way of their nodes arrows are drawn."
+
+
+class MovementPanel(QWidget):
+    """Chooses what is shown of a movement, and says how large it is.
+
+    Signals
+    -------
+    traces_changed(Traces)
+    colours_chosen(name)
+        Of `MOVEMENTS`, or "" for a metric.
+    newly_inverted_requested
+        The user wants to see them.
+    came_into_view
+        The figures that were put off are due.
+    """
+
+    traces_changed = Signal(object)
+    colours_chosen = Signal(str)
+    newly_inverted_requested = Signal()
+    came_into_view = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._traces = Traces()
+        self.since = Segmented("Compare with", _SINCE)
+        self.colours = Segmented("Colours of the movement", _COLOURS)
+        self.arrows = Segmented("Arrows", _ARROWS)
+        self.factor = QDoubleSpinBox()
+        self.factor.setRange(0.01, 100_000)
+        self.factor.setDecimals(2)
+        self.factor.setStepType(QAbstractSpinBox.StepType.AdaptiveDecimalStepType)
+        self.factor.setPrefix("× ")
+        self.factor.setKeyboardTracking(False)
+        self.factor.setFont(tabular(self.factor.font()))
+        explain(self.factor, "Length of arrows", _FACTOR)
+        self.show_newly = QPushButton("Show new")
+        self._drawn = note()
+        self._figures = {name: _figure() for name in _FIGURES}
+        self._lay_out()
+        self.since.chosen.connect(lambda key: self._change(since=Since(key)))
+        self.arrows.chosen.connect(lambda key: self._change(arrows=Arrows(key)))
+        self.factor.valueChanged.connect(lambda value: self._change(factor=value))
+        self.colours.chosen.connect(self.colours_chosen)
+        self.show_newly.clicked.connect(self.newly_inverted_requested)
+        self.set_traces(self._traces)
+        self.set_counts(None, "", 0)
+        self.set_arrows(0, 0)
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(10)
+        grid.setVerticalSpacing(5)
+        grid.setColumnStretch(1, 1)
+        lengths = QHBoxLayout()
+        lengths.setSpacing(8)
+        lengths.addWidget(self.factor)
+        lengths.addWidget(self._drawn, 1)
+        rows = (("Since", self.since), ("Colours", self.colours), ("Arrows", self.arrows))
+        for row, (text, part) in enumerate(rows):
+            label = QLabel(text)
+            grid.addWidget(label, row, 0)
+            label.setBuddy(part)
+            grid.addWidget(part, row, 1)
+        grid.addLayout(lengths, 3, 1)
+        last = QHBoxLayout()
+        last.setSpacing(8)
+        last.addWidget(self._figures["Inverted"], 1)
+        last.addWidget(self.show_newly)
+        for row, (text, label) in enumerate(self._figures.items(), start=4):
+            grid.addWidget(QLabel(text), row, 0)
+            explain(label, text, _FIGURES[text])
+            if text == "Inverted":
+                grid.addLayout(last, row, 1)
+            else:
+                grid.addWidget(label, row, 1)
+        grid.setRowStretch(8, 1)
+
+    # What is shown
+
+    def set_traces(self, traces: Traces) -> None:
+        """Show a choice, without a signal."""
+        self._traces = traces
+        self.since.set_value(traces.since.value)
+        self.arrows.set_value(traces.arrows.value)
+        self.factor.setEnabled(traces.arrows is not Arrows.NONE)
+        if self.factor.value() != traces.factor:
+            with QSignalBlocker(self.factor):
+                self.factor.setValue(traces.factor)
+
+    def set_colours(self, name: str) -> None:
+        """Show what the colours show, by a name of `MOVEMENTS` or ""; without a signal."""
+        self.colours.set_value("moved-most" if name == "moved-mean" else name)
+
+    def set_arrows(self, drawn: int, moved: int) -> None:
+        """Say how many arrows are drawn, and how many nodes could have one."""
+        self._drawn.setText(arrows_in_words(self._traces, drawn, moved))
+
+    def set_counts(self, counts: Counts | None, name: str, free: int) -> None:
+        """Say how large the movement since `name` is, of a mesh with so many free nodes; None for none."""
+        self.show_newly.setEnabled(counts is not None and counts.newly_inverted > 0)
+        why = "None is." if counts is None or not counts.newly_inverted else "Isolate them; Esc shows the rest again."
+        explain(self.show_newly, "Show newly inverted", f"Elements that were not inverted then and are now. {why}")
+        texts = ("No mesh is open.", "", "", "") if counts is None else _texts(counts, name, free)
+        for label, text in zip(self._figures.values(), texts, strict=True):
+            label.setText(text)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Take the figures that were put off."""
+        super().showEvent(event)
+        self.came_into_view.emit()
+
+    def _change(self, **fields: object) -> None:
+        traces = dataclasses.replace(self._traces, **fields)
+        if traces != self._traces:
+            self.set_traces(traces)
+            self.traces_changed.emit(traces)
+
+
+def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
+    """What arrows there are and how long they are.
+
+    >>> arrows_in_words(Traces(arrows=Arrows.ALL, factor=10), 5000, 28899)
+    'The 5,000 longest of 28,899 arrows, 10 times true length.'
+    >>> arrows_in_words(Traces(arrows=Arrows.ALL), 1, 1)
+    '1 arrow, of true length.'
+    """
+    if traces.arrows is Arrows.NONE:
+        return f"At most the {MOST:,} longest are drawn."
+    if not drawn:
+        where = "Of the nodes in sight none" if traces.arrows is Arrows.SIGHT else "No node of what is shown"
+        return f"{where} has moved."
+    these = f"The {drawn:,} longest of {moved:,} arrows" if drawn < moved else counted(drawn, "arrow")
+    times = "of" if traces.factor == 1 else f"{short_number(traces.factor)} times"
+    return f"{these}, {times} true length."
+
+
+def _texts(counts: Counts, name: str, free: int) -> tuple[str, str, str, str]:
+    way = f"{figure(counts.mean)} on average, {figure(counts.largest)} at most" if counts.moved else "–"
+    return (
+        f"{counts.moved:,} of {free:,} free moved since {name}",
+        way,
+        f"{counts.better:,} better, {counts.worse:,} worse",
+        f"{counts.newly_inverted:,} newly, {counts.mended:,} mended",
+    )
+
+
+def _figure() -> QLabel:
+    label = note()
+    label.setFont(tabular(label.font()))
+    label.setWordWrap(False)
+    return label

@@ -1,0 +1,132 @@
+"""The buttons that run, pause, step, stop and reset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QGridLayout, QPushButton, QWidget
+
+from hexmend_app.scene.palette import ACCENT, ACCENT_HOVER, ACCENT_PRESSED, FAINT, LINE, OFF, ON_ACCENT, TEXT
+from hexmend_app.widgets.style import dress, explain, icon
+
+
+@dataclass(frozen=True)
+class RunState:
+    """What is offered in a state: the main button's text, icon and help, and whether each button and editing are on."""
+
+    text: str
+    icon: str
+    help: str
+    run: bool
+    step: bool
+    stop: bool
+    reset: bool
+    edit: bool
+
+
+_RUN = "Smooth the mesh with this method until a stop condition holds."
+STATES = {
+    "idle": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=False, edit=True),
+    "preparing": RunState(
+        "Preparing", "timer-sand", "The method gets ready.", run=False, step=False, stop=True, reset=False, edit=False
+    ),
+    "stopping": RunState(
+        "Stopping", "timer-sand", "The run ends soon.", run=False, step=False, stop=False, reset=False, edit=False
+    ),
+    "running": RunState(
+        "Pause", "pause", "Hold after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
+    ),
+    "paused": RunState("Resume", "play", "Go on with the run.", run=True, step=True, stop=True, reset=True, edit=True),
+    "finished": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=True, edit=True),
+}
+_HELP = {
+    "step": "Make one iteration, and hold.",
+    "stop": "End the run after this iteration and keep what has been reached.",
+    "reset": "Put all nodes back to where they were when the mesh was opened.",
+}
+
+
+class RunButtons(QWidget):
+    """A row of buttons of one width, of which the first runs, pauses or resumes as the state has it.
+
+    Signals
+    -------
+    pressed(name)
+        "run", "step", "stop" or "reset".
+    """
+
+    pressed = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._state = "idle"
+        self._shortcuts: dict[str, str] = {}
+        self._buttons = {
+            "run": QPushButton(),
+            "step": QPushButton(icon("skip-next"), "Step"),
+            "stop": QPushButton(icon("stop"), "Stop"),
+            "reset": QPushButton(icon("restore"), "Reset"),
+        }
+        dress(self, lambda: self._buttons["run"].setStyleSheet(_main_button()))
+        row = QGridLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(6)
+        for column, (name, button) in enumerate(self._buttons.items()):
+            # Equal widths, so that nothing moves under the pointer as Run becomes Pause.
+            row.setColumnStretch(column, 1)
+            button.clicked.connect(lambda _=False, name=name: self.pressed.emit(name))
+            row.addWidget(button, 0, column)
+        self._make_room()
+        self.set_state("idle", True)
+
+    def _make_room(self) -> None:
+        """As much as the longest word needs, or the panel would outgrow its place as a run is paused."""
+        widest = 0
+        for state in STATES:
+            self.set_state(state, True)
+            self._buttons["run"].ensurePolished()
+            widest = max(widest, self._buttons["run"].minimumSizeHint().width())
+        self._buttons["run"].setMinimumWidth(widest)
+        for name in ("step", "stop", "reset"):  # less than the style's 80 pixels, which four have no room for
+            button = self._buttons[name]
+            text = button.fontMetrics().horizontalAdvance(button.text())
+            button.setMinimumWidth(text + button.iconSize().width() + 20)
+
+    def set_state(self, state: str, available: bool) -> None:
+        """Enable what a state of `STATES` offers, or nothing where there is nothing to run."""
+        self._state = state
+        offer = STATES[state]
+        self._buttons["run"].setText(offer.text)
+        self._buttons["run"].setIcon(icon(offer.icon, ON_ACCENT))
+        for name, button in self._buttons.items():
+            button.setEnabled(available and getattr(offer, name))
+        self._explain()
+
+    def set_shortcuts(self, shortcuts: Mapping[str, str]) -> None:
+        """Name keys in the tooltips, by button."""
+        self._shortcuts = dict(shortcuts)
+        self._explain()
+
+    def button(self, name: str) -> QPushButton:
+        """A button by the name that `pressed` gives."""
+        return self._buttons[name]
+
+    def _explain(self) -> None:
+        for name, button in self._buttons.items():
+            help = STATES[self._state].help if name == "run" else _HELP[name]
+            keys = f" ({self._shortcuts[name]})" if name in self._shortcuts else ""
+            explain(button, button.text(), f"{help}{keys}")
+
+
+def _main_button() -> str:
+    """The style sheet of the one button that this panel is for."""
+    return f"""
+QPushButton {{ background: {ACCENT}; color: {ON_ACCENT}; border: 1px solid {ACCENT}; border-radius: 3px;
+    padding: 4px 6px; }}
+QPushButton:hover {{ background: {ACCENT_HOVER}; }}
+QPushButton:pressed {{ background: {ACCENT_PRESSED}; }}
+QPushButton:focus {{ border: 2px solid {TEXT}; padding: 3px 5px; outline: none; }}
+QPushButton:disabled {{ background: {OFF}; color: {FAINT}; border-color: {LINE}; }}
+"""

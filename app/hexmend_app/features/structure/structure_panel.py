@@ -1,0 +1,217 @@
+"""The panel of the mesh's structure: irregular and sharp edges, and fixed, free and locked nodes, each shown or not."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
+
+from hexmend.structure import SHARP as DEGREES
+from hexmend.structure import Structure as Found
+from hexmend_app.scene.layers.structure import BOUNDARY, FREE, IRREGULAR_NODE, LOCKED, OTHER, PINNED, SHARP, VALENCES
+from hexmend_app.scene.palette import RIM
+from hexmend_app.state.look import Structure
+from hexmend_app.widgets.style import explain, note, tabular
+from hexmend_app.widgets.wording import counted
+
+_LAYERS: dict[str, tuple[str, str, str]] = {
+    "irregular": (
+        "Irregular, inside",
+        "Edges inside the mesh that not four elements share, also called singular: the angles around one are 360° by "
+        "their number at best, 120° at three and 72° at five, so that no method brings all elements beside it to "
+        "quality 1. Drawn through the mesh, thick where nothing hides them; points are nodes where they end or fork.",
+        "None: inside the mesh, four elements share every edge.",
+    ),
+    "boundary": (
+        "Irregular, boundary",
+        "Edges of the boundary that not two elements share although it is smooth there. One element alone has an angle "
+        "of up to 180° there, three share it: neither reaches quality 1.",
+        "None: two elements share every edge at which the boundary is smooth.",
+    ),
+    "sharp": (
+        "Sharp edges",
+        f"Edges at which the boundary turns by more than {DEGREES:g}°, or that more than two of its faces share.",
+        "None: the boundary is smooth all round.",
+    ),
+    "fixed": (
+        "Fixed nodes",
+        "Nodes that no method moves, of the elements in sight: those of the boundary, and others that are pinned.",
+        "None: the mesh has no boundary.",
+    ),
+    "free": (
+        "Free nodes",
+        "Nodes that methods may move, of the elements in sight. They are inside: cut or peel the mesh to see them.",
+        "None: all nodes are on the boundary or pinned.",
+    ),
+    "locked": (
+        "Locked nodes",
+        "Nodes of inverted elements that fixed nodes alone keep inverted: no method that leaves these where they are "
+        "can mend them.",
+        "None: no element is kept inverted by fixed nodes alone.",
+    ),
+}
+_EDGES = ("irregular", "boundary", "sharp")
+_NOT_YET = "Being counted."
+_COLUMNS = 2
+
+#: Letters up to which texts stand beside each other.
+_WIDEST = 14
+
+#: What one mark of a layer stands for: its colour, whether it is a line, and the text beside it.
+_Entry = tuple[str, bool, str]
+
+
+class StructurePanel(QWidget):
+    """Chooses what is drawn of the structure, and counts it.
+
+    Signals
+    -------
+    structure_changed(Structure)
+        The user chose.
+    """
+
+    structure_changed = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._structure = Structure()
+        self._counts: tuple[int, ...] = ()
+        self._layers = {name: _Layer(*texts) for name, texts in _LAYERS.items()}
+        grid = QGridLayout(self)
+        grid.setHorizontalSpacing(6)
+        grid.setVerticalSpacing(5)
+        grid.setColumnStretch(1, 1)
+        for row, (name, layer) in enumerate(self._layers.items()):
+            grid.addWidget(layer.box, row, 0, Qt.AlignmentFlag.AlignTop)
+            grid.addWidget(layer.entries, row, 1)
+            layer.box.clicked.connect(lambda on, name=name: self._choose(name, on))
+        self.set_structure(self._structure)  # of no mesh there is nothing to count
+
+    def offered(self) -> dict[str, bool]:
+        """Which layers can be switched, by the names of `Structure`'s fields."""
+        return {name: layer.box.isEnabled() for name, layer in self._layers.items()}
+
+    def set_structure(self, structure: Structure) -> None:
+        """Show a choice, without a signal."""
+        self._structure = structure
+        for name, layer in self._layers.items():
+            layer.set_on(getattr(structure, name))
+
+    def set_found(self, found: Found | None) -> None:
+        """Take the edges of a mesh; None while they are being found."""
+        if found is None:
+            for name in _EDGES:
+                self._layers[name].set_entries(None)
+            return
+        nodes: list[_Entry] = []
+        if len(found.nodes):
+            nodes = [(IRREGULAR_NODE, False, counted(len(found.nodes), "node"))]
+        self._layers["irregular"].set_entries(_by_valence(found.interior_valence) + nodes)
+        self._layers["boundary"].set_entries(_by_valence(found.boundary_valence))
+        self._layers["sharp"].set_entries([(SHARP, True, f"{len(found.sharp):,}")] if len(found.sharp) else [])
+
+    def set_nodes(self, boundary: int, pinned: int, free: int, locked: int) -> None:
+        """Take the numbers of nodes on the boundary, pinned and free, and of locked elements."""
+        counts = (boundary, pinned, free, locked)
+        if counts == self._counts:
+            return
+        self._counts = counts
+        fixed = [(BOUNDARY, False, f"{boundary:,} boundary")] if boundary else []
+        if pinned:
+            fixed.append((PINNED, False, f"{pinned:,} pinned"))
+        self._layers["fixed"].set_entries(fixed)
+        self._layers["free"].set_entries([(FREE, False, f"{free:,}")] if free else [])
+        of = f"of {counted(locked, 'locked element')}"
+        self._layers["locked"].set_entries([(LOCKED, False, of)] if locked else [])
+
+    def _choose(self, name: str, on: bool) -> None:
+        self._structure = dataclasses.replace(self._structure, **{name: on})
+        self._layers[name].set_on(on)
+        self.structure_changed.emit(self._structure)
+
+
+class _Layer:
+    """The check box of one layer, and beside it what its marks stand for."""
+
+    def __init__(self, name: str, help: str, reason: str):
+        self._name, self._help, self._reason = name, help, reason
+        self._known: list[_Entry] | None = []
+        self.box = QCheckBox(name)
+        self.entries = QWidget()
+        self._grid = QGridLayout(self.entries)
+        self._grid.setContentsMargins(0, 2, 0, 0)
+        self._grid.setHorizontalSpacing(4)
+        self._grid.setVerticalSpacing(3)
+        for column in range(_COLUMNS):
+            self._grid.setColumnStretch(column, 1)
+
+    def set_on(self, on: bool) -> None:
+        """Show whether it is drawn."""
+        self.box.setChecked(on)
+        self._enable()
+
+    def set_entries(self, entries: list[_Entry] | None) -> None:
+        """Show what there is of it; None while that is unknown."""
+        self._known = entries
+        while self._grid.count():
+            old = self._grid.takeAt(0).widget()
+            old.hide()
+            old.deleteLater()
+        if not entries:
+            self._grid.addWidget(_text("counting…" if entries is None else "none"), 0, 0, 1, _COLUMNS)
+        beside = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
+        for at, entry in enumerate(entries or ()):
+            self._grid.addWidget(_entry(*entry), at // beside, at % beside, 1, _COLUMNS // beside)
+        self._enable()
+
+    def _enable(self) -> None:
+        self.box.setEnabled(bool(self._known) or self.box.isChecked())  # what is on can be switched off
+        explain(self.box, self._name, self._help if self._known else _NOT_YET if self._known is None else self._reason)
+
+
+class _Mark(QWidget):
+    """A line or a point as the view draws it: a colour with a rim."""
+
+    def __init__(self, colour: str, line: bool, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._colour = QColor(colour)
+        self.setFixedSize(QSize(11, 7) if line else QSize(9, 9))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Fill the rim."""
+        painter = QPainter(self)
+        painter.setPen(QColor(str(RIM)))
+        painter.setBrush(self._colour)
+        painter.drawRect(QRectF(0.5, 0.5, self.width() - 1, self.height() - 1))
+
+
+def _by_valence(valence: np.ndarray) -> list[_Entry]:
+    """Edges with so many elements around each, counted by what has a colour of its own."""
+    numbers, counts = np.unique(valence, return_counts=True)
+    own = [(VALENCES[n], True, f"{count:,} of {n}") for n, count in zip(numbers, counts, strict=True) if n in VALENCES]
+    others = [(n, count) for n, count in zip(numbers, counts, strict=True) if n not in VALENCES]
+    if len(others) == 1:
+        own.append((OTHER, True, f"{others[0][1]:,} of {others[0][0]}"))
+    elif others:
+        own.append((OTHER, True, f"{sum(count for _, count in others):,} others"))
+    return own
+
+
+def _entry(colour: str, line: bool, text: str) -> QWidget:
+    entry = QWidget()
+    layout = QHBoxLayout(entry)
+    layout.setContentsMargins(0, 0, 0, 0)
+    layout.setSpacing(4)
+    layout.addWidget(_Mark(colour, line))
+    layout.addWidget(_text(text), 1)
+    return entry
+
+
+def _text(text: str) -> QWidget:
+    label = note(text)
+    label.setFont(tabular(label.font()))
+    label.setWordWrap(False)
+    return label

@@ -1,0 +1,79 @@
+"""The slider of the timeline: an iteration under each place, with marks where something happened."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from PySide6.QtCore import QRect, Qt
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QSlider, QStyle, QStyleOptionSlider, QWidget
+
+from hexmend_app.scene.palette import BLUE, WORSE
+
+_MARK, _STRIP = 2, 3  # pixels
+
+
+class TrackSlider(QSlider):
+    """A slider that goes where it is pressed, shows which numbers there are positions of, and marks some."""
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(Qt.Orientation.Horizontal, parent)
+        self._kept = np.zeros(0, np.int64)
+        self._marks: tuple[int, ...] = ()
+
+    def set_track(self, newest: int, kept: np.ndarray, marks: Iterable[int]) -> None:
+        """Take a run's length, the numbers that can be shown, ascending, and where it paused; without a signal."""
+        blocked = self.blockSignals(True)
+        self.setRange(0, newest)
+        self.setPageStep(max(1, newest // 10))
+        self.blockSignals(blocked)
+        self._kept, self._marks = kept, tuple(marks)
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the marks below the slider: a line under what is kept where that is not all, ticks where it paused."""
+        super().paintEvent(event)
+        painter = QPainter(self)
+        groove = self._groove()
+        y = self.height() - _STRIP
+        if 0 < len(self._kept) < self.maximum() + 1:
+            for left, right in self._stretches():
+                x = self._x(left, groove)
+                painter.fillRect(x, y, max(self._x(right, groove) - x, 1), _STRIP, QColor(str(BLUE)))
+        for number in self._marks:
+            x = self._x(number, groove) - _MARK // 2
+            painter.fillRect(x, y - _STRIP, _MARK, 2 * _STRIP, QColor(str(WORSE)))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Go where it is pressed; from there the handle is dragged."""
+        if event.button() is Qt.MouseButton.LeftButton:
+            groove, handle = self._groove(), self._handle_width()
+            room = groove.width() - handle
+            at = round(event.position().x()) - groove.x() - handle // 2
+            self.setValue(QStyle.sliderValueFromPosition(self.minimum(), self.maximum(), at, room))
+        super().mousePressEvent(event)
+
+    def _stretches(self) -> Iterable[tuple[float, float]]:
+        """Runs of numbers one after another, half a number wider on either side."""
+        breaks = np.flatnonzero(np.diff(self._kept) > 1)
+        begins = self._kept[np.append(0, breaks + 1)]
+        ends = self._kept[np.append(breaks, len(self._kept) - 1)]
+        return zip(begins - 0.25, ends + 0.25, strict=True)
+
+    def _x(self, number: float, groove: QRect) -> int:
+        handle = self._handle_width()
+        share = number / max(self.maximum(), 1)
+        return round(groove.x() + handle / 2 + share * (groove.width() - handle))
+
+    def _option(self) -> QStyleOptionSlider:
+        option = QStyleOptionSlider()
+        self.initStyleOption(option)
+        return option
+
+    def _groove(self) -> QRect:
+        controls, parts = QStyle.ComplexControl, QStyle.SubControl
+        return self.style().subControlRect(controls.CC_Slider, self._option(), parts.SC_SliderGroove, self)
+
+    def _handle_width(self) -> int:
+        return self.style().pixelMetric(QStyle.PixelMetric.PM_SliderLength, self._option(), self)

@@ -1,0 +1,66 @@
+"""The clipping box whose sides are dragged in the view."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pyvista as pv
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
+
+from hexmend_app.scene.cutting.handles import Handles
+from hexmend_app.scene.palette import PLANE_EDGE, PLANE_HELD
+from hexmend_app.state.clip import BoxClip
+
+
+class BoxWidget(Handles):
+    """VTK's box widget, which stays along the axes.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter
+        One with an interactor.
+    moved : callable
+        Called with (low, high) as the user drags; never for what is set by `set`.
+    """
+
+    def __init__(self, plotter: pv.BasePlotter, moved: Callable[[tuple, tuple], None]):
+        self._moved = moved
+        self._bounds: np.ndarray | None = None
+        shape = vtkBoxRepresentation()
+        shape.SetPlaceFactor(1.0)
+        shape.GetFaceProperty().SetOpacity(0)
+        shape.GetSelectedFaceProperty().SetOpacity(0.12)
+        shape.GetSelectedHandleProperty().SetColor(0.84, 0.37, 0.0)
+        shape.SetOutlineCursorWires(False)
+        self._shape = shape
+        self.set_dark(False)
+        widget = vtkBoxWidget2()
+        widget.SetRepresentation(shape)
+        widget.RotationEnabledOff()
+        widget.ScalingEnabledOff()
+        super().__init__(plotter, widget)
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw it for the dark ground, or for the light one."""
+        self._shape.GetOutlineProperty().SetColor(pv.Color(PLANE_EDGE.of(dark)).float_rgb)
+        for part in ("SelectedFace", "SelectedOutline", "Handle"):
+            getattr(self._shape, f"Get{part}Property")().SetColor(pv.Color(PLANE_HELD.of(dark)).float_rgb)
+
+    def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
+        """Take the size of the mesh; the box is not dragged out of it."""
+        self._bounds = np.array(bounds).reshape(3, 2)
+
+    def set(self, clip: BoxClip | None, shown: bool = True) -> None:
+        """Show the box where `clip` has it, or nothing."""
+        on = clip is not None and shown and self._bounds is not None
+        if on and not self._dragging:
+            self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])
+        self._switch(on)
+
+    def _announce(self, *_: object) -> None:
+        data = vtkPolyData()
+        self._shape.GetPolyData(data)
+        ends = np.array(data.GetBounds()).reshape(3, 2).clip(self._bounds[:, :1], self._bounds[:, 1:])
+        self._moved(*(tuple(ends[:, k].tolist()) for k in range(2)))

@@ -1,0 +1,78 @@
+"""The clipping plane that is dragged and turned in the view."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pyvista as pv
+from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
+
+from hexmend_app.scene.cutting.handles import Handles
+from hexmend_app.scene.palette import PLANE, PLANE_EDGE, PLANE_HELD
+from hexmend_app.state.clip import ClipPlane
+
+
+class PlaneWidget(Handles):
+    """VTK's implicit plane widget without its box.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter
+        One with an interactor.
+    moved : callable
+        Called with the ClipPlane as the user drags; never for what is set by `set`.
+    """
+
+    def __init__(self, plotter: pv.BasePlotter, moved: Callable[[ClipPlane], None]):
+        self._moved = moved
+        self._placed = False
+        self._plane: ClipPlane | None = None
+        shape = vtkImplicitPlaneRepresentation()
+        shape.SetPlaceFactor(1.08)
+        shape.OutlineTranslationOff()
+        shape.ScaleEnabledOff()
+        shape.SetDrawOutline(False)
+        shape.SetTubing(False)
+        shape.GetPlaneProperty().SetOpacity(0.04)
+        shape.GetSelectedPlaneProperty().SetOpacity(0.12)
+        shape.GetSelectedNormalProperty().SetColor(0.84, 0.37, 0.0)
+        shape.GetOutlineProperty().SetOpacity(0)
+        self._shape = shape
+        self.set_dark(False)
+        widget = vtkImplicitPlaneWidget2()
+        widget.SetRepresentation(shape)
+        super().__init__(plotter, widget)
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw it for the dark ground, or for the light one."""
+        edge, plane, held = (pv.Color(role.of(dark)).float_rgb for role in (PLANE_EDGE, PLANE, PLANE_HELD))
+        self._shape.SetEdgeColor(edge)
+        self._shape.GetPlaneProperty().SetColor(plane)
+        self._shape.GetSelectedPlaneProperty().SetColor(held)
+        self._shape.GetNormalProperty().SetColor(held)
+
+    def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
+        """Take the size of the mesh; the plane is drawn a little larger."""
+        self._shape.PlaceWidget(bounds)
+        self._placed = True
+
+    def set(self, plane: ClipPlane | None, shown: bool = True) -> None:
+        """Show a plane, or nothing.
+
+        While it is dragged it follows the hand: turned on from where it has been set straight, it would never get away
+        from there.
+        """
+        self._plane = plane
+        on = plane is not None and shown and self._placed
+        if on and not self._dragging:
+            self._shape.SetNormal(plane.normal)
+            self._shape.SetOrigin(plane.origin)
+        self._switch(on)
+
+    def _drag(self, on: bool) -> None:
+        super()._drag(on)
+        if not on:
+            self.set(self._plane)
+
+    def _announce(self, *_: object) -> None:
+        self._moved(ClipPlane(self._shape.GetNormal(), self._shape.GetOrigin()))

@@ -1,0 +1,128 @@
+"""Pictures of several meshes side by side, or of two wiped over one another, as a paper compares methods."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pyvista as pv
+from PIL import Image, ImageDraw
+
+from hexmend.mesh import Mesh
+from hexmend.quality import ElementQuality
+from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
+from hexmend_app.scene.filters import Filters
+from hexmend_app.scene.panes import ROOM, Panes, columns
+from hexmend_app.state.look import Look
+from hexmend_app.state.movement import Movement
+from hexmend_app.state.views import Wipe
+
+#: Height of a row of captions, by that of the colour bar.
+_CAPTION = 0.8
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """One mesh of several.
+
+    Parameters
+    ----------
+    name : str
+        What its caption calls it.
+    mesh : Mesh
+    figures : ElementQuality
+        Of the mesh.
+    """
+
+    name: str
+    mesh: Mesh
+    figures: ElementQuality
+
+    @property
+    def said(self) -> str:
+        """What its caption says beside the name."""
+        inverted = self.figures.n_inverted
+        return f"q min {self.figures.q.min():.4f}, {f'{inverted:,}' if inverted else 'none'} inverted"
+
+
+def figure(
+    panels: Sequence[Panel],
+    look: Look,
+    size: tuple[int, int],
+    *,
+    filters: Filters | None = None,
+    movement: Movement | None = None,
+    view: str | tuple[float, float, float] = "iso",
+    camera: pv.Camera | None = None,
+    wipe: Wipe | None = None,
+    transparent: bool = False,
+    bar: bool = True,
+) -> Image.Image:
+    """Draw meshes with one camera, one look and one range of colours, each under its name and figures.
+
+    Parameters
+    ----------
+    panels : sequence of Panel
+        Two to four.
+    look, size, filters, movement, view, camera, transparent, bar
+        As for `hexmend_app.scene.export.picture.picture`.
+    wipe : Wipe, optional
+        Lays two of them over one another; None shows all side by side.
+    """
+    width, height = size
+    unit = strip_height(size)
+    strip, line = unit if bar else 0, round(_CAPTION * unit)
+    rows = len(panels) // columns(len(panels)) if wipe is None else 1
+    plotter = pv.Plotter(
+        off_screen=True, shape=(1, ROOM), border=False, window_size=(width, height - strip - rows * line)
+    )
+    try:
+        panes = Panes(plotter)
+        panes.set_movement(movement)
+        panes.set_look(look)
+        first, *others = panels
+        panes.first.set_mesh(first.mesh, first.figures, filters)
+        panes.show([(other.mesh, other.figures) for other in others], wipe)
+        panes.look_along(view)
+        if camera is not None:
+            plotter.camera.DeepCopy(camera)
+            panes.reset_depth()
+        plotter.camera_set = True
+        panes.still()
+        plotter.show(auto_close=False, interactive=False)
+        pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
+        colouring, apart = panes.first.colouring, [(name, None, colour) for name, _, colour in panes.first.apart]
+    finally:
+        plotter.close()
+    image = Image.fromarray(np.asarray(pixels))
+    whole = paper(size, image.mode)
+    whole.paste(image, (0, line))
+    if line:
+        _write(whole, panels, wipe, line, line + image.height)
+    if strip:
+        whole.paste(colour_bar(colouring, apart, (width, strip), image.mode), (0, height - strip))
+    return whole
+
+
+def _write(whole: Image.Image, panels: Sequence[Panel], wipe: Wipe | None, line: int, below: int) -> None:
+    """Write the captions: of the upper row above it, of the lower below, of a wipe on either side."""
+    draw = ImageDraw.Draw(whole)
+    if wipe is not None:
+        edge = round(wipe.at * whole.width)
+        draw.line((edge, line, edge, below - 1), INK, max(1, line // 12))
+        panels = [panels[wipe.left], panels[wipe.right]]
+    across = columns(len(panels))
+    for k, panel in enumerate(panels):
+        row, at = divmod(k, across)
+        _caption(draw, panel, at * whole.width / across, 0 if row == 0 else below, whole.width / across, line)
+
+
+def _caption(draw: ImageDraw.ImageDraw, panel: Panel, left: float, top: float, room: float, line: int) -> None:
+    gap = line / 3
+    for share in np.linspace(0.5, 0.2, 7):  # smaller until it fits
+        name, plain = letters(share * line, bold=True), letters(share * line)
+        if 3 * gap + name.getlength(panel.name) + plain.getlength(panel.said) <= room:
+            break
+    draw.text((left + gap, top + line / 2), panel.name, INK, name, anchor="lm")
+    draw.text((left + 2 * gap + name.getlength(panel.name), top + line / 2), panel.said, INK, plain, anchor="lm")

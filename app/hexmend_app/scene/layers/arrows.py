@@ -1,0 +1,178 @@
+"""Arrows from where nodes were to where they are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
+
+from hexmend_app.scene.layers.overlay import overlay
+from hexmend_app.scene.layers.surface import set_points
+from hexmend_app.state.movement import NOTHING, Movement
+
+#: Arrows that are drawn at most, the longest first: so many cost 20 ms of a moving frame without a graphics card.
+MOST = 5_000
+
+#: Arrows up to which they have a rim: of more, that would be all that is seen.
+_MANY = 1_000
+
+_INK, _RIM = "#11151c", "#ffffff"
+
+#: Length of a head as a share of its arrow and in mean edge lengths at most, and its half width as a share of that.
+_HEAD, _LONGEST, _WIDTH = 0.4, 0.35, 0.36
+
+#: How strongly arrows are drawn where something hides them.
+_HIDDEN = 0.3
+
+# Of one arrow: start, neck, four corners of its head around the neck, tip.
+_POINTS = 7
+_SHAFT = np.array([[2, 0, 1]])
+_FACES = np.array([[3, 6, 2, 3], [3, 6, 3, 4], [3, 6, 4, 5], [3, 6, 5, 2]])
+
+
+class ArrowLayer:
+    """Draws arrows in a plotter, dark with a light rim, so that they are seen on every colour.
+
+    Attributes
+    ----------
+    drawn, moved : int
+        Arrows, and nodes that could have one.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter
+    """
+
+    def __init__(self, plotter: pv.BasePlotter):
+        self._inside = overlay(plotter)
+        self._points = pv.PolyData()
+        self._front_actors = _actors(plotter.renderer)
+        self._inside_actors = _actors(self._inside)
+        self.drawn = self.moved = 0
+        self._through = self._fast = False
+        self.hide()
+
+    @property
+    def layer(self) -> vtkRenderer:
+        """What draws inside the mesh."""
+        return self._inside
+
+    def hide(self) -> None:
+        """Draw none."""
+        self.drawn = self.moved = 0
+        self._inside.DrawOff()
+        for actor in self._front_actors:
+            actor.VisibilityOff()
+
+    def show(self, movement: Movement, nodes: np.ndarray, factor: float, through: bool) -> None:
+        """Draw the longest of the arrows of some nodes.
+
+        Parameters
+        ----------
+        movement : Movement
+        nodes : (n,) bool
+            Those that may have one.
+        factor : float
+            How many times as long as the way they are drawn.
+        through : bool
+            As strongly where something hides them.
+        """
+        distances = movement.distances
+        chosen = np.flatnonzero(nodes & (distances > NOTHING * movement.unit))
+        moved = chosen.size
+        if not moved:
+            self.hide()
+            return
+        if moved > MOST:
+            chosen = np.sort(chosen[np.argpartition(distances[chosen], moved - MOST)[moved - MOST :]])
+        start = movement.before.points[chosen]
+        places = arrows(start, factor * (movement.points[chosen] - start), _LONGEST * movement.unit)
+        if chosen.size == self.drawn:
+            set_points(self._points, places)
+        else:
+            self._points, heads = _polys(places)
+            for rim, shaft, head in (self._front_actors, self._inside_actors):
+                rim.GetMapper().SetInputData(self._points)
+                shaft.GetMapper().SetInputData(self._points)
+                head.GetMapper().SetInputData(heads)
+        self.drawn, self.moved = chosen.size, moved
+        self._through = through
+        self._fit()
+
+    def set_fast(self, fast: bool) -> None:
+        """Leave out rims, and what is pale, which cost twice the rest, or draw all again."""
+        self._fast = fast
+        if self.drawn:
+            self._fit()
+
+    def _fit(self) -> None:
+        through, fine = self._through, not self._fast
+        rimmed = fine and self.drawn <= _MANY
+        rim, shaft, head = self._front_actors
+        for actor in (shaft, head):
+            actor.SetVisibility(not through)
+        rim.SetVisibility(not through and rimmed)
+        self._inside.SetDraw(through or fine)
+        for actor in self._inside_actors:
+            actor.GetProperty().SetOpacity(1.0 if through else _HIDDEN)
+        self._inside_actors[0].SetVisibility(through and rimmed)  # around what is pale it would be all that is seen
+        for _, shaft, head in (self._front_actors, self._inside_actors):
+            shaft.GetProperty().SetLineWidth(1.75 if fine else 1.0)
+            head.GetProperty().SetEdgeVisibility(rimmed)
+
+
+def arrows(start: np.ndarray, way: np.ndarray, longest: float) -> np.ndarray:
+    """Points of arrows, (7 k, 3): start, neck, four corners of the head, tip of each.
+
+    Parameters
+    ----------
+    start, way : (k, 3) float64
+        No way is 0.
+    longest : float
+        Heads are no longer than this.
+    """
+    length = np.sqrt(np.square(way).sum(axis=1))[:, None]
+    ahead = way / length
+    aside = np.cross(ahead, np.eye(3)[np.abs(ahead).argmin(axis=1)])
+    aside /= np.sqrt(np.square(aside).sum(axis=1))[:, None]
+    upwards = np.cross(ahead, aside)
+    head = np.minimum(_HEAD * length, longest)
+    tip = start + way
+    neck = tip - head * ahead
+    wide = _WIDTH * head
+    corners = [neck + wide * aside, neck + wide * upwards, neck - wide * aside, neck - wide * upwards]
+    return np.stack([start, neck, *corners, tip], axis=1).reshape(-1, 3)
+
+
+def _polys(places: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
+    """Shafts and heads, which share their points."""
+    first = np.arange(0, len(places), _POINTS)[:, None, None]
+    lines, faces = ((part[None] + first * (np.arange(part.shape[1]) > 0)).ravel() for part in (_SHAFT, _FACES))
+    shafts, heads = pv.PolyData(places, lines=lines), pv.PolyData(places, faces=faces)
+    heads.SetPoints(shafts.GetPoints())
+    return shafts, heads
+
+
+def _actors(renderer: vtkRenderer) -> tuple[vtkActor, vtkActor, vtkActor]:
+    """The rim of shafts, shafts, and heads."""
+    rim, shaft, head = (_actor(renderer, *how) for how in ((_RIM, 3.0, -40.0), (_INK, 1.75, -80.0), (_INK, 1.0, -80.0)))
+    head.GetProperty().SetEdgeColor(*pv.Color(_RIM).float_rgb)
+    head.GetProperty().SetEdgeOpacity(0.6)
+    return rim, shaft, head
+
+
+def _actor(renderer: vtkRenderer, colour: str, width: float, before: float) -> vtkActor:
+    mapper = vtkPolyDataMapper()
+    mapper.SetScalarVisibility(False)
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, before)
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, before)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.PickableOff()
+    how = actor.GetProperty()
+    how.SetColor(*pv.Color(colour).float_rgb)
+    how.SetLineWidth(width)
+    how.LightingOff()
+    renderer.AddActor(actor)
+    return actor

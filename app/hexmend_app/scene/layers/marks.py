@@ -1,0 +1,113 @@
+"""Lines and points on the nodes of a mesh, in colours with a dark rim, so that they are seen on every colour."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
+
+from hexmend_app.scene.layers.surface import set_points
+
+_RIM = "#11151c"
+_COLOURS = "colours"
+
+#: How far marks are drawn before the surface that they lie on, in VTK's units of depth: the rim, and what it is around.
+_LINES_BEFORE = (-20.0, -40.0)
+_POINTS_BEFORE = (-60.0, -120.0)
+
+
+class Marks:
+    """Marks of one sort in one renderer, which come, move with the nodes and go.
+
+    Parameters
+    ----------
+    renderer : vtkRenderer
+    size : float
+        Width of the lines or side of the points where there is room, in pixels.
+    rim : float
+        Width of the dark rim on either side, in pixels.
+    """
+
+    def __init__(self, renderer: vtkRenderer, size: float, rim: float):
+        self._size, self._rim = size, rim
+        self._poly = pv.PolyData()
+        self._nodes = np.empty(0, np.int64)
+        self._around = self._actor(renderer, coloured=False)
+        self._filled = self._actor(renderer, coloured=True)
+        self.fit(1.0)
+        self.hide()
+
+    def _actor(self, renderer: vtkRenderer, coloured: bool) -> vtkActor:
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputData(self._poly)
+        mapper.SetScalarVisibility(coloured)
+        mapper.SetScalarModeToUseCellFieldData()
+        mapper.SelectColorArray(_COLOURS)
+        mapper.SetColorModeToDirectScalars()
+        mapper.SetResolveCoincidentTopologyToPolygonOffset()
+        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, _LINES_BEFORE[coloured])
+        mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_POINTS_BEFORE[coloured])
+        actor = vtkActor()
+        actor.SetMapper(mapper)
+        actor.PickableOff()
+        actor.GetProperty().SetColor(*pv.Color(_RIM).float_rgb)
+        actor.GetProperty().LightingOff()
+        renderer.AddActor(actor)
+        return actor
+
+    @property
+    def shown(self) -> bool:
+        """Whether anything is drawn."""
+        return bool(self._filled.GetVisibility())
+
+    @property
+    def count(self) -> int:
+        """Number of marks that are drawn."""
+        return self._poly.n_cells
+
+    def show(self, cells: np.ndarray, colours: np.ndarray, points: np.ndarray, opacity: float = 1.0) -> None:
+        """Draw other marks.
+
+        Parameters
+        ----------
+        cells : (k, 2) or (k, 1) int
+            Nodes of lines, or of points.
+        colours : (k, 3) uint8
+        points : (n, 3) float64
+            Of all nodes.
+        opacity : float
+        """
+        if not len(cells):
+            self.hide()
+            return
+        self._nodes, places = np.unique(cells, return_inverse=True)
+        width = cells.shape[1]
+        rows = np.column_stack([np.full(len(cells), width), places.reshape(cells.shape)]).ravel()
+        self._poly = pv.PolyData(points[self._nodes], **{"lines" if width == 2 else "verts": rows})
+        self._poly.cell_data[_COLOURS] = colours
+        for actor in (self._around, self._filled):
+            actor.GetMapper().SetInputData(self._poly)
+            actor.GetProperty().SetOpacity(opacity)
+        self._filled.VisibilityOn()
+        self.show_rims(True)
+
+    def show_rims(self, on: bool) -> None:
+        """Draw the rims or not; never where they would be seen through what they are around."""
+        self._around.SetVisibility(on and self.shown and self._filled.GetProperty().GetOpacity() == 1)
+
+    def move(self, points: np.ndarray) -> None:
+        """Take the nodes' places, (n, 3) float64."""
+        if self.shown:
+            set_points(self._poly, points[self._nodes])
+
+    def fit(self, share: float) -> None:
+        """Draw them smaller where there is little room between them, by a share from 0 to 1."""
+        size, rim = max(1.0, share * self._size), max(0.5, share * self._rim)
+        for actor, width in ((self._filled, size), (self._around, size + 2 * rim)):
+            actor.GetProperty().SetLineWidth(width)
+            actor.GetProperty().SetPointSize(width)
+
+    def hide(self) -> None:
+        """Draw none."""
+        self._filled.VisibilityOff()
+        self._around.VisibilityOff()

@@ -1,0 +1,208 @@
+"""A mesh's structure over its elements: irregular and sharp edges, and what becomes of its nodes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from hexmend.kernels import skin
+from hexmend.mesh import Mesh
+from hexmend.quality import ElementQuality, locked
+from hexmend.structure import Structure as Found
+from hexmend.structure import structure
+from hexmend_app.scene.camera.fitting import pixels
+from hexmend_app.scene.layers.marks import Marks
+from hexmend_app.scene.layers.overlay import overlay
+from hexmend_app.scene.skin import Faces
+from hexmend_app.state.look import Look, Structure
+
+#: Colours by the number of elements around an edge, Okabe and Ito's; OTHER for numbers that are not here.
+VALENCES: dict[int, str] = {3: "#56b4e9", 5: "#e69f00", 6: "#f0e442"}
+OTHER = "#ffffff"
+IRREGULAR_NODE = "#ffffff"
+SHARP = "#11151c"
+
+#: Colours of nodes.
+BOUNDARY, PINNED, FREE, LOCKED = "#9aa5b4", "#e69f00", "#ffffff", "#f0e442"
+
+#: Marks of one sort that are drawn in full. More of them are drawn thinner, and paler inside, or nothing else is seen;
+#: in fast frames without rims and not inside, or 26,000 would cost a tenth of a second without a graphics card.
+_MANY = 1500
+
+#: Length of an element's edge, in pixels, from which on marks are drawn in full size.
+_ROOM = 25.0
+
+
+class StructureLayers:
+    """Draws what a `Look` wants to be seen of one mesh's structure; what is off costs nothing.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter
+    """
+
+    def __init__(self, plotter: pv.BasePlotter):
+        self._inside = overlay(plotter)  # what is not hidden is drawn twice, thick
+        front = self._front = plotter.renderer
+        self._irregular, self._irregular_inside = Marks(front, 4, 1.25), Marks(self._inside, 1.5, 0.75)
+        self._ends, self._ends_inside = Marks(front, 7, 2), Marks(self._inside, 4, 1.5)
+        self._boundary, self._sharp = Marks(front, 4, 1.25), Marks(front, 3, 0.5)
+        self._nodes, self._locked = Marks(front, 5, 1.5), Marks(front, 5, 1.5)
+        self._lines = (
+            self._irregular, self._irregular_inside, self._ends, self._ends_inside, self._boundary, self._sharp,
+        )  # fmt: skip
+        self._found: Found | None = None
+        self._fast = False
+        self._inside.DrawOff()
+        front.AddObserver("StartEvent", self._fit)
+
+    @property
+    def layer(self) -> vtkRenderer:
+        """What draws inside the mesh."""
+        return self._inside
+
+    def set_mesh(self, mesh: Mesh) -> None:
+        """Take another mesh; its structure is found when first wanted."""
+        self._mesh, self._found = mesh, None
+
+    def set_pins(self, mesh: Mesh) -> None:
+        """Take the same mesh with other nodes pinned."""
+        self._mesh = mesh
+
+    def choose(
+        self, look: Look, points: np.ndarray, figures: ElementQuality, faces: Faces, keep: np.ndarray | None
+    ) -> None:
+        """Draw what is wanted of the elements that are shown.
+
+        Parameters
+        ----------
+        look : Look
+        points : (n, 3) float64
+        figures : ElementQuality
+            Of the mesh at these points.
+        faces : Faces
+            In sight; of their nodes alone is anything drawn.
+        keep : (m,) bool, optional
+            Hexes that are shown, in whole or in part; None for all.
+        """
+        self._look, self._keep, self._faces = look, keep, faces
+        for marks in self._lines:
+            marks.hide()
+        if look.structure.edges:
+            self._choose_edges(look.structure, points)
+        self._choose_nodes(points, figures)
+        self._thin_out()
+        quads = faces.quads[:: max(1, len(faces.quads) // 1000)]
+        ends = points[faces.nodes[quads[:, :2]]]
+        self._spacing = float(np.median(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))) if len(quads) else 0.0
+
+    def move(self, points: np.ndarray, figures: ElementQuality) -> None:
+        """Draw the same where the nodes, (n, 3) float64, are now."""
+        for marks in self._lines:
+            marks.move(points)
+        self._choose_nodes(points, figures)
+        self._thin_out()
+
+    def set_fast(self, fast: bool) -> None:
+        """Draw less of what is much, or all again."""
+        self._fast = fast
+        self._thin_out()
+
+    def _thin_out(self) -> None:
+        for marks in (*self._lines, self._nodes):
+            marks.show_rims(not self._sparing(marks))
+        self._inside.SetDraw(self._irregular_inside.shown and not self._sparing(self._irregular_inside))
+
+    def _sparing(self, marks: Marks) -> bool:
+        return self._fast and marks.count > _MANY
+
+    def _choose_edges(self, wanted: Structure, points: np.ndarray) -> None:
+        if self._found is None:
+            self._found = structure(self._mesh)
+        found = self._found
+        if wanted.irregular:
+            shown = self._shown(found.interior, points)
+            edges, colours = found.interior[shown], valence_colours(found.interior_valence[shown])
+            nodes = np.intersect1d(found.nodes, edges)[:, None]
+            ends = _rgb(IRREGULAR_NODE).repeat(len(nodes), axis=0)
+            opacity = min(1.0, (_MANY / max(1, len(edges))) ** 0.5)
+            self._irregular.show(edges, colours, points)
+            self._irregular_inside.show(edges, colours, points, opacity)
+            self._ends.show(nodes, ends, points)
+            self._ends_inside.show(nodes, ends, points, opacity)
+        if wanted.boundary:
+            shown = self._shown(found.boundary, points)
+            self._boundary.show(found.boundary[shown], valence_colours(found.boundary_valence[shown]), points)
+        if wanted.sharp:
+            edges = found.sharp[self._shown(found.sharp, points)]
+            self._sharp.show(edges, _rgb(SHARP).repeat(len(edges), axis=0), points)
+
+    def _shown(self, edges: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """True for the edges, (k, 2), of elements that are shown, and before a smooth cut; (k,) bool."""
+        rows = self._mesh.topology.node_corners
+        answer = np.ones(len(edges), bool)
+        if self._keep is not None:
+            skin.edges_kept(self._mesh.hexes, rows.start, rows.items, edges, self._keep, answer)
+        return answer & uncut(self._look, points[edges].mean(axis=1))
+
+    def _choose_nodes(self, points: np.ndarray, figures: ElementQuality) -> None:
+        wanted = self._look.structure
+        if not (wanted.fixed or wanted.free or wanted.locked):
+            self._nodes.hide()
+            self._locked.hide()
+            return
+        places = self._faces.places(points)
+        kinds = node_kinds(self._mesh, points, figures, wanted)[self._faces.nodes]
+        chosen = (kinds > 0) & uncut(self._look, places)
+        for marks, these in ((self._nodes, chosen & (kinds < 4)), (self._locked, chosen & (kinds == 4))):
+            marks.show(np.flatnonzero(these)[:, None], _KINDS[kinds[these]], places)
+
+    def _fit(self, *_: object) -> None:
+        """Draw marks as large as the elements leave room for, where they are many."""
+        shown = [marks for marks in (*self._lines, self._nodes, self._locked) if marks.shown]
+        if shown:
+            camera = self._front.GetActiveCamera()
+            share = min(1.0, pixels(self._front, self._spacing, np.array(camera.GetFocalPoint())) / _ROOM)
+            for marks in shown:
+                least = 0.5 if marks is self._nodes else 0.0 if marks.count > _MANY else 1.0
+                marks.fit(max(share, least))
+
+
+def valence_colours(valence: np.ndarray) -> np.ndarray:
+    """Colours of edges with so many hexes around them, (k,) int to (k, 3) uint8."""
+    table = _rgb(OTHER).repeat(max(VALENCES) + 2, axis=0)
+    for number, colour in VALENCES.items():
+        table[number] = _rgb(colour)
+    return table[np.minimum(valence, len(table) - 1)]
+
+
+def node_kinds(mesh: Mesh, points: np.ndarray, figures: ElementQuality, wanted: Structure) -> np.ndarray:
+    """What each node is among what is wanted, (n,) uint8: 0 nothing, 1 boundary, 2 pinned, 3 free, 4 locked."""
+    kinds = np.zeros(mesh.n_nodes, np.uint8)
+    if wanted.fixed:
+        if mesh.pinned is not None:
+            kinds[mesh.pinned] = 2
+        kinds[mesh.topology.boundary] = 1
+    if wanted.free:
+        kinds[mesh.free] = 3
+    if wanted.locked and figures.n_inverted:
+        kinds[mesh.hexes[locked(points, mesh.hexes, mesh.fixed, figures.inverted)]] = 4
+    return kinds
+
+
+def uncut(look: Look, points: np.ndarray) -> np.ndarray | bool:
+    """True for points, (k, 3), that a cut through elements leaves; such a cut alone goes by points."""
+    clip = look.clip
+    if clip is None or clip.crinkle:
+        return True
+    beyond = [plane.signed_distance(points) > 0 for plane in clip.planes]
+    return ~(np.all(beyond, axis=0) if clip.notch else np.any(beyond, axis=0))
+
+
+def _rgb(colour: str) -> np.ndarray:
+    """One colour as (1, 3) uint8."""
+    return np.array([pv.Color(colour).int_rgb], np.uint8)
+
+
+_KINDS = np.concatenate([_rgb(colour) for colour in ("#000000", BOUNDARY, PINNED, FREE, LOCKED)])

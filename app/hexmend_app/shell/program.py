@@ -1,0 +1,72 @@
+"""Start and end of the Qt program."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import sys
+import traceback
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+os.environ.setdefault("QT_API", "pyside6")
+os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
+
+from PySide6.QtCore import QCoreApplication, QTimer
+from PySide6.QtGui import QIcon
+from PySide6.QtWidgets import QApplication
+
+from hexmend_app.resources import demo_mesh, resource
+from hexmend_app.widgets.theming import wear
+
+if TYPE_CHECKING:
+    from hexmend_app.shell.window import Window
+
+log = logging.getLogger(__name__)
+
+
+def application() -> QApplication:
+    """The one QApplication, dressed."""
+    app = QApplication.instance() or QApplication(sys.argv[:1])
+    QCoreApplication.setOrganizationName("Hexmend")
+    QCoreApplication.setApplicationName("Hexmend")
+    app.setApplicationDisplayName("Hexmend")
+    app.setDesktopFileName("hexmend")
+    app.setWindowIcon(QIcon(str(resource("icon.svg"))))
+    wear()
+    return app
+
+
+def open_window(mesh: str | None = None) -> int:
+    """Show the window, open `mesh` (or the demo) in it, and run until it is closed; the exit status."""
+    app = application()
+    from hexmend_app.shell.window import Window
+
+    window = Window()
+    report_unexpected_errors(window)
+    signal.signal(signal.SIGINT, lambda *_: window.close())
+    alive = QTimer()  # lets Python see a Ctrl-C
+    alive.start(250)
+    alive.timeout.connect(lambda: None)
+    window.show()
+    app.processEvents()
+    window.open(Path(mesh) if mesh else demo_mesh())
+    QTimer.singleShot(0, window.build_canvas)
+    return app.exec()
+
+
+def report_unexpected_errors(window: Window) -> None:
+    """Show in the window what a slot raises, which Qt would only print."""
+
+    def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        if issubclass(kind, KeyboardInterrupt):
+            window.close()
+            return
+        log.error("unexpected error", exc_info=(kind, error, trace))
+        place = traceback.extract_tb(trace)[-1] if trace else None
+        where = f" ({Path(place.filename).name}, line {place.lineno})" if place else ""
+        window.messages.show_error("Something went wrong inside Hexmend", f"{kind.__name__}: {error}{where}")
+
+    sys.excepthook = hook

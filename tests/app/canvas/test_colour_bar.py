@@ -1,0 +1,110 @@
+"""The colour bar, read back from its pixels."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QImage
+
+from hexmend_app.canvas.colour_bar import ColourBar, nice_ticks
+
+
+@pytest.fixture
+def ramp():
+    """A table in which each entry is its own number."""
+    k = np.arange(256, dtype=np.uint8)
+    return np.column_stack([k, 255 - k, np.full(256, 60, np.uint8)])
+
+
+def pixels(widget):
+    # Not grab(): its pixels have the screen's depth, which may be 16 bits.
+    image = QImage(widget.size(), QImage.Format.Format_RGB32)
+    widget.render(image)
+    return np.array(
+        [[image.pixelColor(x, y).getRgb()[:3] for x in range(image.width())] for y in range(image.height())]
+    )
+
+
+@pytest.mark.parametrize("orientation", [Qt.Orientation.Horizontal, Qt.Orientation.Vertical])
+def test_the_gradient_shows_the_whole_table_in_order(shown, ramp, orientation):
+    across = orientation == Qt.Orientation.Horizontal
+    bar = ColourBar(orientation)
+    bar.set_table(ramp)
+    shown(bar, *((500, 40) if across else (90, 500)))
+    rgb = pixels(bar)
+    of_table = (rgb[..., 2] == 60) & (rgb[..., 0].astype(int) + rgb[..., 1] == 255)
+    along = [rgb[of_table[:, x], x, 0].max() for x in range(rgb.shape[1]) if of_table[:, x].sum() > 5]
+    if not across:
+        along = [rgb[y, of_table[y], 0].max() for y in range(rgb.shape[0]) if of_table[y].sum() > 5][::-1]
+    assert len(along) > 250
+    assert np.all(np.diff(np.array(along, dtype=int)) >= 0)
+    assert along[0] <= 2
+    assert along[-1] >= 253
+
+
+@pytest.mark.parametrize("colour", ["#12ab34", (0x12, 0xAB, 0x34), QColor("#12ab34")])
+def test_inverted_elements_have_a_swatch_of_their_colour(shown, ramp, colour):
+    bar = ColourBar()
+    bar.set_table(ramp)
+    bar.set_apart([("inverted", 3, colour)])
+    shown(bar, 400, 40)
+    assert np.all(pixels(bar) == (0x12, 0xAB, 0x34), axis=2).sum() > 200
+    assert "inverted (3)" in bar.accessibleDescription()
+    bar.set_apart([("inverted", 0, colour)])
+    assert bar.accessibleDescription().startswith("inverted;")
+
+
+def test_a_wrong_table_is_refused(qapp):
+    with pytest.raises(ValueError, match="expected \\(n, 3\\)"):
+        ColourBar().set_table(np.zeros((256, 4), np.uint8))
+
+
+@given(st.floats(-1e6, 1e6), st.floats(-1e6, 1e6), st.integers(2, 12))
+def test_ticks_are_evenly_spaced_within_the_range(low, high, most):
+    assume(high - low > 1e-6 * max(abs(low), abs(high), 1e-3))
+    ticks = nice_ticks(low, high, most)
+    assert len(ticks) <= most
+    slack = 1e-6 * (high - low)
+    assert all(low - slack <= tick <= high + slack for tick in ticks)
+    if len(ticks) > 2:
+        assert np.ptp(np.diff(ticks)) < slack
+
+
+def test_an_empty_range_has_no_ticks(shown):
+    assert nice_ticks(0.5, 0.5, 5) == []
+    bar = ColourBar()
+    bar.set_range(0.5, 0.5)
+    shown(bar, 300, 40).grab()
+
+
+@given(st.floats(-1e7, 1e7), st.floats(-1e7, 1e7), st.floats(10, 2000))
+def test_both_ends_are_among_the_ticks_and_numbers_leave_each_other_room(low, high, length):
+    assume(high - low > 1e-6 * max(abs(low), abs(high), 1e-3))
+    bar = ColourBar()
+    bar.set_range(low, high)
+    ticks = bar._ticks(length, 40)
+    assert (ticks[0], ticks[-1]) == (low, high)
+    if len(ticks) > 2:
+        assert np.diff(ticks).min() / (high - low) * length >= 39.9
+
+
+def test_the_label_is_the_quantity(shown):
+    bar = ColourBar()
+    bar.set_label("Edge ratio")
+    bar.set_range(1.02, 5.76)
+    assert "Edge ratio from 1.02 to 5.76" in bar.accessibleDescription()
+
+
+@pytest.mark.parametrize("orientation", [Qt.Orientation.Horizontal, Qt.Orientation.Vertical])
+def test_several_kinds_set_apart_have_a_swatch_each_beside_the_gradient(shown, ramp, orientation):
+    across = orientation == Qt.Orientation.Horizontal
+    bar = ColourBar(orientation)
+    bar.set_table(ramp)
+    bar.set_range(-0.25, 0.25)
+    bar.set_apart([("newly inverted", 3, "#12ab34"), ("still inverted", 0, "#ab1234"), ("mended", 12, "#3412ab")])
+    shown(bar, *((760, 40) if across else (130, 500)))
+    rgb = pixels(bar)
+    for colour in ((0x12, 0xAB, 0x34), (0xAB, 0x12, 0x34), (0x34, 0x12, 0xAB)):
+        assert (rgb == colour).all(axis=2).sum() > 100
+    assert bar.accessibleDescription() == ("newly inverted (3); still inverted; mended (12); q(H) from -0.25 to 0.25")

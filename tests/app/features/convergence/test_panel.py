@@ -1,0 +1,204 @@
+"""Charts of runs, with mouse and keys."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtTest import QTest
+
+from hexmend_app.features.convergence.panel import ConvergencePanel
+from hexmend_app.features.convergence.words import describe
+from hexmend_app.state.convergence import CHARTS, Columns, Curve
+from hexmend_app.state.document import State
+from hexmend_app.state.history import Moment, Record
+from tests.core.grids import grid
+
+LEFT = Qt.MouseButton.LeftButton
+START = State.of(grid(2))
+
+
+def record(name, count, parent=None, **more):
+    made = Record(name, name.title(), START, parent)
+    made.rows = [
+        {
+            "iteration": k,
+            "seconds": 0.1 * k,
+            "objective": None if k < 3 else 1000.0 / k,
+            "q_min": 0.5 * k / count,
+            "q_mean": 0.9,
+            "inverted": max(0, 100 - 30 * k),
+            "largest_move": 1.0 / (k + 1),
+            **more,
+        }
+        for k in range(count)
+    ]
+    return made
+
+
+def curve(record, slot=0, begins=(0.0, 0.0), shown=True, current=True, going=False, kept=None):
+    columns = Columns(record)
+    columns.grow()
+    numbers = record.numbers if kept is None else lambda: np.array(kept)
+    return Curve(columns, slot, begins, shown, current, going, numbers)
+
+
+TRUNK = record("getme", 21)
+BRANCH = record("local-sd", 9, Moment(TRUNK, 8), delta=0.01)
+BOTH = (curve(TRUNK, kept=range(0, 21, 4)), curve(BRANCH, 1, (8.0, 0.8), current=False))
+
+
+@pytest.fixture
+def panel(shown):
+    panel = shown(ConvergencePanel(), 640, 300)
+    panel.set_curves(BOTH)
+    QTest.qWait(30)
+    return panel
+
+
+def place(panel, key, x, y=None):
+    """Where a place of a chart is in its widget; y as it is drawn, or the middle."""
+    plot = panel.plots[key]
+    (low, high) = plot.view.viewRange()[1]
+    at = plot.view.mapViewToScene(QPointF(x, (low + high) / 2 if y is None else y))
+    return plot.plot.viewport(), plot.plot.mapFromScene(at)
+
+
+def test_the_default_charts_are_drawn_below_one_another_with_one_axis(panel):
+    assert [plot.chart.key for plot in panel.drawn] == ["objective", "quality", "inverted"]
+    tops = [plot.mapTo(panel, QPoint(0, 0)).y() for plot in panel.drawn]
+    assert tops == sorted(tops)
+    assert len({tuple(plot.view.viewRange()[0]) for plot in panel.drawn}) == 1
+    low, high = panel.drawn[0].view.viewRange()[0]
+    assert low < 0
+    assert high > 20
+    ticks = panel.plots["quality"].plot.getAxis("left")._tickLevels
+    assert [text for _, text in ticks[0]] == ["0", "0.5", "1"]
+
+
+def test_zero_has_a_place_below_the_powers_of_ten_and_infinite_is_a_gap(panel):
+    inverted, objective = panel.plots["inverted"], panel.plots["objective"]
+    heights = inverted.heights(np.array([100.0, 10.0, 0.0]))
+    assert heights.tolist() == [2, 1, -1]
+    ticks = dict(inverted.plot.getAxis("left")._tickLevels[0])
+    assert ticks[-1.0] == "0"
+    _, y = objective._lines[0, "objective"]._curve.getData()
+    assert np.isnan(y[:3]).all()
+    assert np.isfinite(y[3:]).all()
+    panel.log.trigger()
+    assert inverted.heights(np.array([100.0, 0.0])).tolist() == [100, 0]
+
+
+def test_what_a_method_does_not_tell_is_said(panel):
+    panel.charts["delta"].trigger()
+    panel.charts["gradient_norm"].trigger()
+    assert panel.plots["delta"].title.text() == "delta: getme does not tell this"
+    assert panel.plots["gradient_norm"].title.text() == "gradient norm: getme and local-sd do not tell this"
+    assert "not tell" not in panel.plots["objective"].title.text()
+
+
+def test_every_chart_can_be_drawn_alone(panel):
+    for action in panel.charts.values():
+        action.setChecked(False)
+    assert panel.drawn == []
+    for key in CHARTS:
+        panel.charts[key].trigger()
+        assert [plot.chart.key for plot in panel.drawn] == [key]
+        assert panel.plots[key].isVisible()
+        panel.charts[key].trigger()
+
+
+def test_a_click_goes_to_the_iteration_of_the_current_run_or_of_the_curve_it_hits(panel):
+    heard = []
+    panel.picked.connect(lambda record, number: heard.append((record.name, number)))
+    QTest.mouseClick(*args(place(panel, "objective", 4.2)))
+    y = panel.plots["quality"].heights(BOTH[1].columns.of("q_min"))[5]
+    QTest.mouseClick(*args(place(panel, "quality", 13.0, y)))
+    assert heard == [("getme", 4), ("local-sd", 5)]
+
+
+def args(where):
+    widget, at = where
+    return widget, LEFT, Qt.KeyboardModifier.NoModifier, at
+
+
+def test_a_drag_goes_through_iterations_and_keeps_to_its_run(panel):
+    heard = []
+    panel.picked.connect(lambda record, number: heard.append((record.name, number)))
+    widget, start = place(panel, "inverted", 2)
+    _, end = place(panel, "inverted", 18)
+    QTest.mousePress(widget, LEFT, pos=start)
+    for k in range(1, 9):
+        QTest.mouseMove(widget, start + (end - start) * (k / 8))
+        QTest.qWait(10)
+    QTest.mouseRelease(widget, LEFT, pos=end)
+    numbers = [number for _, number in heard]
+    assert {name for name, _ in heard} == {"getme"}
+    assert numbers == sorted(numbers)
+    assert numbers[-1] == 18
+
+
+def test_the_iteration_shown_is_marked_on_its_branch(panel):
+    panel.set_shown(BRANCH, 3)
+    assert {plot._mark.value() for plot in panel.drawn} == {11.0}
+    QTest.mouseClick(panel.axis.button("time"), LEFT)
+    assert panel.drawn[0]._mark.value() == pytest.approx(1.1)
+    panel.set_shown(None)
+    assert not panel.drawn[0]._mark.isVisible()
+
+
+def test_what_is_under_the_mouse_is_told_and_what_was_thinned_out(panel):
+    said = describe(CHARTS["quality"], BOTH, 9.8, by_time=False)
+    assert said.splitlines() == [
+        "getme 10: q min 0.2381, q mean 0.9000 (nearest kept: 8)",
+        "local-sd 2: q min 0.1111, q mean 0.9000 (nearest kept: 0)",
+    ]
+    assert describe(CHARTS["objective"], BOTH[:1], 0, by_time=False) == "getme 0: objective infinite"
+    assert describe(CHARTS["delta"], BOTH[:1], 4, by_time=False) == "getme 4: delta not told"
+    assert describe(CHARTS["inverted"], BOTH, 40, by_time=False) == ""
+    paused = record("mend", 5)
+    paused.pauses[3] = "Element 7 inverted"
+    assert describe(CHARTS["inverted"], [curve(paused)], 3, by_time=False).endswith("paused there: Element 7 inverted")
+    assert " at 0.4 s: " in describe(CHARTS["inverted"], BOTH[:1], 0.41, by_time=True)
+
+
+def test_runs_are_switched_and_forgotten_in_the_legend(panel):
+    toggled, forgotten = [], []
+    panel.toggled.connect(lambda record, on: toggled.append((record.name, on)))
+    panel.forget_requested.connect(lambda record: forgotten.append(record.name))
+    row = panel.legend.rows[BRANCH]
+    assert row.box.text() == "local-sd"
+    assert panel.legend.rows[TRUNK].box.font().bold()
+    assert not row.box.font().bold()
+    QTest.mouseClick(row.box, LEFT, pos=QPoint(8, row.box.height() // 2))
+    QTest.keyClick(row.cross, Qt.Key.Key_Space)
+    assert toggled == [("local-sd", False)]
+    assert forgotten == ["local-sd"]
+    panel.set_curves((curve(TRUNK, going=True), curve(BRANCH, 1, (8.0, 0.8), shown=False, current=False)))
+    assert not panel.legend.rows[TRUNK].cross.isEnabled()
+    assert all(slot == 0 for slot, _ in panel.plots["objective"]._lines)
+    panel.set_curves(())
+    assert panel.legend.rows == {}
+    assert not panel.save.isEnabled()
+
+
+def test_where_room_is_short_runs_stand_above_the_charts(panel):
+    def beside():
+        return panel._side.mapTo(panel, QPoint(0, 0)).x() > panel._charts.mapTo(panel, QPoint(0, 0)).x()
+
+    assert beside()
+    panel.resize(330, 300)
+    QTest.qWait(30)
+    assert not beside()
+    assert panel._charts.width() > 250
+
+
+def test_while_a_run_goes_on_axes_change_seldom(panel):
+    growing = record("getme", 200)
+    rows, growing.rows = growing.rows, growing.rows[:100]
+    spans = set()
+    for count in range(100, 200):
+        growing.rows = rows[:count]
+        panel.set_curves((curve(growing, going=True),))
+        low, high = panel.drawn[0].view.viewRange()[0]
+        assert high >= count - 1
+        spans.add((low, high))
+    assert len(spans) < 25

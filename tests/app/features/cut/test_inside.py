@@ -1,0 +1,270 @@
+"""Looking inside: the panel by mouse and keys, and the window that hides what it asks for."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+
+from hexmend import gallery, io
+from hexmend_app.features.cut.inside_panel import InsidePanel
+from hexmend_app.shell.program import application
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.look import Isolation, Look, ValueRange
+from hexmend_app.state.run import Phase
+from tests.patience import PATIENCE
+
+LEFT = Qt.MouseButton.LeftButton
+BOX = QPoint(8, 8)
+
+
+@pytest.fixture
+def panel(qtbot):
+    application()
+    panel = InsidePanel()
+    qtbot.addWidget(panel)
+    panel.set_layers(4)
+    panel.resize(330, panel.sizeHint().height())
+    with qtbot.waitActive(panel):
+        panel.show()
+        panel.activateWindow()
+    return panel
+
+
+@pytest.fixture
+def mesh_file(tmp_path):
+    """A tangled mesh that can be peeled."""
+    path = tmp_path / "cube.vtu"
+    io.write(path, gallery.make("cube", size=1000, scramble=0.3, seed=1))
+    return path
+
+
+def faces(window):
+    """The hexes of the faces that are drawn."""
+    return window.canvas.viewport._faces.hexes
+
+
+def shown(window):
+    return window.inside_panel._shown.text()
+
+
+def type_into(box, text):
+    box.setFocus()
+    box.selectAll()
+    QTest.keyClicks(box, text)
+    QTest.keyClick(box, Qt.Key.Key_Return)
+
+
+# The panel
+
+
+def test_slider_and_box_say_the_same_layers(panel):
+    heard = []
+    panel.peel_changed.connect(heard.append)
+    panel._peel._slider.setFocus()
+    QTest.keyClick(panel._peel._slider, Qt.Key.Key_Right)
+    assert panel._peel._box.value() == 1
+    type_into(panel._peel._box, "3")
+    assert panel._peel._slider.value() == 3
+    assert heard == [1, 3]
+    panel.set_look(Look(peel=2), 1)
+    assert panel._peel.value() == 2
+    assert heard == [1, 3]
+
+
+def test_there_is_nothing_to_peel_where_all_touch_the_boundary(panel):
+    panel.set_layers(0)
+    assert not panel._peel.isEnabled()
+    assert "every element has a face on the boundary" in panel._peel.toolTip()
+    panel.set_layers(2)
+    assert panel._peel.isEnabled()
+    assert "Hide the outer layers" in panel._peel.toolTip()
+
+
+@pytest.mark.parametrize("part", ["_slider", "_box"])
+def test_scrolling_past_changes_nothing(panel, part):
+    widget = getattr(panel._shrink, part)
+    panel._rings.setFocus()
+    centre = QPointF(widget.rect().center())
+    turn = QWheelEvent(
+        centre, widget.mapToGlobal(centre), QPoint(), QPoint(0, 120),
+        Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(widget, turn)
+    assert panel._shrink.value() == 0
+
+
+def test_a_smooth_cut_and_shrinking_exclude_each_other(panel):
+    panel.set_look(Look(clip=PlaneClip(crinkle=False), shrink=0.2), 1)
+    assert not panel._shrink.isEnabled()
+    assert "Whole elements" in panel._shrink.toolTip()
+    panel.set_look(Look(clip=PlaneClip(crinkle=True), shrink=0.2), 1)
+    assert panel._shrink.isEnabled()
+    assert panel._shrink.value() == 20
+
+
+def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
+    buttons = panel._all, panel._undo, panel._put_back
+    assert not any(button.isEnabled() for button in buttons)
+    panel.set_look(Look(isolation=Isolation((4,), 2), dug=frozenset({1, 2, 3})), 2)
+    assert all(button.isEnabled() for button in buttons)
+    assert panel._rings.value() == 2
+    assert panel._isolated.text() == "1 isolated"
+    assert panel._dug.text() == "3 elements dug away"
+    heard = []
+    panel.all_requested.connect(lambda: heard.append("all"))
+    panel.undo_requested.connect(lambda: heard.append("undo"))
+    panel.put_back_requested.connect(lambda: heard.append("put back"))
+    for button in buttons:
+        QTest.mouseClick(button, LEFT)
+    assert heard == ["all", "undo", "put back"]
+
+
+@pytest.mark.parametrize(
+    ("numbers", "text"),
+    [((0, 0), ""), ((5, 1000), "5 of 1,000 elements shown"), ((0, 8), "None of 8 elements is left to show.")],
+)
+def test_it_says_how_many_are_shown(panel, numbers, text):
+    panel.set_shown(*numbers)
+    assert panel._shown.text() == text
+
+
+# The window
+
+
+def test_peeling_hides_layer_after_layer(window):
+    type_into(window.inside_panel._peel._box, "2")
+    assert window.view.look.peel == 2
+    assert set(faces(window)) == set(np.flatnonzero(window.document.now.mesh.topology.layers == 2))
+    assert shown(window) == "216 of 1,000 elements shown"
+    assert window.inside_panel._peel._box.maximum() == 4
+
+
+def test_isolating_with_rings_and_back(window):
+    view, panel = window.view, window.inside_panel
+    view.isolate([555], 0)
+    assert set(faces(window)) == {555}
+    type_into(panel._rings, "1")
+    assert view.look.isolation == Isolation((555,), 1)
+    assert shown(window) == "27 of 1,000 elements shown"
+    QTest.mouseClick(panel._all, LEFT)
+    assert view.look.isolation is None
+    view.isolate([3])
+    assert view.look.isolation == Isolation((3,), 1)
+
+
+def test_digging_undoing_and_putting_back(window):
+    view, panel = window.view, window.inside_panel
+    for h in (0, 1, 1, 2):
+        view.dig(h)
+    assert panel._dug.text() == "3 elements dug away"
+    assert not {0, 1, 2} & set(faces(window))
+    QTest.mouseClick(panel._undo, LEFT)
+    assert view.look.dug == {0, 1}
+    QTest.mouseClick(panel._put_back, LEFT)
+    assert not view.look.dug
+    view.dig(7)
+    view.undig_last()
+    view.undig_last()
+    assert not view.look.dug
+
+
+def test_everything_combines(window):
+    view = window.view
+    mesh, figures = window.document.now.mesh, window.document.now.figures
+    clip = PlaneClip.at((1, 0, 0), tuple(mesh.points.mean(axis=0)))
+    view.change(clip=clip, peel=1, quality_range=ValueRange("q", 0.2, 0.9))
+    view.isolate([444], 3)
+    view.dig(443)
+    expected = clip.planes[0].signed_distance(mesh.points[mesh.hexes].mean(axis=1)) <= 0
+    expected &= mesh.topology.layers >= 1
+    expected &= (figures.q >= 0.2) & (figures.q <= 0.9)
+    expected &= mesh.topology.ring_of([444], 3)
+    expected[443] = False
+    assert 0 < expected.sum() < 200
+    assert window.canvas.viewport.shown == expected.sum()
+    view.change(shrink=0.3)
+    np.testing.assert_array_equal(
+        np.unique(faces(window), return_counts=True), [expected.nonzero()[0], [6] * expected.sum()]
+    )
+
+
+def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtbot):
+    window.inside_panel._shrink._slider.setFocus()
+    for _ in range(5):
+        QTest.keyClick(window.inside_panel._shrink._slider, Qt.Key.Key_PageUp)
+    assert window.view.look.shrink == 0.3
+    window.view.change(peel=3)
+    chosen = np.flatnonzero(window.document.now.mesh.topology.layers >= 3)
+    before = window.canvas.viewport._faces
+    window.smoothing_panel.set_method("laplacian")
+    window.smoothing_panel.step()
+    qtbot.waitUntil(lambda: window.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
+    drawn = window.canvas.viewport
+    assert drawn._faces is before  # nothing depends on quality, so no face is looked for anew
+    corners = drawn._points[drawn.mesh.hexes[chosen]]
+    assert not np.array_equal(drawn._points, window.document.start.mesh.points)
+    expected = corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)
+    np.testing.assert_allclose(drawn._whole.points, expected.reshape(-1, 3), atol=1e-12)
+
+
+def test_of_many_elements_those_in_sight_are_shrunk(window, qtbot, monkeypatch):
+    monkeypatch.setattr("hexmend_app.scene.skin.WHOLE", 500)
+    window.view.change(shrink=0.3)
+    layers = window.document.now.mesh.topology.layers
+    assert set(faces(window)) == set(np.flatnonzero(layers == 0))
+    boundary = np.count_nonzero(window.document.now.mesh.topology.face_neighbours < 0)
+    assert len(faces(window)) == boundary  # without their sides, until the view rests
+    qtbot.waitUntil(lambda: len(faces(window)) == 6 * np.count_nonzero(layers == 0), timeout=5000)
+    window.view.change(peel=2)
+    assert set(faces(window)) <= set(np.flatnonzero(layers >= 2))
+
+
+def test_a_smooth_cut_is_not_shrunk(window):
+    window.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
+    assert window.canvas.viewport._faces.shrink == 0
+    assert shown(window) == "1,000 of 1,000 elements shown, then cut"
+
+
+def test_the_outline_is_drawn_while_something_is_hidden_and_wanted(window):
+    actor, panel = window.canvas.viewport._outline._actor, window.inside_panel
+    assert not actor.GetVisibility()
+    window.view.change(peel=1)
+    assert actor.GetVisibility()
+    QTest.mouseClick(panel._outline, LEFT, pos=BOX)
+    assert not window.view.look.outline
+    assert not actor.GetVisibility()
+    QTest.mouseClick(panel._outline, LEFT, pos=BOX)
+    window.view.change(peel=0)
+    assert not actor.GetVisibility()
+
+
+def test_another_mesh_is_shown_whole(window, qtbot, tmp_path):
+    window.view.isolate([999], 1)
+    window.view.dig(998)
+    window.view.change(peel=4)
+    io.write(tmp_path / "small.vtu", gallery.make("cube", size=8))
+    with qtbot.waitSignals([window.opener.ended], timeout=20000):
+        window.open(tmp_path / "small.vtu")
+    assert window.view.look == Look()
+    assert shown(window) == "8 of 8 elements shown"
+    assert not window.inside_panel._peel.isEnabled()
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
+def test_nothing_is_cut_off(window, qtbot, size):
+    window.resize(*size)
+    window.view.isolate(range(500), 12)
+    for h in range(12):
+        window.view.dig(h)
+    qtbot.wait(50)
+    panel = window.inside_panel
+    parts = (panel._isolated, panel._dug, panel._shown, panel._all, panel._undo, panel._put_back, panel._outline)
+    for part in parts:
+        assert part.width() >= part.sizeHint().width(), part.text()
+        assert panel.rect().contains(part.geometry())
+    for box in (panel._peel._box, panel._shrink._box, panel._rings):
+        assert box.width() >= box.sizeHint().width() - 2

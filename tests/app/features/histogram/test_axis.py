@@ -1,0 +1,93 @@
+"""The axis of the histogram, for every metric."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.quality import METRICS, measure
+from hexmend_app.features.histogram.axis import Axis
+from hexmend_app.features.histogram.bins import distribute
+from hexmend_app.scene.values import within
+from hexmend_app.state.look import ValueRange
+from tests.core.grids import grid, scrambled
+
+MESHES = {"cubes": grid(3), "bent": scrambled(grid(4), 0.2), "tangled": scrambled(grid(4), 0.9), "flat": None}
+MESHES["flat"] = grid(2).with_points(grid(2).points * 0)
+
+
+@pytest.mark.parametrize("mesh", MESHES)
+@pytest.mark.parametrize("name", METRICS)
+def test_every_metric_has_an_axis_on_which_every_element_is_counted_once(name, mesh):
+    mesh = MESHES[mesh]
+    figures = measure(mesh.points, mesh.hexes)
+    values = METRICS[name].of(mesh.points, mesh.hexes, figures)
+    axis = Axis.fitted(name, values, figures.inverted)
+    assert math.isfinite(axis.low)
+    assert axis.low < axis.high < math.inf
+    part = distribute(values, figures.inverted, axis, 40)
+    assert part.inverted == figures.n_inverted
+    assert part.counts.sum() + part.inverted + part.below + part.above == mesh.n_hexes
+    assert part.cumulated().counts[-1] + part.above == mesh.n_hexes
+    marks = [place for place, _ in axis.ticks()]
+    assert axis.extent[0] < min(marks)
+    assert max(marks) < axis.extent[1]
+    assert len({text for _, text in axis.ticks()}) == len(marks) >= 4
+
+
+@pytest.mark.parametrize("name", [name for name, metric in METRICS.items() if math.isinf(metric.full_range[1])])
+def test_an_open_axis_spans_most_sound_elements_and_no_outlier(name):
+    rng = np.random.default_rng(2)
+    values = 1 + rng.gamma(2, 1, 5000) * 1e-3
+    values[:10] = 1e9
+    axis = Axis.fitted(name, values, np.zeros(5000, bool))
+    part = distribute(values, np.zeros(5000, bool), axis)
+    assert axis.high < 1.02
+    assert 10 <= part.above <= 100
+    assert part.below <= 50
+    assert (part.counts > 0).sum() > 15
+    assert dict(axis.ticks())[sum(axis.above) / 2].startswith("≥ ")
+
+
+def test_values_below_all_that_sound_elements_should_have_make_an_axis():
+    values = np.linspace(-2, -1, 20)  # a Jacobian at the centre, of elements whose corners are sound
+    part = distribute(values, np.zeros(20, bool), Axis.fitted("jacobian", values, np.zeros(20, bool)))
+    assert part.axis.low == 0 < part.axis.high
+    assert part.counts[0] == 20
+
+
+def test_inverted_elements_do_not_stretch_the_axis():
+    values = np.concatenate([np.linspace(1, 2, 100), np.full(100, 500.0)])
+    inverted = np.arange(200) >= 100
+    assert Axis.fitted("edge-ratio", values, inverted).high < 3
+    assert distribute(values, inverted, Axis.fitted("edge-ratio", values, inverted)).above <= 1
+
+
+@given(st.floats(1e-12, 1e9), st.floats(1.1, 100), st.floats(0, 1))
+def test_a_place_and_its_value_belong_together(size, ratio, place):
+    values = np.linspace(size, ratio * size, 200)
+    axis = Axis.fitted("volume", values, np.zeros(200, bool))
+    value = axis.value(place)
+    assert axis.place(value) == pytest.approx(place, abs=0.0101)
+    assert float(axis.text(value)) == pytest.approx(value, rel=1e-5, abs=axis.grain)
+
+
+def test_what_lies_beyond_the_ends_has_the_bounds_of_the_metric():
+    axis = Axis("condition", 1, 21, 4, open_high=True)
+    assert axis.value(sum(axis.above) / 2) == math.inf
+    assert axis.place(math.inf) == axis.above[1] == axis.reach[1]
+    assert axis.reach[0] == 0
+    jacobian = Axis("scaled-jacobian")
+    assert jacobian.value(sum(jacobian.inverted) / 2) == -1
+    assert jacobian.place(-1) == jacobian.reach[0] == jacobian.inverted[0]
+
+
+def test_a_range_to_the_end_of_the_metric_lets_rounding_pass():
+    values = np.array([1 + 2e-16, np.nextafter(1, 2), 0.5])
+    assert within(values, ValueRange("q", 0.9, 1.0)).tolist() == [True, True, False]
+    assert within(values, ValueRange("q", 0.0, 0.99)).tolist() == [False, False, True]
+    assert within(np.array([1.0, np.inf]), ValueRange("condition", 2, np.inf)).tolist() == [False, True]
+    with pytest.raises(ValueError, match="lower number first"):
+        ValueRange("q", 0.5, 0.4)

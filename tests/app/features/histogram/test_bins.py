@@ -1,0 +1,54 @@
+"""Counting by bins."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from hexmend_app.features.histogram.axis import Axis
+from hexmend_app.features.histogram.bins import BINS, distribute, round_up
+
+Q = Axis("q")
+_QUALITIES = arrays(np.float64, st.integers(0, 200), elements=st.floats(0, 1))
+
+
+@given(_QUALITIES, st.integers(0, 2**32 - 1))
+def test_every_element_is_counted_once(q, seed):
+    inverted = np.random.default_rng(seed).random(len(q)) < 0.3
+    part = distribute(q, inverted, Q)
+    assert part.counts.sum() + part.inverted == part.total == len(q)
+    assert part.inverted == inverted.sum()
+
+
+@pytest.mark.parametrize("bins", [10, BINS, 200])
+def test_bins_agree_with_numpys_histogram(bins):
+    q = np.random.default_rng(0).beta(5, 2, 5000)
+    part = distribute(q, np.zeros(5000, bool), Q, bins)
+    assert part.counts.tolist() == np.histogram(q, bins, (0, 1))[0].tolist()
+
+
+def test_a_cube_whose_quality_exceeds_one_by_rounding_is_counted_and_within():
+    part = distribute(np.array([1 + 2e-16, np.nextafter(1, 2)]), np.array([False, True]), Q)
+    assert part.counts[-1] == 1
+    assert part.within(0.9, 1.0) == (2, 1)
+    assert part.within(0.9, 0.99) == (0, 0)
+
+
+def test_lengths_must_agree():
+    with pytest.raises(ValueError, match="same length"):
+        distribute(np.zeros(3), np.zeros(2, bool), Q)
+
+
+@given(st.floats(1, 1e9))
+def test_a_rounded_top_is_not_less_and_less_than_twice(value):
+    assert value * (1 - 1e-9) <= round_up(value) <= 2 * value
+
+
+def test_what_lies_beyond_open_ends_is_counted_there():
+    axis = Axis("volume", 1.0, 2.0, 0.2, open_low=True, open_high=True)
+    values = np.array([-np.inf, 0.999999, 1.0, 1.999999, 2.0, np.inf, np.nan])
+    part = distribute(values, np.arange(7) == 6, axis, 10)
+    assert (part.below, part.counts.tolist(), part.above, part.inverted) == (2, [1, *[0] * 8, 1], 2, 1)
+    assert part.cumulated().counts.tolist() == [4] * 9 + [5]
+    assert (part.cumulated().below, part.cumulated().above) == (3, 7)

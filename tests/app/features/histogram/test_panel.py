@@ -1,0 +1,371 @@
+"""The histogram under the mouse."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QToolButton, QToolTip
+
+from hexmend.quality import METRICS
+from hexmend_app.features.histogram.axis import Axis
+from hexmend_app.features.histogram.panel import QualityHistogram
+from hexmend_app.state.look import ValueRange
+
+_LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def data():
+    """Quality and inversion of 2,000 elements."""
+    q = np.random.default_rng(3).beta(6, 2, 2000)
+    return q, q < 0.25
+
+
+@pytest.fixture
+def histogram(shown, data):
+    widget = shown(QualityHistogram(), height=360)
+    widget.set_initial(*data)
+    widget.set_current(data[0] ** 0.5, np.zeros(2000, bool))
+    QTest.qWait(20)
+    return widget
+
+
+@pytest.fixture
+def heard(histogram):
+    ranges = []
+    histogram.range_changed.connect(ranges.append)
+    return ranges
+
+
+def ends(chosen):
+    assert chosen.metric == "q"
+    return chosen.low, chosen.high
+
+
+def place(histogram, x):
+    """Point of the plot's viewport at q = x."""
+    view, plot = histogram._plot.view, histogram._plot.plot
+    middle = view.viewRect().center().y()
+    return plot.mapFromScene(view.mapViewToScene(QPointF(x, middle)))
+
+
+def drag(histogram, *stations):
+    """Press at the first q, move through the others in small moves, release at the last."""
+    viewport = histogram._plot.plot.viewport()
+
+    def send(kind, at, button, buttons):
+        event = QMouseEvent(kind, at, viewport.mapToGlobal(at), button, buttons, Qt.KeyboardModifier.NoModifier)
+        QApplication.sendEvent(viewport, event)
+
+    points = [QPointF(place(histogram, x)) for x in stations]
+    send(QEvent.Type.MouseButtonPress, points[0], _LEFT, _LEFT)
+    for start, end in pairwise(points):
+        for share in np.linspace(0, 1, 12)[1:]:
+            send(QEvent.Type.MouseMove, start + (end - start) * float(share), Qt.MouseButton.NoButton, _LEFT)
+            QTest.qWait(8)
+    send(QEvent.Type.MouseButtonRelease, points[-1], _LEFT, Qt.MouseButton.NoButton)
+    QTest.qWait(60)
+
+
+def test_dragging_over_the_plot_selects_the_range_under_it(histogram, heard, data):
+    drag(histogram, 0.3, 0.45)
+    assert heard[-1] == histogram.range()
+    low, high = ends(heard[-1])
+    assert (low, high) == pytest.approx((0.3, 0.45), abs=0.011)
+    now = data[0] ** 0.5
+    inside = np.count_nonzero((now >= low) & (now <= high))
+    assert histogram._text.text() == f"{inside} of 2,000 elements in {low:.2f} – {high:.2f}"
+
+
+def test_dragging_backwards_and_beyond_the_ends_stays_within_zero_and_one(histogram, heard):
+    drag(histogram, 0.5, -0.2)
+    assert ends(heard[-1]) == pytest.approx((0, 0.5), abs=0.011)
+    histogram.set_range(None)
+    drag(histogram, 0.7, 1.015)
+    assert ends(heard[-1]) == pytest.approx((0.7, 1), abs=0.011)
+
+
+def test_an_edge_moves_alone_and_the_inside_moves_the_range(histogram, heard):
+    histogram.set_range(ValueRange("q", 0.3, 0.5))
+    drag(histogram, 0.5, 0.7)
+    assert ends(heard[-1]) == pytest.approx((0.3, 0.7), abs=0.011)
+    drag(histogram, 0.45, 0.55)
+    assert ends(heard[-1]) == pytest.approx((0.4, 0.8), abs=0.021)
+    drag(histogram, 0.6, 1.0)
+    assert ends(heard[-1]) == pytest.approx((0.6, 1.0), abs=0.021)  # keeps its width at the wall
+
+
+def test_the_range_is_announced_while_dragged_but_not_at_every_move(histogram, heard):
+    drag(histogram, 0.2, 0.9, 0.4, 0.8)
+    assert 2 < len(heard) < 33
+    assert heard[-1] == histogram.range()
+
+
+def test_a_double_click_shows_all_again(histogram, heard):
+    histogram.set_range(ValueRange("q", 0.3, 0.5))
+    # Through the window, which makes of the second press what a mouse would.
+    at = histogram._plot.plot.viewport().mapTo(histogram, place(histogram, 0.8))
+    QTest.mouseDClick(histogram.windowHandle(), _LEFT, pos=at)
+    QTest.qWait(40)
+    assert histogram.range() is None
+    assert heard == [None]
+
+
+def test_the_button_shows_all_again(histogram, heard):
+    histogram.set_range(ValueRange("q", 0.3, 0.5))
+    QTest.mouseClick(histogram.ends.all, _LEFT)
+    assert heard == [None]
+    assert not histogram.ends.all.isEnabled()
+
+
+def test_the_keyboard_reaches_the_same_range(histogram, heard):
+    box = histogram.ends.low.lineEdit()
+    box.setFocus()
+    box.selectAll()
+    QTest.keyClicks(box, "0.4")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert heard == [ValueRange("q", 0.4, 1.0)]
+    QTest.keyClick(histogram.ends.high, Qt.Key.Key_Down)
+    QTest.qWait(60)
+    assert heard[-1] == ValueRange("q", 0.4, 0.99)
+
+
+def test_setters_are_silent(histogram, heard, data):
+    histogram.set_range(ValueRange("q", 0.1, 0.2))
+    histogram.set_current(*data)
+    histogram.set_range(None)
+    histogram.clear()
+    QTest.qWait(60)
+    assert heard == []
+    assert histogram._text.text() == "No mesh is open."
+
+
+def test_a_set_range_withdraws_one_that_waits_to_be_announced(histogram, heard):
+    histogram._plot.view.brushed.emit((0.1, 0.2))
+    histogram._plot.view.brushed.emit((0.1, 0.3))  # waits for its turn
+    histogram.set_range(None)
+    QTest.qWait(60)
+    assert heard == [ValueRange("q", 0.1, 0.2)]
+
+
+def test_hovering_tells_the_counts_then_and_now(histogram, data):
+    q, inverted = data
+    then = np.count_nonzero((q >= 0.5) & (q < 0.52) & ~inverted)
+    now = np.count_nonzero((q**0.5 >= 0.5) & (q**0.5 < 0.52))
+    assert then != now
+    text = histogram.describe_at(0.511)
+    assert "0.50 – 0.52" in text
+    assert f"at the start: {then} element" in text
+    assert f"now: {now} element" in text
+    apart = histogram.describe_at(sum(Axis("q").inverted) / 2)
+    assert apart == f"inverted\nat the start: {inverted.sum()} elements\nnow: 0 elements"
+    assert histogram.describe_at(-0.05) == histogram.describe_at(1.01) == ""
+
+
+def test_inverted_elements_in_the_range_are_told(histogram, data):
+    histogram.set_current(*data)
+    histogram.set_range(ValueRange("q", 0.0, 1.0))
+    assert histogram._text.text().endswith(f"{data[1].sum()} of them inverted")
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_the_largest_count_is_in_sight_on_both_scales(histogram, scale):
+    QTest.mouseClick(histogram.head.scale.button(scale), _LEFT)
+    for count in (10, 900, 50):
+        q = np.concatenate([np.full(count, 0.5), [0.1]])
+        histogram.set_initial(q, np.zeros(len(q), bool))
+        histogram.set_current(q, np.zeros(len(q), bool))
+        low, high = histogram._plot.plot.viewRange()[1]
+        height = float(histogram._plot.heights(histogram.series()[0].part, count))
+        assert low < height < high
+        assert (height - low) / (high - low) > 0.35
+
+
+def test_it_has_neither_menu_nor_buttons_and_does_not_zoom(histogram):
+    plot = histogram._plot.plot
+    assert not plot.getPlotItem().menuEnabled()
+    assert plot.getPlotItem().buttonsHidden
+    before = plot.viewRange()
+    QTest.mouseClick(plot.viewport(), Qt.MouseButton.RightButton, pos=place(histogram, 0.5))
+    assert QApplication.activePopupWidget() is None
+    assert plot.viewRange() == before
+
+
+@pytest.fixture
+def condition(histogram):
+    """The histogram with another metric in it: (values, inverted) now."""
+    rng = np.random.default_rng(5)
+    values, inverted = 1 + rng.gamma(2, 1, 2000), rng.random(2000) < 0.1
+    values[inverted] = np.inf
+    histogram.set_metric("condition")
+    histogram.set_initial(values, inverted)
+    histogram.set_current(values, inverted)
+    return values, inverted
+
+
+def test_another_metric_is_brushed_to_its_end_and_beyond(histogram, heard, condition):
+    values, inverted = condition
+    axis = histogram.axis
+    drag(histogram, 0.5, sum(axis.above) / 2)
+    low = axis.low + 0.5 * (axis.high - axis.low)
+    assert heard[-1] == histogram.range()
+    assert (heard[-1].metric, heard[-1].high) == ("condition", np.inf)
+    assert heard[-1].low == pytest.approx(low, abs=0.03 * low)
+    inside = np.count_nonzero(values >= heard[-1].low)
+    assert histogram._text.text().startswith(f"{inside:,} of 2,000 elements from {axis.text(heard[-1].low)}, ")
+    assert histogram._text.text().endswith(f"{inverted.sum()} of them inverted")
+    assert histogram.ends.high.text() == "∞"
+
+
+def test_numbers_of_another_metric_are_typed_in_any_notation(histogram, heard, condition):
+    for box, text in ((histogram.ends.low, "2.5e0"), (histogram.ends.high, "4"), (histogram.ends.high, "inf")):
+        box.setFocus()
+        box.selectAll()
+        QTest.keyClicks(box, text)
+        QTest.keyClick(box, Qt.Key.Key_Return)
+        QTest.qWait(50)
+    expected = [(2.5, np.inf), (2.5, 4.0), (2.5, np.inf)]
+    assert heard == [ValueRange("condition", *ends) for ends in expected]
+    QTest.keyClick(histogram.ends.high, Qt.Key.Key_Down)  # from infinity back to the axis
+    QTest.qWait(50)
+    assert heard[-1].high == histogram.axis.high
+    box = histogram.ends.low
+    box.selectAll()
+    QTest.keyClicks(box, "1e-")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert histogram.range().low == 2.5  # not finished: given up
+
+
+def test_a_range_of_another_metric_is_not_shown(histogram, heard, condition):
+    histogram.set_range(ValueRange("q", 0.1, 0.2))
+    assert histogram.range() is None
+    assert not histogram.ends.all.isEnabled()
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_every_metric_fits_into_a_narrow_dock(histogram, name):
+    histogram.set_metric(name)
+    histogram.set_initial(np.linspace(1e-6, 3.456e-5, 2000), np.zeros(2000, bool))
+    assert histogram.minimumSizeHint().width() <= 322
+    histogram.resize(322, 268)
+    QTest.qWait(20)
+    for part in (*histogram.ends._rest, histogram.head.metric, histogram.head.scale, histogram.head.more):
+        right = part.mapTo(histogram, part.rect().topRight()).x()
+        assert 0 < right < 322
+        assert part.width() >= part.minimumSizeHint().width()
+
+
+def test_inverted_elements_stand_apart_whatever_the_metric(histogram):
+    values, inverted = np.linspace(1.0, 1.4, 2000), np.arange(2000) % 4 == 0
+    for name in METRICS:
+        histogram.set_metric(name)
+        histogram.set_initial(values, inverted)
+        histogram.set_current(values, inverted)
+        assert histogram.describe_at(sum(histogram.axis.inverted) / 2).endswith("now: 500 elements")
+        assert "inverted" in dict(histogram.axis.ticks()).values()
+
+
+def test_bins_are_chosen_in_the_head_and_in_the_menu(histogram, data):
+    histogram.resize(700, 360)
+    QTest.qWait(20)
+    bins = histogram.head.bins
+    assert bins.isVisible()
+    bins.setFocus()
+    QTest.keyClick(bins, Qt.Key.Key_Up)
+    assert len(histogram.series()[0].part.counts) == 60
+    assert len(histogram._plot._outlines["now"]._curve.yData) == 60
+    numbers = {action.text(): action for action in histogram.head._numbers.actions()}
+    numbers["200"].trigger()
+    assert bins.value() == 200
+    assert numbers["200"].isChecked()
+    assert histogram.series()[0].part.counts.tolist() == np.histogram(data[0][~data[1]], 200, (0, 1))[0].tolist()
+    assert "q(H) 0.510 – 0.515" in histogram.describe_at(0.511)
+
+
+def cumulative_button(histogram):
+    histogram.resize(700, 360)
+    QTest.qWait(20)
+    (button,) = (b for b in histogram.findChildren(QToolButton) if b.text() == "Cumulative")
+    return button
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_cumulative_shares_begin_with_the_inverted_and_end_at_all(histogram, data, scale):
+    q, inverted = data
+    QTest.mouseClick(histogram.head.scale.button(scale), _LEFT)
+    QTest.mouseClick(cumulative_button(histogram), _LEFT)
+    histogram.set_current(*data)
+    share = 100 * (inverted.sum() + np.count_nonzero(~inverted & (q < 0.52))) / 2000
+    text = histogram.describe_at(0.511)
+    assert text.startswith("inverted, or q(H) up to 0.52\n")
+    assert f"now: {share:.4g} %, " in text
+    assert "now: 100 %, 2,000 elements" in histogram.describe_at(0.99)
+    curve = histogram._plot._outlines["now"]._curve.yData
+    assert curve[-1] == (2.0 if scale == "log" else 100)
+    assert np.diff(curve).min() >= 0
+    assert histogram._plot._number.toPlainText() == f"{inverted.mean() * 100:.3g} %"
+    low, high = histogram._plot.plot.viewRange()[1]
+    assert low <= curve[0] < curve[-1] < high
+    QTest.mouseClick(cumulative_button(histogram), _LEFT)
+    assert histogram._plot._outlines["now"]._curve.yData.max() < (3 if scale == "log" else 200)
+
+
+def test_what_is_kept_is_drawn_named_renamed_and_removed(histogram, data):
+    wishes = []
+    histogram.renamed.connect(lambda *wish: wishes.append(wish))
+    histogram.removed.connect(lambda slot: wishes.append(slot))
+    half = data[0] / 2, np.zeros(2000, bool)
+    kept = [(0, "laplacian 5", *half), (3, "now", *data)]
+    histogram.set_kept(kept)
+    QTest.qWait(30)
+    assert [one.name for one in histogram.series()] == ["at the start", "now", "laplacian 5", "now"]
+    assert len({one.colour for one in histogram.series()}) == 4
+    assert len(histogram._plot._outlines) == 4
+    assert f"laplacian 5: {np.count_nonzero((half[0] >= 0.24) & (half[0] < 0.26))} " in histogram.describe_at(0.25)
+    name = histogram.legend.entries[0].name
+    assert name.text() == "laplacian 5"
+    QTest.mouseClick(name, _LEFT)
+    name.selectAll()
+    QTest.keyClicks(name, "Laplace")
+    QTest.keyClick(name, Qt.Key.Key_Return)
+    QTest.mouseClick(histogram.legend.entries[3].cross, _LEFT)
+    assert wishes == [(0, "Laplace"), 3]
+    histogram.set_kept(kept[:1])
+    QTest.qWait(30)
+    assert list(histogram.legend.entries) == [0]
+    assert len(histogram._plot._outlines) == 3
+
+
+def test_an_empty_name_is_no_name(histogram, data):
+    wishes = []
+    histogram.renamed.connect(lambda *wish: wishes.append(wish))
+    histogram.set_kept([(1, "mend 4", *data)])
+    QTest.qWait(30)
+    name = histogram.legend.entries[1].name
+    QTest.mouseClick(name, _LEFT)
+    name.selectAll()
+    QTest.keyClick(name, Qt.Key.Key_Backspace)
+    QTest.keyClick(name, Qt.Key.Key_Return)
+    assert wishes == []
+    assert name.text() == "mend 4"
+
+
+def test_the_tooltip_over_the_plot_counts_all_that_is_drawn(histogram, data):
+    histogram.set_kept([(0, "laplacian 5", *data)])
+    QTest.qWait(30)
+    viewport = histogram._plot.plot.viewport()
+    for x in (0.3, 0.705):  # a tooltip comes as the mouse moves
+        QTest.mouseMove(viewport, place(histogram, x))
+        QTest.qWait(60)
+    assert QToolTip.text() == histogram.describe_at(0.705)
+    assert [row.partition(":")[0] for row in QToolTip.text().splitlines()[1:]] == ["at the start", "now", "laplacian 5"]
+
+
+def test_the_axis_holds_still_while_values_change(histogram, condition):
+    before = histogram.axis, histogram._plot.plot.viewRange()[0]
+    for share in (0.5, 0.2, 5.0):
+        histogram.set_current(1 + share * np.linspace(0, 9, 2000), np.zeros(2000, bool))
+        assert (histogram.axis, histogram._plot.plot.viewRange()[0]) == before

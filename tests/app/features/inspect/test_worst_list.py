@@ -1,0 +1,119 @@
+"""The list of the worst elements."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QPushButton, QTableView
+
+from hexmend.quality import measure
+from hexmend_app.features.inspect.worst_list import MOST, WorstList
+from tests.core.grids import grid, scrambled
+
+MESH = scrambled(grid(11), 0.7, 4)
+FIGURES = measure(MESH.points, MESH.hexes)
+
+
+@pytest.fixture
+def worst_list(qtbot):
+    widget = WorstList()
+    qtbot.addWidget(widget)
+    widget.resize(600, 300)
+    widget.show()
+    widget.set_figures(MESH, FIGURES)
+    return widget
+
+
+def button(widget, text):
+    return next(b for b in widget.findChildren(QPushButton) if b.accessibleName() == text)
+
+
+def row_at(widget, row):
+    table = widget.findChild(QTableView)
+    return table.viewport(), table.visualRect(table.model().index(row, 0)).center()
+
+
+def test_inverted_elements_come_first_and_the_list_is_bounded(worst_list):
+    elements = worst_list.elements
+    assert len(elements) == min(MOST, MESH.n_hexes)
+    assert FIGURES.inverted[elements[0]]
+    sound = ~FIGURES.inverted[elements]
+    assert (np.diff(sound.astype(int)) >= 0).all()
+    metric = worst_list.findChild(QComboBox)
+    metric.setCurrentIndex(metric.findData("scaled-jacobian"))
+    assert (np.diff(FIGURES.scaled_jacobian[worst_list.elements]) >= 0).all()
+
+
+def test_a_click_on_a_row_chooses_its_element(worst_list, qtbot):
+    viewport, place = row_at(worst_list, 2)
+    with qtbot.waitSignal(worst_list.chosen) as chosen:
+        QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
+    assert chosen.args == [worst_list.elements[2]]
+
+
+def test_next_and_previous_walk_from_what_is_selected_and_round_the_ends(worst_list):
+    heard = []
+    worst_list.chosen.connect(heard.append)
+    worst_list.chosen.connect(worst_list.set_selected)
+    for text in ("Next", "Next", "Previous", "Previous"):
+        QTest.mouseClick(button(worst_list, text), Qt.MouseButton.LeftButton)
+    elements = worst_list.elements.tolist()
+    assert heard == [elements[0], elements[1], elements[0], elements[-1]]
+
+
+def test_the_selected_row_follows_its_element_when_the_mesh_moves(worst_list):
+    element = int(worst_list.elements[5])
+    worst_list.set_selected(element)
+    better = scrambled(grid(11), 0.5, 4)
+    worst_list.set_figures(better, measure(better.points, better.hexes))
+    row = worst_list.findChild(QTableView).currentIndex().row()
+    listed = worst_list.elements.tolist()
+    assert (listed[row] == element) if element in listed else row == -1
+
+
+def test_what_cannot_be_seen_is_made_when_it_is_shown(qtbot):
+    widget = WorstList()
+    qtbot.addWidget(widget)
+    widget.set_figures(MESH, FIGURES)
+    assert widget.findChild(QTableView).model().rowCount() == 0
+    widget.show()
+    assert widget.findChild(QTableView).model().rowCount() == min(MOST, MESH.n_hexes)
+
+
+def test_the_list_as_a_table_reads_back(worst_list):
+    lines = worst_list.text().splitlines()
+    assert lines[0] == "element,q,scaled-jacobian,state"
+    number, q, jacobian, state = lines[1].split(",")
+    assert int(number) == worst_list.elements[0]
+    assert float(q) == FIGURES.q[int(number)]
+    assert float(jacobian) == FIGURES.scaled_jacobian[int(number)]
+    assert state == "inverted"
+
+
+def test_without_a_mesh_nothing_can_be_pressed(qtbot):
+    widget = WorstList()
+    qtbot.addWidget(widget)
+    assert not any(b.isEnabled() for b in widget.findChildren(QPushButton))
+    widget.next()  # harmless
+    assert widget.text() == "element,q,scaled-jacobian,state\n"
+
+
+def test_enter_and_a_double_click_choose_the_row_again(worst_list):
+    viewport, place = row_at(worst_list, 1)
+    QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
+    heard = []
+    worst_list.chosen.connect(heard.append)
+    element = worst_list.elements[1]
+    QTest.keyClick(worst_list.findChild(QTableView), Qt.Key.Key_Return)
+    assert heard == [element]
+    QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, pos=place)
+    assert heard == [element, element]
+
+
+def test_the_focus_alone_chooses_nothing(worst_list, qtbot):
+    with qtbot.waitActive(worst_list):
+        worst_list.activateWindow()
+    heard = []
+    worst_list.chosen.connect(heard.append)
+    worst_list.findChild(QTableView).setFocus(Qt.FocusReason.TabFocusReason)
+    assert heard == []

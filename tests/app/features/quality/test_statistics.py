@@ -1,0 +1,125 @@
+"""The table of figures."""
+
+import dataclasses
+from types import SimpleNamespace
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QGuiApplication
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QMenu
+
+from hexmend.quality.summary import Summary
+from hexmend_app.features.quality.statistics import ROWS, StatisticsTable, change
+from hexmend_app.widgets.style import BETTER, MUTED, WORSE
+
+_START = {
+    "hexes": 32735,
+    "nodes": 37473,
+    "free_nodes": 28317,
+    "inverted": 36,
+    "locked_inverted": 0,
+    "q_min": 0.0123456789,
+    "q_mean": 0.85,
+    "q_max": 0.99,
+    "q_std": 0.1,
+    "q_norm": 0.0,
+    "scaled_jacobian_min": -0.5,
+    "objective": None,
+}
+_NOW = _START | {
+    "inverted": 0,
+    "q_min": 0.5,
+    "q_mean": 0.8,
+    "q_norm": 0.7,
+    "q_std": 0.05,
+    "scaled_jacobian_min": 0.3,
+    "objective": 9.5,
+}
+_AT = {row.key: at for at, row in enumerate(ROWS)}
+
+
+@pytest.fixture
+def table(shown):
+    widget = shown(StatisticsTable())
+    widget.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW))
+    return widget
+
+
+def cell(table, key, column):
+    return table._table.item(_AT[key], column)
+
+
+def test_every_figure_of_a_summary_but_the_trivial_has_a_row():
+    assert {row.key for row in ROWS} == {field.name for field in dataclasses.fields(Summary)} - {"q_max"}
+
+
+def test_figures_are_right_aligned_with_what_they_were_and_are(table):
+    assert [cell(table, "inverted", column).text() for column in range(4)] == ["Inverted", "36", "0", "▼ 36"]
+    assert cell(table, "hexes", 1).text() == "32,735"
+    assert cell(table, "objective", 1).text() == "–"
+    for key in _AT:
+        assert all(cell(table, key, c).textAlignment() & Qt.AlignmentFlag.AlignRight for c in (1, 2, 3))
+
+
+@pytest.mark.parametrize(
+    ("key", "colour"),
+    [("inverted", BETTER), ("q_min", BETTER), ("q_mean", WORSE), ("q_std", MUTED), ("hexes", MUTED)]
+    + [("objective", BETTER), ("scaled_jacobian_min", BETTER)],
+)
+def test_changes_have_the_colour_of_their_sense(table, key, colour):
+    assert cell(table, key, 3).foreground().color() == QColor(str(colour))
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS if row.better])
+def test_the_reverse_of_a_change_has_the_reverse_sense_and_arrow(row):
+    there, back = change(row, 0.25, 0.5), change(row, 0.5, 0.25)
+    assert there == ("▲ 0.2500", row.better)
+    assert back == ("▼ 0.2500", -row.better)
+    assert change(row, 0.5, 0.5) == ("=", 0)
+    assert change(row, 0.5, 0.5 + 1e-9)[0] == "▲ <0.0001"
+
+
+def test_every_row_explains_itself(table):
+    for row in ROWS:
+        assert row.help in cell(table, row.key, 0).toolTip()
+    assert "infinite" in cell(table, "objective", 1).toolTip()
+
+
+def test_control_c_copies_full_precision_for_a_spreadsheet(table):
+    table._table.setFocus()
+    QTest.keyClick(table._table, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    lines = [line.split("\t") for line in QGuiApplication.clipboard().text().splitlines()]
+    assert len(lines) == len(ROWS) + 1
+    assert all(len(line) == 3 for line in lines)
+    by_title = {line[0]: line[1:] for line in lines}
+    assert by_title["q min"] == ["0.0123456789", "0.5"]
+    assert by_title["Hexes"] == ["32735", "32735"]
+    assert by_title["Objective"] == ["", "9.5"]
+
+
+def test_the_context_menu_copies(table, qtbot):
+    QGuiApplication.clipboard().setText("before")
+    table._table.customContextMenuRequested.emit(table._table.viewport().rect().center())
+    menu = QApplication.activePopupWidget()
+    assert isinstance(menu, QMenu)
+    QTest.keyClick(menu, Qt.Key.Key_Down)
+    QTest.keyClick(menu, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: QGuiApplication.clipboard().text() == table.text())
+
+
+def test_nothing_is_cut_off_in_a_narrow_panel(table):
+    assert table.sizeHint().width() <= 360
+    table.resize(table.sizeHint())
+    QTest.qWait(10)
+    view = table._table
+    for at in range(view.rowCount()):
+        for column in range(view.columnCount()):
+            need = view.fontMetrics().horizontalAdvance(view.item(at, column).text())
+            assert need < view.columnWidth(column)
+    assert view.verticalScrollBar().maximum() == view.horizontalScrollBar().maximum() == 0
+
+
+def test_no_mesh_clears_the_figures(table):
+    table.set_summaries(None, None)
+    assert all(cell(table, key, column).text() == "" for key in _AT for column in (1, 2, 3))

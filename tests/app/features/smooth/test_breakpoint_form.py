@@ -1,0 +1,34 @@
+"""The form for what a run pauses at, without a run."""
+
+import pytest
+
+from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
+from hexmend_app.state.breakpoints import Breakpoints
+
+
+@pytest.mark.parametrize(
+    "breakpoints",
+    [
+        Breakpoints(),
+        Breakpoints(inverts=True, q_min_falls=True),
+        Breakpoints(node=3, move=0.25),
+        Breakpoints(hex=7, change=0.5, cuts=9),
+    ],
+)
+def test_what_is_set_is_told_and_read_back(qtbot, breakpoints):
+    form = BreakpointForm()
+    qtbot.addWidget(form)
+    form.set_mesh(10, 20)
+    with qtbot.waitSignal(form.changed) as told:
+        form.set_breakpoints(breakpoints)
+    assert told.args == [breakpoints]
+    assert form.breakpoints() == breakpoints
+
+
+def test_another_mesh_has_nothing_watched_but_what_is_meant_of_any(qtbot):
+    form = BreakpointForm()
+    qtbot.addWidget(form)
+    form.set_mesh(10, 20)
+    form.set_breakpoints(Breakpoints(inverts=True, node=19, hex=9))
+    form.set_mesh(5, 6)
+    assert form.breakpoints() == Breakpoints(inverts=True)

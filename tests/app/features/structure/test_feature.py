@@ -1,0 +1,267 @@
+"""The structure of a mesh in the window: found beside it, counted in the panel, shown by mouse and keys."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import pyvista as pv
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel, QLineEdit
+
+from hexmend import gallery, io
+from hexmend.mesh import Mesh
+from hexmend.structure import structure
+from hexmend_app.features.structure.structure_panel import StructurePanel
+from hexmend_app.scene.layers.structure import LOCKED, PINNED, SHARP, VALENCES
+from hexmend_app.shell.palette import CommandPalette
+from hexmend_app.shell.program import application
+from hexmend_app.state.document import State
+from hexmend_app.state.look import Look, Structure
+from tests.app.driving import LEFT, click, open_and_wait
+from tests.app.driving import pixels as drawn
+from tests.core.grids import grid
+from tests.core.test_structure import tetrahedron
+from tests.patience import PATIENCE
+
+KEYS = {"irregular": "S", "boundary": "B", "sharp": "H", "fixed": "X", "free": "M", "locked": "L"}
+
+
+@pytest.fixture
+def panel(qtbot):
+    application()
+    panel = StructurePanel()
+    qtbot.addWidget(panel)
+    panel.resize(330, panel.sizeHint().height())
+    panel.show()
+    qtbot.waitExposed(panel)
+    return panel
+
+
+@pytest.fixture
+def five(window, qtbot, tmp_path):
+    """The window with a mesh of five blocks in it."""
+    io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500))
+    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
+        open_and_wait(qtbot, window, tmp_path / "five.vtu")
+    return window
+
+
+def press(box):
+    QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
+
+
+def texts(panel, name):
+    """What stands beside a layer."""
+    QTest.qWait(10)  # until what stood there before is gone
+    return [label.text() for label in panel._layers[name].entries.findChildren(QLabel)]
+
+
+def pixels(window):
+    """A fast frame: a fine one has other edges."""
+    window.canvas.viewport.moving()
+    return drawn(window)
+
+
+def count(image, colour):
+    return int((image == np.array(pv.Color(colour).int_rgb)).all(axis=2).sum())
+
+
+# The panel
+
+
+def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
+    assert texts(panel, "irregular") == []
+    panel.set_found(None)
+    panel.set_nodes(8, 1, 3, 2)
+    assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked"]
+    assert texts(panel, "irregular") == ["counting…"]
+    assert "Being counted" in panel._layers["sharp"].box.toolTip()
+    assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
+    assert texts(panel, "locked") == ["of 2 locked elements"]
+
+
+def test_edges_are_counted_by_valence(panel):
+    panel.set_found(structure(tetrahedron()))
+    assert texts(panel, "irregular") == ["4 of 3", "1 node"]
+    assert "120° at three" in panel._layers["irregular"].box.toolTip()
+    mesh = grid(8)
+    p = mesh.points / 4 - 1
+    size = np.maximum(np.linalg.norm(p, axis=1, keepdims=True), 1e-9)
+    panel.set_found(structure(Mesh(p * np.abs(p).max(axis=1, keepdims=True) / size, mesh.hexes)))
+    assert texts(panel, "boundary") == [f"{12 * 8} of 1"]
+
+
+def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off(panel):
+    panel.set_found(structure(grid(2)))
+    panel.set_nodes(26, 0, 1, 0)
+    assert panel.offered() == {
+        "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
+    }  # fmt: skip
+    assert texts(panel, "irregular") == ["none"]
+    assert "four elements share every edge" in panel._layers["irregular"].box.toolTip()
+    heard = []
+    panel.structure_changed.connect(heard.append)
+    press(panel._layers["irregular"].box)
+    assert heard == []
+    panel.set_structure(Structure(irregular=True))
+    press(panel._layers["irregular"].box)
+    assert heard == [Structure()]
+    assert not panel.offered()["irregular"]
+
+
+def test_a_click_chooses_one_layer_more(panel):
+    panel.set_found(structure(grid(2)))
+    heard = []
+    panel.structure_changed.connect(heard.append)
+    panel.set_structure(Structure(locked=True))
+    press(panel._layers["sharp"].box)
+    press(panel._layers["sharp"].box)
+    assert heard == [Structure(sharp=True, locked=True), Structure(locked=True)]
+
+
+# The window
+
+
+@pytest.mark.parametrize("name", ["irregular", "sharp", "fixed", "free"])
+def test_a_key_shows_and_hides_a_layer(five, name):
+    before = pixels(five)
+    box = five.structure_panel._layers[name].box
+    QTest.keyClick(five.windowHandle(), KEYS[name])
+    assert five.view.look.structure == Structure(**{name: True})
+    assert box.isChecked()
+    assert five.actions_by_id[f"show_{name}"].isChecked()
+    if name != "free":  # of which none is in sight
+        assert (np.abs(pixels(five) - before).sum(axis=2) > 60).sum() > 100
+    QTest.keyClick(five.windowHandle(), KEYS[name])
+    assert five.view.look == Look()
+    np.testing.assert_array_equal(pixels(five), before)
+
+
+def test_a_mesh_without_them_offers_no_irregular_edges(five):
+    assert not five.actions_by_id["show_boundary"].isEnabled()
+    assert not five.actions_by_id["show_locked"].isEnabled()
+    QTest.keyClick(five.windowHandle(), KEYS["boundary"])
+    assert five.view.look.structure == Structure()
+
+
+def test_irregular_edges_are_found_by_name_and_seen(five, qtbot):
+    five.actions_by_id["commands"].trigger()
+    field = five.findChild(CommandPalette).findChild(QLineEdit)
+    QTest.keyClicks(field, "irregular edges inside")
+    QTest.keyClick(field, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: five.view.look.structure.irregular, timeout=2000)
+    assert count(pixels(five), VALENCES[5]) > 100
+
+
+def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five, qtbot, tmp_path):
+    QTest.keyClick(five.windowHandle(), KEYS["sharp"])
+    QTest.keyClick(five.windowHandle(), KEYS["irregular"])
+    io.write(tmp_path / "cube.vtu", grid(3))
+    with qtbot.waitSignal(five.finder.found, timeout=20000):
+        open_and_wait(qtbot, five, tmp_path / "cube.vtu")
+        assert five.finder.structure is None
+        assert not five.canvas.viewport.look.structure.edges  # the view does not wait for them
+    qtbot.wait(10)
+    assert five.canvas.viewport.look.structure == Structure(irregular=True, sharp=True)
+    assert texts(five.structure_panel, "sharp") == ["36"]
+    assert five.structure_panel._layers["irregular"].box.isEnabled()  # to be switched off
+    assert count(pixels(five), SHARP) > 300
+    assert count(pixels(five), VALENCES[5]) == 0
+
+
+def test_marks_follow_a_smoother(window, qtbot, tmp_path):
+    io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
+    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
+        open_and_wait(qtbot, window, tmp_path / "five.vtu")
+    press(window.structure_panel._layers["irregular"].box)
+    marks = window.canvas.viewport._structure._irregular_inside
+    before = np.array(marks._poly.points)
+    start = window.document.now
+    window.smoothing_panel.set_method("laplacian")
+    click(window, "Step")
+    qtbot.waitUntil(lambda: window.document.now is not start, timeout=PATIENCE)
+    now = np.array(marks._poly.points)
+    assert not np.array_equal(now, before)
+    np.testing.assert_array_equal(now, window.document.now.mesh.points[marks._nodes])
+
+
+def test_a_pinned_node_changes_its_colour(five, qtbot):
+    press(five.structure_panel._layers["fixed"].box)
+    inside = int(np.flatnonzero(five.document.now.mesh.free)[0])
+    five.view.change(peel=1)
+    assert count(pixels(five), PINNED) == 0
+    visible = five.canvas.viewport._faces.nodes
+    inside = int(visible[five.document.now.mesh.free[visible]][0])
+    five.commands.pin(inside, True)
+    qtbot.wait(20)
+    assert texts(five.structure_panel, "fixed")[1] == "1 pinned"
+    nodes = five.canvas.viewport._structure._nodes._poly
+    assert (nodes.cell_data["colours"] == pv.Color(PINNED).int_rgb).all(axis=1).sum() == 1
+    five.commands.undo()
+    qtbot.wait(20)
+    assert len(texts(five.structure_panel, "fixed")) == 1
+
+
+def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
+    mesh = grid(3)
+    points = mesh.points.copy()
+    points[15] += [-1.5, 0, 0]
+    io.write(tmp_path / "locked.vtu", Mesh(points, mesh.hexes))
+    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
+        open_and_wait(qtbot, window, tmp_path / "locked.vtu")
+    QTest.keyClick(window.windowHandle(), KEYS["locked"])
+    assert count(pixels(window), LOCKED) > 20
+    from PIL import Image
+
+    assert window.saving.picture(tmp_path / "locked.png", (640, 480))
+    image = np.asarray(Image.open(tmp_path / "locked.png").convert("RGB")).astype(int)
+    assert count(image, LOCKED) > 20
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
+def test_nothing_is_cut_off(five, qtbot, size):
+    five.resize(*size)
+    panel = five.structure_panel
+    panel.set_nodes(1_234_567, 12_345, 1_234_567, 12_345)
+    five.view.change(structure=Structure(irregular=True))
+    found = structure(tetrahedron())
+    valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
+    panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))
+    qtbot.wait(50)
+    for layer in panel._layers.values():
+        assert layer.box.width() >= layer.box.sizeHint().width()
+        for label in layer.entries.findChildren(QLabel):
+            if label.isVisible():
+                assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
+    assert panel.mapTo(five, panel.rect().bottomRight()).x() < size[0]
+
+
+def begin_searching(window):
+    """Not waited for: a small mesh's search may be over between two looks at it."""
+    window.finder._soon.stop()
+    window.finder._begin()
+    assert window.finder._finding is not None
+
+
+@pytest.mark.parametrize("searching", [False, True])
+def test_closing_before_it_is_found_leaves_no_thread(window, qtbot, mesh_file, searching):
+    if window.finder.structure is None:
+        qtbot.waitSignal(window.finder.found, timeout=PATIENCE).wait()
+    window.document.replace(window.document.start, mesh_file)
+    if searching:
+        begin_searching(window)
+    window.close()
+    qtbot.wait(150)
+    assert window.finder._finding is None
+    assert window.finder.structure is None
+
+
+def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(window, qtbot):
+    first, last = State.of(gallery.make("five-side", size=30_000)), State.of(grid(2))
+    window.document.replace(first, None)
+    begin_searching(window)
+    window.document.replace(last, None)
+    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
+        pass
+    assert len(window.finder.structure.sharp) == 24

@@ -1,0 +1,44 @@
+"""The camera that a box just fills the picture of."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend_app.scene.camera.fitting import fit
+
+DIRECTIONS = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.hypot(v[0], v[1]) > 0.01)
+SIZES = st.tuples(*[st.floats(0.01, 100)] * 3)
+
+
+def corners_seen(direction, size, aspect, parallel):
+    """Where the corners of a box lie in the picture, which reaches from -1 to 1, after `fit`; (8, 2)."""
+    low = np.array([3.0, -7.0, 11.0])
+    camera = pv.Camera()
+    camera.SetFocalPoint(low + np.array(size) / 2)
+    camera.SetPosition(low + np.array(size) / 2 + direction)
+    camera.SetViewUp(0, 0, 1)
+    camera.SetParallelProjection(parallel)
+    fit(camera, tuple(np.column_stack([low, low + size]).ravel()), aspect)
+    corners = low + np.indices((2, 2, 2)).reshape(3, 8).T * size
+    matrix = pv.array_from_vtkmatrix(camera.GetCompositeProjectionTransformMatrix(aspect, -1, 1))
+    seen = np.column_stack([corners, np.ones(8)]) @ matrix.T
+    assert (seen[:, 3] > 0).all()  # none behind the camera
+    return seen[:, :2] / seen[:, 3:]
+
+
+@given(DIRECTIONS, SIZES, st.floats(0.2, 5), st.booleans())
+def test_the_box_is_seen_whole_and_reaches_two_opposite_sides(direction, size, aspect, parallel):
+    seen = corners_seen(direction, size, aspect, parallel)
+    assert np.abs(seen).max() == pytest.approx(0.96, abs=1e-4)
+    tight = np.isclose(np.abs(seen).max(axis=0), 0.96, atol=1e-4)
+    ends = np.column_stack([seen.min(axis=0), seen.max(axis=0)])[tight]
+    np.testing.assert_allclose(ends, [[-0.96, 0.96]] * len(ends), atol=1e-4)
+
+
+def test_a_box_without_size_leaves_the_camera():
+    camera = pv.Camera()
+    before = camera.GetPosition()
+    fit(camera, (1.0, 1.0, 2.0, 2.0, 3.0, 3.0), 1.5)
+    assert camera.GetPosition() == before

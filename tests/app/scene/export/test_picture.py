@@ -1,0 +1,209 @@
+"""Pictures without a window: what is shown, hidden and coloured, seen in the pixels."""
+
+import argparse
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from hexmend.errors import ParameterError
+from hexmend.io import write
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, measure
+from hexmend_app.cli.clip import clip_of, plane
+from hexmend_app.cli.looks import look_of
+from hexmend_app.cli.render import command
+from hexmend_app.scene.colours import INVERTED, resolve
+from hexmend_app.scene.export.figure import Panel, figure
+from hexmend_app.scene.export.picture import picture
+from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
+from hexmend_app.state.look import Look
+from hexmend_app.state.measured import values
+from tests.core.grids import grid, scrambled
+
+
+@pytest.fixture(scope="module")
+def pictures(tmp_path_factory):
+    """Pictures of one mesh under several looks, drawn in a process that has no display."""
+    folder = tmp_path_factory.mktemp("pictures")
+    mesh = scrambled(grid(5), 0.7)
+    write(folder / "mesh.vtu", mesh)
+    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+
+    def draw(*words):
+        path = folder / ("-".join(word.strip("-") or "none" for word in words).replace(":", "_") + ".png")
+        done = subprocess.run(
+            [sys.executable, "-m", "hexmend", "render", folder / "mesh.vtu", "-o", path, "--size", "320x240", *words],
+            env=environment, capture_output=True, text=True,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        assert done.stderr == ""
+        return np.asarray(Image.open(path).convert("RGB")).astype(int)
+
+    return draw
+
+
+def ink(image):
+    """Share of the view, colour bar left out, that is not background."""
+    view = image[: int(image.shape[0] * 0.85), 60:]
+    return np.mean(view.max(axis=2) - view.min(axis=2) > 40)
+
+
+def test_the_command_draws_at_the_size_asked_for(pictures):
+    whole = pictures("--view", "iso")
+    assert whole.shape == (240, 320, 3)
+    assert ink(whole) > 0.15
+
+
+def test_structure_is_drawn_by_name(pictures):
+    bare = pictures("--no-edges")
+    black = np.array([0x11, 0x15, 0x1C])
+    assert (bare == black).all(axis=2).sum() == 0
+    assert (pictures("--no-edges", "--structure", "sharp,irregular") == black).all(axis=2).sum() > 50
+
+
+def test_a_plane_hides_half(pictures):
+    whole = ink(pictures("--view", "+z"))
+    for cut in ("--crinkle", "--smooth"):
+        half = ink(pictures("--view", "+z", "--clip", "x:0.4", cut))
+        assert 0.25 * whole < half < 0.65 * whole
+
+
+def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
+    inside = pictures("--view", "+z", "--clip", "z:0.5", "--smooth")[:200]
+    assert (np.abs(inside - INVERTED).sum(axis=2) < 90).sum() > 50
+
+
+def test_a_quality_range_hides_the_others(pictures):
+    assert ink(pictures("--quality-range", "0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_every_metric_has_a_range_of_colours(name):
+    parser = argparse.ArgumentParser()
+    command.arguments(parser)
+    args = parser.parse_args(["a.vtk", "-o", "a.png", "--metric", name])
+    for mesh in (grid(2), scrambled(grid(3), 0.6), scrambled(grid(1), 0), grid(2).with_points(grid(2).points * 0)):
+        figures = measure(mesh.points, mesh.hexes)
+        scale = look_of(args, mesh).scale
+        assert scale.metric == name
+        shown = resolve(scale, values(name, mesh.points, mesh.hexes, figures), figures.inverted)
+        low, high = shown.low, shown.high
+        assert np.isfinite((low, high)).all()
+        assert low < high
+
+
+def test_a_metric_other_than_q_is_drawn(pictures):
+    drawn, q = pictures("--metric", "max-angle"), pictures("--metric", "q")
+    assert ink(drawn) > 0.15
+    assert (drawn[:200] != q[:200]).any()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--clip", "w"], "--clip 'w' cannot be used"),
+        (["--clip", "0,0,0"], "a direction that is not zero"),
+        (["--clip", "x:1.5"], "a position from 0 to 1"),
+        (["--size", "big"], "as in 1600x1000"),
+        (["--size", "16x16"], "64 to 8192 pixels"),
+        (["--quality-range", "0.8,0.2"], "the lower number first"),
+        (["--colour-range", "0.5,0.5"], "the lower number first"),
+        (["--metric", "beauty"], "there is no metric 'beauty'"),
+        (["--colour-map", "jet"], "one of viridis"),
+        (["--structure", "sharp,round"], "names among irregular, boundary, sharp, fixed, free, locked"),
+        (["--view", "up"], "3 numbers separated by commas"),
+        (["--view", "0,0,0"], "a direction that is not zero"),
+    ],
+)
+def test_wrong_words_are_said(words, message, tmp_path, capsys):
+    from hexmend.cli.main import main
+
+    write(tmp_path / "mesh.vtu", grid(2))
+    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "out.png"), *words]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
+    from hexmend.cli.main import main
+
+    paths = [str(tmp_path / f"{name}.vtu") for name in ("plain", "tangled")]
+    write(paths[0], grid(5))
+    write(paths[1], scrambled(grid(5), 0.7))
+    out = tmp_path / "out.png"
+    assert main(["render", *paths, "-o", str(out), "--size", "640x320", "--clip", "z:0.5", "--smooth"]) == 0
+    drawn = np.asarray(Image.open(out).convert("RGB")).astype(int)
+    assert drawn.shape == (320, 640, 3)
+    assert min(ink(drawn[:, :320]), ink(drawn[:, 320:])) > 0.1
+    magenta = (np.abs(drawn[:280] - INVERTED).sum(axis=2) < 90).sum(axis=0)
+    assert magenta[:320].sum() == 0
+    assert magenta[320:].sum() > 50
+    for words, message in (
+        ([paths[0]] * 5, "4 at most"),
+        ([*paths, "--captions", "a,b,c"], "2 names separated by commas"),
+    ):
+        assert main(["render", *words, "-o", str(tmp_path / "none.png")]) == 2
+        assert message in capsys.readouterr().err
+        assert not (tmp_path / "none.png").exists()
+
+
+@pytest.mark.parametrize("size", [(64, 64), (200, 600), (640, 400)])
+def test_a_figure_has_the_size_asked_for(size):
+    panels = [Panel("one", mesh, measure(mesh.points, mesh.hexes)) for mesh in (grid(2), grid(3))]
+    assert figure(panels, Look(), size).size == size
+
+
+def test_words_that_begin_with_a_minus_are_values():
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    command.arguments(parser)
+    args = parser.parse_args(["a.vtk", "-o", "a.png", "--view", "-x", "--clip", "-1,0,0:0.4", "--no-bar"])
+    assert (args.view, args.clip, args.output, args.no_bar) == ("-x", ["-1,0,0:0.4"], "a.png", True)
+    assert parser.parse_args(["a.vtk", "-o", "a.png", "--clip", "-.5,1,0"]).clip == ["-.5,1,0"]
+
+
+@pytest.mark.parametrize("size", [(64, 64), (128, 96), (320, 160), (200, 600)])
+def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
+    mesh = grid(2)
+    assert picture(mesh, measure(mesh.points, mesh.hexes), Look(), size).size == size
+
+
+def asked(mesh, *words):
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    command.arguments(parser)
+    return clip_of(parser.parse_args(["a.vtk", "-o", "a.png", *words]), mesh)
+
+
+def test_planes_are_named_by_axis_or_normal_and_position():
+    mesh = grid(4)
+    assert asked(mesh) is None
+    assert asked(mesh, "--clip", "x:0.25") == PlaneClip.at((1, 0, 0), (1, 0, 0))
+    assert asked(mesh, "--clip", "z", "--flip", "--smooth") == PlaneClip.at((0, 0, -1), (0, 0, 2), False)
+    slanted = plane("1,1,0:0.5", mesh)
+    assert slanted.signed_distance(np.array([[2.0, 2.0, 0.0]]))[0] == pytest.approx(0)
+    assert plane("1e300,0,0:0.25", mesh) == ClipPlane((1, 0, 0), (1, 0, 0))
+
+
+def test_several_planes_and_boxes_are_asked_for():
+    mesh = grid(4)
+    two = asked(mesh, "--clip", "x:0.25", "--clip", "y:0.5", "--notch")
+    assert two == PlaneClip((ClipPlane((1, 0, 0), (1, 0, 0)), ClipPlane((0, 1, 0), (0, 2, 0))), True, True)
+    assert asked(mesh, "--clip-box", "0,0.5,0.25,1,0,1") == BoxClip((0, 1, 0), (2, 4, 4))
+    with pytest.raises(ParameterError, match="the lower first"):
+        asked(mesh, "--clip-box", "0.5,0,0,1,0,1")
+
+
+def test_nodes_that_no_hex_uses_do_not_count():
+    mesh = grid(4)
+    stray = Mesh(np.vstack([mesh.points, [[100.0, 0.0, 0.0]]]), mesh.hexes)
+    assert plane("x", stray) == ClipPlane((1, 0, 0), (2, 0, 0))
+
+
+def test_looks_are_values():
+    figures = measure(grid(2).points, grid(2).hexes)
+    assert figures.n_inverted == 0
+    assert Look() == Look()
+    with pytest.raises(ValueError, match="expected a direction"):
+        ClipPlane((0, 0, 0))

@@ -1,0 +1,117 @@
+"""Arrows of what has moved."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from hexmend.quality import measure
+from hexmend_app.scene.layers import arrows as layer
+from hexmend_app.scene.viewport import Viewport
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
+from hexmend_app.state.movement import Moment, Movement
+from tests.core.grids import grid, scrambled
+
+MESH = grid(6)
+THEN = Moment(MESH.points, measure(MESH.points, MESH.hexes), "then")
+NOW = scrambled(MESH, 0.5).points
+FIGURES = measure(NOW, MESH.hexes)
+CUT = PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0))
+
+
+@pytest.fixture
+def viewport():
+    plotter = pv.Plotter(off_screen=True, window_size=(300, 300))
+    viewport = Viewport(plotter)
+    viewport.set_mesh(MESH, THEN.figures)
+    viewport.plotter_for_test = plotter
+    yield viewport
+    plotter.close()
+
+
+def move(viewport, points=NOW, figures=FIGURES):
+    viewport.set_movement(Movement(MESH, THEN, points, figures))
+    viewport.set_points(points, figures)
+
+
+def drawn(viewport):
+    viewport.plotter_for_test.render()
+    return np.asarray(viewport.plotter_for_test.screenshot(return_img=True)).astype(int)
+
+
+def test_an_arrow_ends_where_its_way_ends_and_its_head_is_no_longer_than_allowed():
+    rng = np.random.default_rng(2)
+    start, way = rng.normal(size=(2, 50, 3))
+    way[0], way[1] = (0, 0, 2), (1e-7, 0, 0)
+    points = layer.arrows(start, way, 0.25).reshape(-1, 7, 3)
+    np.testing.assert_array_equal(points[:, 0], start)
+    np.testing.assert_allclose(points[:, 6], start + way, atol=1e-15)
+    head, length = np.linalg.norm(points[:, 6] - points[:, 1], axis=1), np.linalg.norm(way, axis=1)
+    assert (head <= np.minimum(0.25, length) + 1e-12).all()
+    across = np.einsum("kci,ki->kc", points[:, 2:6] - points[:, 1:2], way) / length[:, None]
+    np.testing.assert_allclose(across, 0, atol=1e-12)
+
+
+def test_nodes_that_have_moved_have_arrows_those_in_sight_or_all(viewport):
+    move(viewport)
+    assert viewport.arrows == (0, 0)
+    viewport.set_look(Look(traces=Traces(arrows=Arrows.ALL)))
+    every = int(MESH.free.sum())
+    assert viewport.arrows == (every, every)
+    viewport.set_look(Look(traces=Traces(arrows=Arrows.SIGHT)))
+    assert viewport.arrows == (0, 0)  # nodes of the boundary stay
+    viewport.set_look(Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT)))
+    assert 0 < viewport.arrows[0] < every
+    viewport.set_look(
+        Look(clip=PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0), crinkle=False), traces=Traces(arrows=Arrows.SIGHT))
+    )
+    assert 0 < viewport.arrows[0] < every
+    move(viewport, MESH.points, THEN.figures)
+    assert viewport.arrows == (0, 0)
+
+
+def test_of_many_the_longest_are_drawn(viewport, monkeypatch):
+    monkeypatch.setattr(layer, "MOST", 20)
+    viewport.set_look(Look(traces=Traces(arrows=Arrows.ALL)))
+    move(viewport)
+    assert viewport.arrows == (20, int(MESH.free.sum()))
+    starts = np.asarray(viewport._arrows._points.points)[::7]
+    longest = np.argsort(np.linalg.norm(NOW - MESH.points, axis=1))[-20:]
+    np.testing.assert_allclose(starts, MESH.points[np.sort(longest)])
+
+
+def test_arrows_are_seen_follow_the_nodes_and_go(viewport):
+    without = drawn(viewport)
+    viewport.set_look(Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=1)))
+    plain = drawn(viewport)
+    move(viewport)
+    one = drawn(viewport)
+    viewport.set_look(Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=3)))
+    assert (drawn(viewport) != one).any()
+    viewport.set_look(Look())
+    move(viewport, MESH.points, THEN.figures)
+    np.testing.assert_array_equal(drawn(viewport), without)
+    assert (one != plain).any()
+
+
+def test_colours_of_a_change_set_the_newly_inverted_and_the_mended_apart(viewport):
+    viewport.set_look(Look(scale=ColourScale("q-change", mode=RangeMode.FITTED)))
+    bad = scrambled(MESH, 1.2).points
+    figures = measure(bad, MESH.hexes)
+    move(viewport, bad, figures)
+    assert [(name, count) for name, count, _ in viewport.apart] == [
+        ("newly inverted", figures.n_inverted),
+        ("still inverted", 0),
+        ("mended", 0),
+    ]
+    colouring = viewport.colouring
+    assert colouring.low == -colouring.high < 0
+    assert colouring.title == "change of q(H) since then"
+    assert not np.array_equal(colouring.table[0], colouring.table[-1])
+    assert colouring.table[127:129].min() > 230  # nothing has changed in the middle
+
+
+def test_without_a_movement_nothing_has_moved(viewport):
+    viewport.set_look(Look(scale=ColourScale("moved-most"), traces=Traces(arrows=Arrows.ALL)))
+    assert (viewport.colouring.low, viewport.colouring.high) == (0.0, 1.0)
+    assert viewport.arrows == (0, 0)

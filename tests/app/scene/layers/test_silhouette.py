@@ -1,0 +1,52 @@
+"""Sharp edges, and whether a body can be recognised by them."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from hexmend.mesh import Mesh
+from hexmend.structure import sharp_edges
+from hexmend_app.scene.layers.silhouette import Silhouette, form_lines
+from tests.core.grids import grid
+from tests.core.test_topology import closed
+
+
+@pytest.mark.parametrize("size", [(1, 1, 1), (3, 2, 4)])
+def test_a_box_has_twelve_sharp_lines(size):
+    mesh = grid(*size)
+    edges = sharp_edges(mesh.points, mesh.topology.boundary_faces)
+    assert len(edges) == 4 * sum(size)
+    ends = mesh.points[edges]
+    on_sides = ((ends == 0) | (ends == size)).all(axis=1)  # by axis: on the same two sides with both ends
+    assert (on_sides.sum(axis=1) >= 2).all()
+    assert form_lines(edges)
+
+
+def test_the_angle_decides():
+    mesh = grid(2, 1, 1)
+    points = mesh.points.copy()
+    points[points[:, 0] == 2, 2] += np.tan(np.radians(40))
+    faces = mesh.topology.boundary_faces
+    assert len(sharp_edges(points, faces, 39)) == len(sharp_edges(points, faces, 41)) + 2
+
+
+def test_a_ball_is_not_drawn_by_lines():
+    mesh = grid(6)
+    p = mesh.points / 3 - 1
+    size = np.linalg.norm(p, axis=1, keepdims=True)
+    ball = p * np.abs(p).max(axis=1, keepdims=True) / np.maximum(size, 1e-9)
+    assert not form_lines(sharp_edges(ball, mesh.topology.boundary_faces))
+
+
+def test_splinters_do_not_form_lines():
+    assert not form_lines(np.array([[0, 1], [5, 6], [8, 9]]))
+    assert form_lines(np.array([[0, 1], [1, 2], [2, 0]]))
+
+
+def test_a_mesh_without_boundary_has_no_silhouette():
+    plotter = pv.Plotter(off_screen=True)
+    mesh = Mesh(np.random.default_rng(0).random((27, 3)), closed((3, 3, 3)))
+    silhouette = Silhouette(plotter, mesh)
+    silhouette.show(True)
+    silhouette.move(mesh.points)
+    plotter.close()

@@ -1,0 +1,163 @@
+"""The structure over a mesh, off screen: its colours, what the filters leave of it, and that it follows the nodes."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from hexmend.gallery import make
+from hexmend.mesh import Mesh
+from hexmend.quality import measure
+from hexmend_app.scene.layers.structure import (
+    BOUNDARY,
+    FREE,
+    IRREGULAR_NODE,
+    LOCKED,
+    OTHER,
+    PINNED,
+    SHARP,
+    VALENCES,
+    valence_colours,
+)
+from hexmend_app.scene.viewport import Viewport
+from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.state.look import Look, Structure
+from tests.core.grids import grid
+from tests.core.test_structure import tetrahedron
+
+FIVE = make("five-side", size=500)
+BELOW = PlaneClip.at((0, 0, 1), (0, 0, 0.7))
+
+
+@pytest.fixture
+def draw():
+    """A function that draws a mesh under a look and gives its pixels, and the viewport."""
+    plotter = pv.Plotter(off_screen=True, window_size=(400, 300))
+    viewport = Viewport(plotter)
+    plotter.camera_set = True
+
+    def drawn(mesh, structure, **look):
+        viewport.set_look(Look(edges=False, outline=False, structure=structure, **look))
+        viewport.set_mesh(mesh, measure(mesh.points, mesh.hexes))
+        viewport.moving()
+        return pixels()
+
+    def pixels():
+        plotter.show(auto_close=False, interactive=False)
+        plotter.render()
+        return np.asarray(plotter.screenshot(return_img=True)).astype(int)
+
+    drawn.viewport, drawn.pixels = viewport, pixels
+    yield drawn
+    plotter.close()
+
+
+def count(image, colour):
+    """Pixels of exactly this colour: marks are not shaded."""
+    return int((image == np.array(pv.Color(colour).int_rgb)).all(axis=2).sum())
+
+
+def test_irregular_edges_are_seen_through_the_mesh_in_the_colour_of_their_valence(draw):
+    assert count(draw(FIVE, Structure()), VALENCES[5]) == 0
+    image = draw(FIVE, Structure(irregular=True))
+    assert count(image, VALENCES[5]) > 100
+    assert count(image, VALENCES[3]) == 0
+    image = draw(tetrahedron(), Structure(irregular=True))
+    assert count(image, VALENCES[3]) > 20
+    assert count(image, VALENCES[5]) == 0
+    assert count(image, IRREGULAR_NODE) > 5
+
+
+def test_what_nothing_hides_is_thicker(draw):
+    through = count(draw(FIVE, Structure(irregular=True)), VALENCES[5])
+    draw.viewport._skin_surface.actor.SetVisibility(False)
+    assert count(draw.pixels(), VALENCES[5]) > 1.4 * through
+
+
+def test_sharp_edges_and_irregular_ones_of_a_smooth_boundary(draw):
+    assert count(draw(grid(3), Structure(sharp=True)), SHARP) > 300
+    mesh = grid(8)
+    assert count(draw(mesh, Structure(boundary=True)), OTHER) == 0  # the edges of a box are sharp
+    p = mesh.points / 4 - 1
+    size = np.linalg.norm(p, axis=1, keepdims=True)
+    ball = Mesh(p * np.abs(p).max(axis=1, keepdims=True) / np.maximum(size, 1e-9), mesh.hexes)
+    assert count(draw(ball, Structure(boundary=True)), OTHER) > 100
+
+
+def test_nodes_have_the_colour_of_what_becomes_of_them(draw):
+    mesh = grid(4)
+    pinned = np.zeros(mesh.n_nodes, bool)
+    pinned[[62, 0]] = True  # the centre, and a corner, which is on the boundary anyway
+    mesh = mesh.replace(pinned=pinned)
+    half = PlaneClip.at((0, 0, 1), (0, 0, 2))
+    image = draw(mesh, Structure(fixed=True, free=True), clip=half)
+    assert count(image, PINNED) in range(4, 40)
+    assert count(image, FREE) > 4 * count(image, PINNED)
+    assert count(image, BOUNDARY) > 4 * count(image, PINNED)
+    image = draw(mesh, Structure(free=True), clip=half)
+    assert count(image, BOUNDARY) == count(image, PINNED) == 0 < count(image, FREE)
+    image = draw(mesh, Structure(free=True))
+    assert count(image, FREE) == 0  # none is in sight
+
+
+def test_nodes_of_locked_elements(draw):
+    mesh = grid(3)
+    points = mesh.points.copy()
+    assert count(draw(mesh, Structure(locked=True)), LOCKED) == 0
+    points[15] = points[15] + [-1.5, 0, 0]  # of an edge of the box, past its neighbour on the boundary
+    locked = Mesh(points, mesh.hexes)
+    assert count(draw(locked, Structure(locked=True)), LOCKED) > 20
+    draw.viewport.set_points(mesh.points, measure(mesh.points, mesh.hexes))
+    assert count(draw.pixels(), LOCKED) == 0
+
+
+@pytest.mark.parametrize(
+    "clip",
+    [
+        BELOW,
+        PlaneClip.at((0, 0, 1), (0, 0, 0.7), False),
+        PlaneClip((*BELOW.planes, *BELOW.planes), False, notch=True),
+        BoxClip((-2, -2, -2), (2, 2, 0.7), False),
+        BoxClip((-2, -2, 0.7), (2, 2, 2), False, notch=True),
+    ],
+)
+def test_only_what_is_shown_has_marks(draw, clip):
+    wanted = Structure(irregular=True, sharp=True, fixed=True)
+    draw(FIVE, wanted, clip=clip)
+    layers = draw.viewport._structure
+    assert layers._irregular.count == 5  # of the eleven, those below the plane
+    for marks in (layers._irregular, layers._sharp, layers._nodes):
+        assert marks._poly.points[:, 2].max() <= 0.75
+    draw.viewport.set_look(Look(structure=wanted, dug=frozenset(range(FIVE.n_hexes))))
+    assert not layers._irregular.shown
+    assert not layers._nodes.shown
+
+
+def test_marks_follow_the_nodes_shrunk_elements_too(draw):
+    draw(FIVE, Structure(irregular=True, fixed=True), shrink=0.3)
+    moved = FIVE.points * [1, 1, 0.5]
+    draw.viewport.set_points(moved, measure(moved, FIVE.hexes))
+    layers = draw.viewport._structure
+    axis = layers._irregular._poly.points
+    assert axis[:, 2].max() == pytest.approx(0.75)
+    corners = moved[FIVE.hexes]
+    shrunk = (corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)).reshape(-1, 3)
+    for point in layers._nodes._poly.points[::50]:
+        assert np.abs(shrunk - point).max(axis=1).min() < 1e-6
+
+
+def test_many_marks_are_drawn_in_full_in_fine_frames_alone(draw, monkeypatch):
+    monkeypatch.setattr("hexmend_app.scene.layers.structure._MANY", 5)
+    draw(FIVE, Structure(irregular=True))
+    layers = draw.viewport._structure
+    assert not layers._inside.GetDraw()
+    draw.viewport.still()
+    assert layers._inside.GetDraw()
+    assert layers._irregular_inside._filled.GetProperty().GetOpacity() == pytest.approx((5 / 11) ** 0.5)
+    draw.viewport.set_look(Look())
+    assert not layers._inside.GetDraw()
+
+
+def test_valences_without_a_colour_of_their_own_share_one():
+    colours = valence_colours(np.array([1, 2, 3, 4, 5, 6, 7, 40]))
+    expected = [VALENCES.get(n, OTHER) for n in (1, 2, 3, 4, 5, 6, 7, 40)]
+    assert colours.tolist() == [list(pv.Color(colour).int_rgb) for colour in expected]
