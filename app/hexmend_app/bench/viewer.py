@@ -36,6 +36,7 @@ def _row(window: Window) -> dict[str, Any]:
 
 def _frame(window: Window, cut: str) -> tuple[float, float]:
     """Median milliseconds from new points and qualities to the screen, and those that VTK draws."""
+    from hexmend_app.scene.frame import Frame
     from hexmend_app.state.clip import PlaneClip
     from hexmend_app.state.document import State
 
@@ -57,7 +58,7 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
     for k in range(_FRAMES):
         state = states[k % 3]
         began = perf_counter()
-        canvas.set_points(state.mesh.points, state.figures)
+        canvas.draw(Frame(state.mesh, state.figures, look=window.view.look))
         draw(window)
         times.append(perf_counter() - began)
     for observer in told:

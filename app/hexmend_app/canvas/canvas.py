@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
-import numpy as np
-from PySide6.QtCore import QElapsedTimer, QEvent, QObject, QPoint, QPointF, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
@@ -17,20 +16,18 @@ from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
 from hexmend_app.canvas.colour_bar import ColourBar
+from hexmend_app.canvas.flying import Flying
 from hexmend_app.canvas.once_per_frame import OncePerFrame
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.canvas.view_keys import steer
-from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
-from hexmend_app.scene.export.figure import Panel, figure
-from hexmend_app.scene.export.picture import picture
+from hexmend_app.scene.export.views import picture_of
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import BLUE, THEME
 from hexmend_app.scene.panes import ROOM, Panes
-from hexmend_app.state.clip import BoxClip, Clip, PlaneClip
-from hexmend_app.state.look import Look
-from hexmend_app.state.movement import Movement
+from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.views import Wipe
 from hexmend_app.widgets.style import dress, explain
 
@@ -43,9 +40,6 @@ _STRAY = 3
 #: Width in pixels of the ring that marks the focus, and how the focus comes by keys.
 _RING = 2
 _BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason, Qt.FocusReason.ShortcutFocusReason)
-
-#: Milliseconds that the camera flies, and between two of its frames.
-_FLIGHT, _FRAME = 350, 25
 
 
 class Canvas(QWidget):
@@ -89,7 +83,7 @@ class Canvas(QWidget):
         self._rest.timeout.connect(self._draw_still)
         self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._turning())
         self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
-        self._handled: tuple[Clip | None, bool, int] = (None, False, 0)
+        self._handled = False, 0
         self._chosen: tuple[int | None, bool] = (None, False)
         self._pressed: QPointF | None = None
         self.interactor.installEventFilter(self)
@@ -98,11 +92,8 @@ class Canvas(QWidget):
             "Arrow keys turn the mesh, Shift and arrow keys shift it, + and − zoom; F shows all of it."
         )
         self._ring = False
-        self._flight: Flight | None = None
-        self._flown = QElapsedTimer()
-        self._fly = QTimer(self)
-        self._fly.setInterval(_FRAME)
-        self._fly.timeout.connect(self._fly_on)
+        self._flying = Flying(self)
+        self._flying.moved.connect(self._on_flown)
         self._closed = False
         dress(self, self._wear_theme)
 
@@ -114,50 +105,36 @@ class Canvas(QWidget):
         self.box.set_dark(THEME.dark)
         self._changed()
 
-    def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
-        """Draw another mesh."""
-        self.panes.set_mesh(mesh, figures)
-        for handles in (self.plane, self.box):
-            handles.set_bounds(self.viewport.bounds)
-        self._show_colours()
-        self._changed()
-
-    def set_points(self, points: np.ndarray, figures: ElementQuality, live: bool = False) -> None:
-        """Draw the same mesh with its nodes elsewhere; `live` where more is to come, so that no fine frame is due."""
-        self.viewport.set_points(points, figures)
-        self.panes.catch_up()
-        self.panes.level()
+    def draw(self, frame: Frame, live: bool = False) -> None:
+        """Draw a frame, in views beside the first too; `live` where more is to come, so that no fine frame is due."""
+        last = self.viewport.frame
+        self.panes.draw(frame)
+        if not frame.is_of(last):
+            self._chosen = None, False
+            for handles in (self.plane, self.box):
+                handles.set_bounds(self.viewport.bounds)
+        self._place_handles()
         self._show_colours()
         self._changed()
         if live:
             self._rest.stop()
 
-    def set_pinned(self, pinned: np.ndarray | None) -> None:
-        """Take which nodes are pinned, (n,) bool; drawn with the next points."""
-        self.viewport.set_pinned(pinned)
+    def show_handles(self, handles: bool, at: int) -> None:
+        """Let the user drag the box, or one of the planes, or nothing."""
+        self._handled = handles, at
+        self._place_handles()
+        self._draw_soon()
 
-    def set_movement(self, movement: Movement | None) -> None:
-        """Take what colours and arrows of a movement show; drawn with the next mesh, points or look."""
-        self.panes.set_movement(movement)
-
-    def set_look(self, look: Look, handles: bool, at: int = 0) -> None:
-        """Draw it differently, with handles at the box, or at one of the planes, or without."""
-        self.panes.set_look(look)
-        self.panes.catch_up()
-        self._handled = look.clip, handles, at
-        self._show_handles()
-        self._show_colours()
-        self._changed()
-
-    def _show_handles(self) -> None:
+    def _place_handles(self) -> None:
         """Put the handles into the first view; where a wipe leaves it out, there are none."""
-        clip, handles, at = self._handled
+        handles, at = self._handled
+        clip = None if self.viewport.frame is None else self.viewport.frame.look.clip
         shown = handles and self.viewport in self.panes.seen
-        self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) else None, shown)
+        self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) and at < len(clip.planes) else None, shown)
         self.box.set(clip if isinstance(clip, BoxClip) else None, shown)
 
     def fit(self) -> None:
-        """Show the whole mesh."""
+        """Show what is shown as large as it can be."""
         self.panes.fit()
         self._changed()
 
@@ -168,25 +145,25 @@ class Canvas(QWidget):
 
     def set_parallel(self, on: bool) -> None:
         """Parallel projection or perspective."""
-        self.viewport.set_parallel(on)
+        self.viewport.eye.set_parallel(on)
         self._changed()
 
     def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
         """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
         self._chosen = h, corners
-        self.viewport.select(h, corners, node)
+        self.viewport.chosen.select(h, corners, node)
         self._select_beside()
         self._changed()
 
     def _select_beside(self) -> None:
         """Mark the same element in the other views."""
         for view in self.panes.all[1:]:
-            view.select(*self._chosen)
+            view.chosen.select(*self._chosen, None)
 
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw a node's step; None draws none."""
         if not self._closed:
-            self.viewport.show_node_step(step)
+            self.viewport.chosen.show_node_step(step)
             self._changed()
 
     def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
@@ -200,7 +177,7 @@ class Canvas(QWidget):
         """
         self.panes.show(others, wipe)
         self._select_beside()
-        self._show_handles()
+        self._place_handles()
         self.frame.set_wipe(wipe)
         self._show_colours()
         self._changed()
@@ -214,25 +191,24 @@ class Canvas(QWidget):
 
     def fly_to(self, *hexes: int) -> None:
         """Bring an element, or several together, before the camera."""
-        self._flight = self.viewport.flight_to(*hexes)
-        self._flown.start()
-        self._fly.start()
+        self._flying.start(self.viewport.flight_to(*hexes))
 
-    def _fly_on(self) -> None:
-        share = min(self._flown.elapsed() / _FLIGHT, 1.0)
-        self._flight.at(share)
+    @property
+    def flying(self) -> bool:
+        """Whether the camera flies somewhere."""
+        return self._flying.under_way
+
+    def _on_flown(self) -> None:
         self.panes.reset_depth()
         self._turning()
         self._draw_soon()
-        if share == 1.0:
-            self._fly.stop()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Tell a click from a drag, which turns the mesh; turn it by keys too."""
         kind = event.type()
         if kind == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             if steer(self.viewport.camera, event):
-                self._fly.stop()
+                self._flying.stop()
                 self.panes.reset_depth()
                 self._changed()
             return True  # VTK has keys of its own, which would draw wires or end it
@@ -243,7 +219,7 @@ class Canvas(QWidget):
         if kind == QEvent.Type.Resize:
             self.frame.fit()
         if kind == QEvent.Type.MouseButtonPress:
-            self._fly.stop()
+            self._flying.stop()
             self._pressed = event.position() if event.button() == Qt.MouseButton.LeftButton else None
         elif kind == QEvent.Type.MouseButtonRelease and self._pressed is not None:
             away = event.position() - self._pressed
@@ -276,27 +252,13 @@ class Canvas(QWidget):
         x, y = at.x() * ratio, (self.interactor.height() - 1 - at.y()) * ratio
         hit = self.panes.pick(x, y)
         if not dig:
-            self.clicked.emit(hit)
+            self.clicked.emit(None if hit is None else (hit.hex, hit.node))
         elif hit is not None:
-            self.dug.emit(hit[0])
+            self.dug.emit(hit.hex)
 
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
         """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
-        seen = self.viewport
-        how = {
-            "filters": seen.filters,
-            "movement": seen.movement,
-            "camera": seen.camera,
-            "transparent": transparent,
-        }
-        if len(self.panes.all) == 1:
-            image = picture(seen.mesh, seen.figures, seen.look, size, node_step=seen.node_step, **how)
-        else:
-            panels = [
-                Panel(caption.name, view.mesh, view.figures)
-                for caption, view in zip(self.frame.captions, self.panes.all, strict=True)
-            ]
-            image = figure(panels, seen.look, size, wipe=self.panes.wipe, **how)
+        image = picture_of(self.panes, [caption.name for caption in self.frame.captions], size, transparent)
         with replacing(path) as temporary:
             image.save(temporary, format="PNG")
 
@@ -304,7 +266,7 @@ class Canvas(QWidget):
         """Let go of the graphics while the window still exists."""
         self._closed = True
         self._rest.stop()
-        self._fly.stop()
+        self._flying.stop()
         self.plane.close()
         self.box.close()
         self.interactor.close()
@@ -322,7 +284,9 @@ class Canvas(QWidget):
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)
             alone = len(self.panes.all) == 1  # of several, the captions say how many
-            self.colour_bar.set_apart([(name, n if alone else 0, colour) for name, n, colour in self.viewport.apart])
+            self.colour_bar.set_apart(
+                [(name, n if alone else 0, colour) for name, n, colour in self.viewport.colours.apart]
+            )
 
     def _changed(self) -> None:
         self.panes.moving()

@@ -45,10 +45,11 @@ class Render:
         prepare_off_screen()
         from hexmend_app.scene.export.figure import Panel, figure
         from hexmend_app.scene.export.picture import picture
+        from hexmend_app.scene.frame import Frame
 
         how = {"view": view, "transparent": args.transparent, "bar": not args.no_bar}
         if len(meshes) == 1:
-            image = picture(mesh, figures, look, size, **how)
+            image = picture(Frame(mesh, figures, look=look), size, **how)
         else:
             others = (Panel(name, one, measure(one.points, one.hexes)) for name, one in zip(names, meshes, strict=True))
             image = figure([*others], look, size, **how)

@@ -10,9 +10,11 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene import sides
+from hexmend_app.scene.cutting import cut
+from hexmend_app.scene.frame import Frame, same_hexes
 from hexmend_app.scene.values import within
 from hexmend_app.state.clip import Clip
-from hexmend_app.state.look import Look, ValueRange
+from hexmend_app.state.look import ValueRange
 from hexmend_app.state.measured import values
 
 
@@ -28,18 +30,16 @@ class Filters:
         self._mesh = mesh
         self._known: dict[str, tuple[Hashable, np.ndarray | None]] = {}
 
-    def kept(self, look: Look, points: np.ndarray, figures: ElementQuality) -> np.ndarray | None:
+    def suit(self, mesh: Mesh) -> bool:
+        """Whether they can be those of a mesh: it has the same hexes."""
+        return same_hexes(mesh, self._mesh)
+
+    def kept(self, frame: Frame) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all.
 
         A cut by whole elements is made where the nodes are as a plane comes, so that none flickers as they move.
-
-        Parameters
-        ----------
-        look : Look
-        points : (n, 3) float64
-        figures : ElementQuality
-            Of the mesh at these points.
         """
+        look, points, figures = frame.look, frame.mesh.points, frame.figures
         clip, chosen, topology = look.clip, look.quality_range, self._mesh.topology
         parts = (
             self._part(
@@ -58,6 +58,14 @@ class Filters:
         )
         masks = [mask for mask in parts if mask is not None]
         return reduce(np.logical_and, masks) if masks else None
+
+    def left(self, frame: Frame) -> np.ndarray | None:
+        """The hexes of which something is shown after a smooth cut too, (m,) bool; None for all."""
+        keep, clip, mesh = self.kept(frame), frame.look.clip, frame.mesh
+        if clip is None or clip.crinkle:
+            return keep
+        left = cut.left(mesh.points, mesh.hexes, clip)
+        return left if keep is None else left & keep
 
     def _within(self, chosen: ValueRange, points: np.ndarray, figures: ElementQuality) -> np.ndarray:
         return within(values(chosen.metric, points, self._mesh.hexes, figures), chosen)

@@ -12,11 +12,12 @@ from vtkmodules.vtkRenderingCore import vtkActor2D
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.colours import declared_ends
+from hexmend_app.scene.filters import Filters
+from hexmend_app.scene.frame import Frame, same_hexes
 from hexmend_app.scene.palette import LINE
 from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.picking import Hit
 from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.look import Look
-from hexmend_app.state.movement import Movement
 from hexmend_app.state.views import MOST, Wipe
 
 #: How many views a plotter has to have room for: the first, and those beside it.
@@ -51,20 +52,20 @@ class Panes:
     ----------
     plotter : pyvista.BasePlotter
         With a row of `ROOM` renderers.
+    filters : Filters, optional
+        Those of another window's view, whose elements are shown where the mesh has the same hexes.
     """
 
-    def __init__(self, plotter: pv.BasePlotter):
+    def __init__(self, plotter: pv.BasePlotter, filters: Filters | None = None):
         self._plotter = plotter
         self._window = plotter.render_window
         for renderer in list(plotter.renderers)[1:]:
             self._window.RemoveRenderer(renderer)
         plotter.renderers[0].SetViewport(0, 0, 1, 1)
-        self.first = Viewport(Pane(plotter, 0))
-        self._look = Look()
+        self.first = Viewport(Pane(plotter, 0), filters=filters)
         self._dark = False
         self._others: dict[int, tuple[Mesh, Viewport]] = {}  # by renderer
         self._order: list[int] = []
-        self._movement: Movement | None = None
         self.wipe: Wipe | None = None  # None where all stand side by side
         self._centres: dict[Viewport, float] = {}  # of the wipe's halves
         self._borders: list[tuple[pv.Renderer, vtkActor2D]] = []
@@ -75,6 +76,21 @@ class Panes:
         self._window.AddObserver("EndEvent", lambda *_: self._aim(self.first))
 
     # What is shown
+
+    def draw(self, frame: Frame) -> None:
+        """Draw a frame in the first view, and in those beside it what is there under its look, with its movement.
+
+        Another mesh is drawn alone, and seen whole from a corner.
+        """
+        another = not frame.is_of(self.first.frame)
+        if another:
+            self.show([])
+        self.first.draw(frame)
+        for _, view in self._others.values():
+            view.draw(_beside(frame, view.frame))
+        self.level()
+        if another:
+            self.look_along("iso")
 
     @property
     def all(self) -> list[Viewport]:
@@ -112,52 +128,15 @@ class Panes:
 
     def _open(self, mesh: Mesh, figures: ElementQuality) -> int:
         at = min(set(range(1, ROOM)) - set(self._others))
-        view = Viewport(Pane(self._plotter, at), axes=False)
+        view = Viewport(Pane(self._plotter, at), axes=False, filters=self.first.filters)
         view.set_dark(self._dark)
-        view.set_look(self._look)
-        same = np.array_equal(mesh.hexes, self.first.mesh.hexes)
-        view.set_mesh(mesh, figures, self.first.filters if same else None, fly=False)
+        view.draw(_beside(self.first.frame, Frame(mesh, figures)))
         self._others[at] = mesh, view
-        self._compare(view)
-        view.catch_up()
         self._watch(view)
         return at
 
     def _close(self, at: int) -> None:
         self._others.pop(at)[1].close()
-
-    def set_mesh(self, mesh: Mesh, figures: ElementQuality) -> None:
-        """Draw another mesh, alone."""
-        self.show([])
-        self.first.set_mesh(mesh, figures)
-        self.fit()
-
-    def set_look(self, look: Look) -> None:
-        """Draw all differently."""
-        self._look = look
-        for view in self.all:
-            view.set_look(look)
-        self.level()
-
-    def set_movement(self, movement: Movement | None) -> None:
-        """Take what colours and arrows of a movement show; views beside the first compare with the same moment."""
-        self._movement = movement
-        self.first.set_movement(movement)
-        for _, view in self._others.values():
-            self._compare(view)
-
-    def _compare(self, view: Viewport) -> None:
-        movement = self._movement
-        known = view.movement
-        if movement is None or not np.array_equal(movement.mesh.hexes, view.mesh.hexes):
-            view.set_movement(None)
-        elif known is None or known.before.points is not movement.before.points:
-            view.set_movement(movement.until(view.mesh.points, view.figures))
-
-    def catch_up(self) -> None:
-        """Draw what has been taken by views whose nodes stay."""
-        for _, view in self._others.values():
-            view.catch_up()
 
     def set_dark(self, dark: bool) -> None:
         """Draw on the dark theme's ground, or on the light one's."""
@@ -169,8 +148,8 @@ class Panes:
     def level(self) -> None:
         """Let a range of colours that is fitted span what is drawn in all views."""
         beside = None
-        if self._others and declared_ends(self._look.scale) is None:
-            lows, highs = zip(*(view.ends for view in self.all), strict=True)
+        if self._others and declared_ends(self.first.frame.look.scale) is None:
+            lows, highs = zip(*(view.colours.ends for view in self.all), strict=True)
             beside = min(lows), max(highs)
         for view in self.all:
             view.span(beside)
@@ -225,8 +204,8 @@ class Panes:
                 return view
         return self.seen[0]
 
-    def pick(self, x: float, y: float) -> tuple[int, int] | None:
-        """The hex that is seen at a place in pixels of the window, and its nearest node; None beside the meshes."""
+    def pick(self, x: float, y: float) -> Hit | None:
+        """What is seen at a place in pixels of the window; None beside the meshes."""
         view = self.at(x, y)
         self._aim(view)
         hit = view.pick(x, y)
@@ -252,18 +231,20 @@ class Panes:
     # Camera and frames
 
     def fit(self) -> None:
-        """Show the whole mesh, from where the camera looks."""
+        """Show what is shown as large as it can be, from where the camera looks."""
+        if self.first.frame is None:
+            return
         renderer = self.first.layers[0]
         part = renderer.GetViewport()
         if self.wipe is not None:
             renderer.SetViewport(0, 0, 1, 1)  # the mesh has the whole's width
-        self.first.reset_camera()
+        self.first.eye.fit(np.concatenate([view.places for view in self.seen]))
         renderer.SetViewport(*part)
         self._fitted = self._reach
 
     def look_along(self, direction: str | tuple[float, float, float]) -> None:
-        """Look at the whole mesh from a direction: a name of `VIEWS`, or a vector."""
-        self.first.view(direction)
+        """Look at what is shown from a direction: a name of `VIEWS`, or a vector."""
+        self.first.eye.look_along(direction)
         self.fit()
 
     @property
@@ -307,3 +288,20 @@ class Panes:
 def _inner(place: Rectangle) -> list[str]:
     """The sides of a view at which there is another before it, in its row or below."""
     return [side for side, share in (("left", place[0]), ("bottom", place[1])) if share > 0]
+
+
+def _beside(first: Frame, own: Frame) -> Frame:
+    """What a view beside the first draws: its own mesh and figures as the first frame has them looked at.
+
+    It compares with the same moment as the first.
+    """
+    movement = first.movement
+    if movement is not None and not same_hexes(movement.mesh, own.mesh):
+        movement = None
+    elif movement is not None:
+        known = own.movement
+        if known is not None and known.before.points is movement.before.points:
+            movement = known
+        else:
+            movement = movement.until(own.mesh.points, own.figures)
+    return Frame(own.mesh, own.figures, movement, first.look)

@@ -7,6 +7,7 @@ import pyvista as pv
 from hexmend.quality import measure
 from hexmend_app.scene.export.figure import Panel, figure
 from hexmend_app.scene.export.picture import picture
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.panes import ROOM, Panes, columns, grid
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
@@ -24,11 +25,16 @@ def shown(mesh):
     return mesh, measure(mesh.points, mesh.hexes)
 
 
+def look_at(panes, look, movement=None):
+    """Draw the same mesh under another look."""
+    panes.draw(Frame(panes.first.frame.mesh, panes.first.frame.figures, movement, look))
+
+
 @pytest.fixture
 def panes():
     plotter = pv.Plotter(off_screen=True, shape=(1, ROOM), border=False, window_size=SIZE)
     panes = Panes(plotter)
-    panes.set_mesh(*shown(MESH))
+    panes.draw(Frame(*shown(MESH)))
     plotter.camera_set = True
     yield panes
     plotter.close()
@@ -78,7 +84,7 @@ def test_one_camera_leads_all_views(panes):
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("at", [0.25, 0.5, 0.8])
 def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel):
-    panes.first.set_parallel(parallel)
+    panes.first.eye.set_parallel(parallel)
     panes.fit()
     panes._plotter.renderers[0].axes_widget.EnabledOff()
     whole = pixels(panes)
@@ -107,7 +113,7 @@ def test_a_wipe_shows_one_mesh_on_either_side(panes):
 
 def test_a_fitted_range_of_colours_spans_all_views_and_shrinks_again(panes):
     scale = ColourScale(mode=RangeMode.FITTED)
-    panes.set_look(Look(scale=scale))
+    look_at(panes, Look(scale=scale))
     alone = panes.first.colouring.low, panes.first.colouring.high
     panes.show([shown(mesh) for mesh in OTHERS[:2]])
     ranges = {(view.colouring.low, view.colouring.high) for view in panes.all}
@@ -115,16 +121,16 @@ def test_a_fitted_range_of_colours_spans_all_views_and_shrinks_again(panes):
     (low, high), q = ranges.pop(), [shown(mesh)[1] for mesh in OTHERS[:2]]
     assert low == pytest.approx(min(one.q[~one.inverted].min() for one in q))
     assert high >= 1 - 1e-6
-    panes.set_look(Look(scale=ColourScale(mode=RangeMode.PINNED, pinned=(0.2, 0.3))))
+    look_at(panes, Look(scale=ColourScale(mode=RangeMode.PINNED, pinned=(0.2, 0.3))))
     assert {(view.colouring.low, view.colouring.high) for view in panes.all} == {(0.2, 0.3)}
-    panes.set_look(Look(scale=scale))
+    look_at(panes, Look(scale=scale))
     panes.show([])
     assert (panes.first.colouring.low, panes.first.colouring.high) == alone
 
 
 def test_a_cut_leaves_the_same_elements_in_all_views(panes):
     panes.show([shown(mesh) for mesh in OTHERS])
-    panes.set_look(Look(clip=PlaneClip.at((1, 0, 0), (2, 2, 2))))
+    look_at(panes, Look(clip=PlaneClip.at((1, 0, 0), (2, 2, 2))))
     first, *others = (view.kept() for view in panes.all)
     assert 0 < first.sum() < first.size
     for kept in others:
@@ -137,22 +143,27 @@ def test_what_is_under_the_mouse_is_picked_in_the_view_there(panes):
     assert panes.at(60, 80) is panes.first
     assert panes.at(180, 80) is panes.all[1]
     left, right = panes.pick(60, 80), panes.pick(180, 80)
-    assert left[0] == right[0]
+    assert left.hex == right.hex
     panes.show([shown(MESH)], Wipe(0, 1, 0.5))
     pixels(panes)
-    assert [panes.pick(x, 80) for x in (100, 140)] == [_alone(panes, x) for x in (100, 140)]
+    assert [found(panes, x) for x in (100, 140)] == [_alone(panes, x) for x in (100, 140)]
 
 
 def _alone(panes, x):
     panes.show([])
     pixels(panes)
-    return panes.pick(x, 80)
+    return found(panes, x)
+
+
+def found(panes, x):
+    hit = panes.pick(x, 80)
+    return hit.hex, hit.node
 
 
 def test_meshes_with_other_hexes_are_shown_too(panes):
     small = hexes(2)
     panes.show([shown(small)])
-    panes.set_look(Look(clip=PlaneClip.at((1, 0, 0), (1, 0, 0))))
+    look_at(panes, Look(clip=PlaneClip.at((1, 0, 0), (1, 0, 0))))
     assert [view.kept().size for view in panes.all] == [MESH.n_hexes, small.n_hexes]
 
 
@@ -182,7 +193,7 @@ def test_a_figure_holds_all_meshes_with_captions():
     four = np.asarray(figure(panels, Look(), (640, 480)).convert("RGB")).astype(int)
     assert four.shape == (480, 640, 3)
     assert (four[:25].max(axis=2) < 90).any(axis=0)[:160].any()  # what is written above the first
-    alone = np.asarray(picture(*shown(MESH), Look(), (320, 200), bar=False)).astype(int)
+    alone = np.asarray(picture(Frame(*shown(MESH)), (320, 200), bar=False)).astype(int)
     assert alone.shape == (200, 320, 3)
     colourful = four.max(axis=2) - four.min(axis=2) > 60
     for rows in (slice(40, 220), slice(240, 420)):
@@ -193,15 +204,13 @@ def test_a_figure_holds_all_meshes_with_captions():
 def test_views_beside_the_first_compare_with_the_same_moment(panes):
     first, second = (measure(one.points, MESH.hexes) for one in (MESH, OTHERS[0]))
     look = Look(scale=ColourScale("moved-most", mode=RangeMode.FITTED), traces=Traces(arrows=Arrows.ALL))
-    panes.set_movement(Movement(MESH, Moment(MESH.points, first, "then"), MESH.points, first))
-    panes.set_look(look)
+    look_at(panes, look, Movement(MESH, Moment(MESH.points, first, "then"), MESH.points, first))
     panes.show([(OTHERS[2], measure(OTHERS[2].points, MESH.hexes))])
     other = panes.all[1]
     far = np.linalg.norm(OTHERS[2].points - MESH.points, axis=1).max() / MESH.mean_edge_length
     assert panes.first.arrows == (0, 0)
     assert other.arrows[0] == MESH.free.sum()
     assert other.colouring.high == panes.first.colouring.high == pytest.approx(far)
-    panes.set_movement(Movement(MESH, Moment(OTHERS[0].points, second, "later"), MESH.points, first))
-    panes.catch_up()
+    look_at(panes, look, Movement(MESH, Moment(OTHERS[0].points, second, "later"), MESH.points, first))
     assert other.colouring.title.endswith("since later")
-    np.testing.assert_array_equal(other.movement.before.points, OTHERS[0].points)
+    np.testing.assert_array_equal(other.frame.movement.before.points, OTHERS[0].points)

@@ -8,6 +8,7 @@ from hexmend.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import ClipPlane, PlaneClip
 from hexmend_app.state.look import ColourScale, Look, RangeMode, ValueRange
@@ -21,6 +22,13 @@ def figures_of(mesh):
     return measure(mesh.points, mesh.hexes)
 
 
+def show(viewport, mesh=None, look=None):
+    """Draw another mesh under the same look, or the same under another."""
+    last = viewport.frame
+    mesh = mesh or (last and last.mesh) or MESH
+    viewport.draw(Frame(mesh, figures_of(mesh), look=look or (last.look if last else Look())))
+
+
 @pytest.fixture
 def plotter():
     plotter = pv.Plotter(off_screen=True, window_size=(200, 150))
@@ -32,7 +40,7 @@ def plotter():
 def seen(plotter):
     """A viewport with a grid in it, seen from above, and a function that returns its pixels."""
     viewport = Viewport(plotter)
-    viewport.set_mesh(MESH, figures_of(MESH))
+    show(viewport, MESH)
     viewport.view("+z")
     plotter.camera_set = True
 
@@ -53,31 +61,31 @@ def magenta(image):
 def test_pixels_follow_the_points_and_come_back_with_them(seen):
     viewport, pixels = seen
     before = pixels()
-    viewport.set_points(MESH.points * 0.5, figures_of(MESH))  # the colours stay
+    show(viewport, MESH.with_points(MESH.points * 0.5))  # the colours stay
     assert np.abs(pixels() - before).max() > 50
-    viewport.set_points(MESH.points, figures_of(MESH))
+    show(viewport, MESH)
     np.testing.assert_array_equal(pixels(), before)
 
 
 @pytest.mark.parametrize("crinkle", [True, False])
 def test_inside_a_cut_elements_turn_over_and_back(seen, crinkle):
     viewport, pixels = seen
-    viewport.set_look(Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2), crinkle)))
+    show(viewport, look=Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2), crinkle)))
     before = pixels()
     assert magenta(before) == 0
     tangled = scrambled(MESH, 1.5)
     assert figures_of(tangled).n_inverted > 10
-    viewport.set_points(tangled.points, figures_of(tangled))
+    show(viewport, tangled)
     assert magenta(pixels()) > 50
-    viewport.set_points(MESH.points, figures_of(MESH))
+    show(viewport, MESH)
     np.testing.assert_array_equal(pixels(), before)
 
 
 def test_a_cut_through_nodes_is_closed(seen):
     viewport, pixels = seen
-    viewport.set_look(Look(edges=False))
+    show(viewport, look=Look(edges=False))
     whole = pixels()
-    viewport.set_look(Look(edges=False, clip=INSIDE))
+    show(viewport, look=Look(edges=False, clip=INSIDE))
     middle = np.s_[60:90, 85:115]
     assert np.abs(pixels()[middle] - whole[middle]).max() <= 2  # q = 1 everywhere, lit alike
 
@@ -87,8 +95,8 @@ def test_faces_turned_inside_out_are_seen(seen):
     background = pixels()[0, 0]
     drawn = (pixels() != background).any(axis=2).sum()
     mirrored = MESH.with_points(MESH.points * [-1, 1, 1] + [4, 0, 0])
-    viewport.set_look(Look(edges=False))
-    viewport.set_points(mirrored.points, figures_of(mirrored))
+    show(viewport, look=Look(edges=False))
+    show(viewport, mirrored)
     assert magenta(pixels()) > 0.9 * drawn
 
 
@@ -104,7 +112,7 @@ def test_edges_are_drawn_or_not(seen):
     viewport, pixels = seen
     middle = np.s_[40:110, 65:135]
     assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) > 1
-    viewport.set_look(Look(edges=False))
+    show(viewport, look=Look(edges=False))
     assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) == 1
 
 
@@ -112,17 +120,17 @@ def test_the_same_picture_however_its_look_was_reached(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 0.6)
     look = Look(clip=INSIDE, quality_range=ValueRange("q", 0.3, 0.9), scale=ColourScale(map="plasma"))
-    viewport.set_look(look)
-    viewport.set_points(tangled.points, figures_of(tangled))
+    show(viewport, look=look)
+    show(viewport, tangled)
     moved = pixels()
     lower = Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 1)))
-    viewport.set_look(lower)
+    show(viewport, look=lower)
     crinkle = pixels()
     assert np.abs(crinkle - moved).max() > 50
-    viewport.set_look(look)
+    show(viewport, look=look)
     np.testing.assert_array_equal(pixels(), moved)
-    viewport.set_look(Look())
-    viewport.set_look(lower)
+    show(viewport, look=Look())
+    show(viewport, look=lower)
     np.testing.assert_array_equal(pixels(), crinkle)
 
 
@@ -137,7 +145,7 @@ def white(image):
 )
 def test_inverted_elements_that_are_seen_are_outlined(seen, edges, clip):
     viewport, pixels = seen
-    viewport.set_look(Look(edges=edges, clip=clip))
+    show(viewport, look=Look(edges=edges, clip=clip))
     before = pixels()
     assert white(before) == 0
     tangled = scrambled(MESH, 1.5)
@@ -145,9 +153,9 @@ def test_inverted_elements_that_are_seen_are_outlined(seen, edges, clip):
         tangled = MESH.with_points(
             MESH.points + 1.5 * (MESH.points == MESH.points.max(axis=0)).all(axis=1)[:, None] * -1
         )
-    viewport.set_points(tangled.points, figures_of(tangled))
+    show(viewport, tangled)
     assert white(pixels()) > 30
-    viewport.set_points(MESH.points, figures_of(MESH))
+    show(viewport, MESH)
     np.testing.assert_array_equal(pixels(), before)
 
 
@@ -156,7 +164,7 @@ def test_an_outline_moves_with_its_element(seen):
     background = pixels()[0, 0]
     for size in (1, 0.5, 0.8):
         mirrored = MESH.with_points(MESH.points * [-size, size, size] + [4, 0, 0])
-        viewport.set_points(mirrored.points, figures_of(mirrored))
+        show(viewport, mirrored)
         image = pixels()[:, 60:]  # without the axes in the corner
         drawn, outline = (np.argwhere(where) for where in ((image != background).any(axis=2), image.min(axis=2) > 250))
         np.testing.assert_allclose(drawn.min(axis=0), outline.min(axis=0), atol=3)
@@ -166,20 +174,20 @@ def test_an_outline_moves_with_its_element(seen):
 def test_inverted_elements_that_are_hidden_are_not_outlined(seen):
     viewport, pixels = seen
     tangled = scrambled(MESH, 1.5)
-    viewport.set_points(tangled.points, figures_of(tangled))
-    viewport.set_look(Look(quality_range=ValueRange("q", 1.5, 2)))  # nothing
+    show(viewport, tangled)
+    show(viewport, look=Look(quality_range=ValueRange("q", 1.5, 2)))  # nothing
     assert white(pixels()) == 0
 
 
 def test_a_fitted_range_follows_the_points(seen):
     viewport, _ = seen
-    viewport.set_look(Look(scale=ColourScale(mode=RangeMode.FITTED)))
+    show(viewport, look=Look(scale=ColourScale(mode=RangeMode.FITTED)))
     assert viewport.colouring.high - viewport.colouring.low < 1e-5
     other = scrambled(MESH, 0.2)
     figures = figures_of(other)
-    viewport.set_points(other.points, figures)
+    show(viewport, other)
     assert (viewport.colouring.low, viewport.colouring.high) == (figures.q.min(), figures.q.max())
-    viewport.set_look(Look(scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED)))
+    show(viewport, look=Look(scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED)))
     assert viewport.colouring.title == "Scaled Jacobian"
     assert viewport.colouring.low == figures.scaled_jacobian.min()
 
@@ -188,7 +196,7 @@ def test_nodes_that_no_hex_uses_do_not_count(seen):
     viewport, pixels = seen
     before = pixels()
     stray = Mesh(np.vstack([MESH.points, [[100.0, 0.0, 0.0]]]), MESH.hexes)
-    viewport.set_mesh(stray, figures_of(stray))
+    show(viewport, stray)
     viewport.view("+z")
     assert viewport.bounds == (0, 4, 0, 4, 0, 4)
     np.testing.assert_array_equal(pixels(), before)
@@ -210,13 +218,14 @@ def test_setting_the_plane_is_no_wish_of_the_user(plotter):
 def test_what_is_picked_is_what_is_seen(seen):
     viewport, pixels = seen
     pixels()
-    h, node = viewport.pick(100, 75)
+    hit = viewport.pick(100, 75)
+    h, node = hit.hex, hit.node
     assert h in np.flatnonzero(MESH.points[MESH.hexes][:, :, 2].max(axis=1) == MESH.points[:, 2].max())
     assert node in MESH.hexes[h]
     assert viewport.pick(1, 1) is None
-    viewport.set_look(Look(clip=INSIDE))  # cut through at z = 2: the section is what is seen
+    show(viewport, look=Look(clip=INSIDE))  # cut through at z = 2: the section is what is seen
     pixels()
-    below, node = viewport.pick(100, 75)
+    below = viewport.pick(100, 75).hex
     assert MESH.points[MESH.hexes[below]][:, 2].min() < 2
     np.testing.assert_allclose(
         MESH.points[MESH.hexes[below]].mean(axis=0)[:2], MESH.points[MESH.hexes[h]].mean(axis=0)[:2]
@@ -227,40 +236,40 @@ def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there
     viewport, pixels = seen
     plain = pixels()
     inner = 21
-    viewport.select(inner)
+    viewport.chosen.select(inner, False, None)
     marked = pixels()
     assert 0 < (np.abs(marked - plain).max(axis=2) > 40).sum() < 0.2 * plain[:, :, 0].size
-    viewport.select(inner, corners=True)
+    viewport.chosen.select(inner, True, None)
     np.testing.assert_array_equal(pixels(), marked)  # too small for figures
     flight = viewport.flight_to(inner)
     flight.at(1.0)
-    viewport.reset_depth()
+    viewport.eye.reset_depth()
     centre = MESH.points[MESH.hexes[inner]].mean(axis=0)
     np.testing.assert_allclose(plotter.camera.GetFocalPoint(), centre)
     plotter.camera.Dolly(2.0)
     near = pixels()
-    viewport.select(inner)
+    viewport.chosen.select(inner, False, None)
     assert (near != pixels()).any()
 
 
 def test_a_large_skin_is_drawn_coarsely_while_the_camera_turns_and_finely_at_rest(seen, monkeypatch):
     viewport, pixels = seen
-    monkeypatch.setattr("hexmend_app.scene.viewport.MANY", 50)
+    monkeypatch.setattr("hexmend_app.scene.layers.body.MANY", 50)
     viewport.still()
     fine = pixels()
     viewport.turning()
-    mapper = viewport._skin_surface.actor.mapper
+    mapper = viewport.body.skin.actor.mapper
     rough = mapper.GetInput()
-    assert 0 < rough.GetNumberOfCells() != viewport._whole.GetNumberOfCells()
+    assert 0 < rough.GetNumberOfCells() != viewport.body.whole.GetNumberOfCells()
     turned = pixels()
     body = (fine != fine[0, 0]).any(axis=2)
     assert ((turned != turned[0, 0]).any(axis=2) == body).mean() > 0.98  # the same shape
     viewport.turning()
     assert mapper.GetInput() is rough  # made once
-    h, _ = viewport.pick(100, 75)
+    h = viewport.pick(100, 75).hex
     assert (MESH.topology.face_neighbours[h] < 0).any()
-    viewport.set_points(MESH.points, figures_of(MESH))
+    show(viewport, MESH)
     viewport.turning()
-    assert mapper.GetInput() is viewport._whole  # nodes that move are seen as they are
+    assert mapper.GetInput() is viewport.body.whole  # nodes that move are seen as they are
     viewport.still()
     np.testing.assert_array_equal(pixels(), fine)

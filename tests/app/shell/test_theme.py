@@ -27,13 +27,14 @@ from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.features.tags.tag_panel import TagPanel
 from hexmend_app.scene import palette as theme
 from hexmend_app.scene.export.picture import picture
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import THEME, Role
 from hexmend_app.shell.palette import CommandPalette
 from hexmend_app.state.commands import methods_offered
 from hexmend_app.state.convergence import Columns, Curve
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Record
-from hexmend_app.state.look import Look, ValueRange
+from hexmend_app.state.look import ValueRange
 from hexmend_app.state.recent import Recent
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.message_bar import MessageBar
@@ -209,7 +210,7 @@ def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     assert (pixels(window)[5, 5] < ground - 100).all()
     assert window.palette().window().color().name() == theme.PANEL.dark
     now = window.document.now
-    report = np.asarray(picture(now.mesh, now.figures, Look(), (400, 300)))
+    report = np.asarray(picture(Frame(now.mesh, now.figures), (400, 300)))
     assert report[2, 2, :3].tolist() == ground.tolist()
     on = [choice for choice in Choice if window.actions_by_id[f"theme_{choice.value}"].isChecked()]
     assert on == [Choice.DARK]

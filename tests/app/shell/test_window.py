@@ -254,13 +254,13 @@ def test_distributions_are_kept_under_the_name_of_the_moment_for_any_metric(wind
 def test_what_a_range_leaves_is_drawn_anew_only_where_it_changes(window, qtbot, monkeypatch):
     viewport, now = window.canvas.viewport, window.document.now
     rebuilt = []
-    rebuild = viewport._rebuild
-    monkeypatch.setattr(viewport, "_rebuild", lambda keep: (rebuilt.append(1), rebuild(keep)))
+    rebuild = viewport.body.rebuild
+    monkeypatch.setattr(viewport.body, "rebuild", lambda *what: (rebuilt.append(1), rebuild(*what)))
     window.view.change(quality_range=ValueRange("q", 0.4, 1))
     moved = State.of(now.mesh.with_points(now.mesh.points * 1.01))  # of the same shape
     window.document.preview(moved)
     assert len(rebuilt) == 1
-    np.testing.assert_allclose(viewport._whole.points, viewport._faces.places(moved.mesh.points), rtol=1e-6)
+    np.testing.assert_allclose(viewport.body.whole.points, viewport.body.faces.places(moved.mesh.points), rtol=1e-6)
     shaken = now.mesh.points + 0.3 * now.mesh.mean_edge_length * np.random.default_rng(0).random(now.mesh.points.shape)
     window.document.preview(State.of(now.mesh.with_points(shaken)))
     assert len(rebuilt) == 2

@@ -86,7 +86,7 @@ class Filming(QObject):
         size = (WIDTH, round(WIDTH * self.canvas.height() / self.canvas.width() / 2) * 2)
         taken = shots(history, record, self._session.document.now.mesh, numbers)
         self._path, self._count, self._frames = path, len(numbers), []
-        self._coming = pictures(taken, view.look, size, camera=view.camera, movement=view.movement)
+        self._coming = pictures(taken, view.frame.look, size, camera=view.camera, movement=view.frame.movement)
         self._next.start()
         self._say()
 

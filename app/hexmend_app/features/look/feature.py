@@ -12,9 +12,10 @@ from hexmend_app.features.cut.clip_panel import ClipPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.features.look.colour_panel import ColourPanel
 from hexmend_app.features.structure.structure_panel import StructurePanel
+from hexmend_app.scene.frame import Frame
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Arrows, Look
-from hexmend_app.state.movement import MOVEMENTS
+from hexmend_app.state.movement import MOVEMENTS, Movement
 from hexmend_app.state.session import Session
 
 if TYPE_CHECKING:
@@ -105,18 +106,12 @@ class Looking:
         self._clip.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
         if self._canvas is not None:
             self._canvas.show()
-            self._draw()
             self._drawn = self._document.start
-            self._compare()
-            self._canvas.set_mesh(now.mesh, now.figures)
+            self._draw()
 
     def move(self, live: bool) -> None:
         """Show the nodes where they are now; `live` where they go on moving."""
-        if self._canvas is not None:
-            now = self._document.now
-            self._canvas.set_pinned(now.mesh.pinned)
-            self._compare()
-            self._canvas.set_points(now.mesh.points, now.figures, live)
+        self._draw(live)
 
     def refresh(self) -> None:
         """Say what is shown, and what the colours stand for."""
@@ -141,17 +136,17 @@ class Looking:
         self._draw()
         self.refresh()
 
-    def _draw(self) -> None:
-        if self._canvas is not None:
-            if self._document.is_open and self._drawn is self._document.start:
-                self._compare()
-            self._canvas.set_look(self._drawable(), self._view.handles, self._view.plane_at)
+    def _draw(self, live: bool = False) -> None:
+        if self._canvas is not None and self._document.is_open and self._drawn is self._document.start:
+            now = self._document.now
+            self._canvas.show_handles(self._view.handles, self._view.plane_at)
+            self._canvas.draw(Frame(now.mesh, now.figures, self._movement(), self._drawable()), live)
 
-    def _compare(self) -> None:
-        """Bring the view what it shows of a movement, if anything."""
+    def _movement(self) -> Movement | None:
+        """What the view shows of a movement, if anything."""
         look = self._view.look
         wanted = look.scale.metric in MOVEMENTS or look.traces.arrows is not Arrows.NONE
-        self._canvas.set_movement(self._references.movement(look.traces.since) if wanted else None)
+        return self._references.movement(look.traces.since) if wanted else None
 
     def _on_found(self) -> None:
         self._structure.set_found(self._finder.structure)

@@ -1,4 +1,4 @@
-"""Where a camera has to stand so that a box just fills the picture, and how large a length is in the picture."""
+"""Where a camera has to stand so that something just fills the picture, and how large a length is in the picture."""
 
 from __future__ import annotations
 
@@ -10,42 +10,46 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 _MARGIN = 0.04
 
 
-def fit(camera: pv.Camera, bounds: tuple[float, float, float, float, float, float], aspect: float) -> None:
-    """Bring a camera that looks at the centre of a box so near that the box just fills the picture.
+def bounds_of(places: np.ndarray) -> tuple[float, float, float, float, float, float]:
+    """x low, x high, y low, y high, z low, z high of places, (k, 3)."""
+    low, high = places.min(axis=0), places.max(axis=0)
+    return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
 
-    VTK itself makes room for the sphere around the box, which leaves a third of the picture empty. In perspective the
-    near half of the box looks larger: the camera then steps aside a little, so that the margins are equal.
+
+def fit(camera: pv.Camera, places: np.ndarray, aspect: float) -> None:
+    """Bring a camera so near that places just fill the picture, none of them outside.
+
+    VTK itself makes room for the sphere around their box, which leaves a third of the picture empty. In perspective
+    what is nearer looks larger: the camera steps aside so far that the margins are equal.
 
     Parameters
     ----------
     camera : pyvista.Camera
         Its direction is kept; its place, focal point and parallel scale are set.
-    bounds : tuple of 6 floats
-        x low, x high, y low, y high, z low, z high.
+    places : (k, 3) float64
+        At least one.
     aspect : float
         Width of the picture by its height.
     """
-    low, high = np.reshape(bounds, (3, 2)).T
-    corners = (np.indices((2, 2, 2)).reshape(3, 8).T - 0.5) * (high - low)  # seen from the centre
+    centre = (places.min(axis=0) + places.max(axis=0)) / 2
     ahead = np.array(camera.GetDirectionOfProjection())
     right = np.cross(ahead, camera.GetViewUp())
     right /= np.linalg.norm(right)
     upwards = np.cross(right, ahead)
-    depth = corners @ ahead
+    depth, *across = ((places - centre) @ np.column_stack([ahead, right, upwards])).T
     tangent = np.tan(np.radians(camera.GetViewAngle()) / 2) * (1 - _MARGIN)
     distance, scale, aside = 0.0, 0.0, np.zeros(3)
-    for axis, stretch in ((right, aspect), (upwards, 1.0)):
-        # A corner at u along the axis is in the picture when |u - shift| <= (distance + depth) slope.
-        u, slope = corners @ axis, tangent * stretch
+    parallel = camera.GetParallelProjection()
+    for axis, u, stretch in ((right, across[0], aspect), (upwards, across[1], 1.0)):
+        # A place at u along the axis is in the picture when |u - shift| <= (distance + depth) slope.
+        slope = tangent * stretch
         most, least = (u - depth * slope).max(), (u + depth * slope).min()
         distance = max(distance, (most - least) / (2 * slope))
-        scale = max(scale, np.abs(u).max() / stretch / (1 - _MARGIN))
-        aside += (most + least) / 2 * axis
+        scale = max(scale, np.ptp(u) / 2 / stretch / (1 - _MARGIN))
+        aside += ((u.min() + u.max()) if parallel else (most + least)) / 2 * axis
     if not scale > 0:
-        return  # a box that is a point, or a line seen from its end
-    if camera.GetParallelProjection():
-        aside = np.zeros(3)
-    target = (low + high) / 2 + aside
+        return  # a point, or a line seen from its end
+    target = centre + aside
     camera.SetFocalPoint(target)
     camera.SetPosition(target - distance * ahead)
     camera.SetParallelScale(scale)

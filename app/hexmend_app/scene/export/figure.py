@@ -13,6 +13,7 @@ from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
 from hexmend_app.scene.filters import Filters
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.panes import ROOM, Panes, columns
 from hexmend_app.state.look import Look
 from hexmend_app.state.movement import Movement
@@ -65,8 +66,11 @@ def figure(
     ----------
     panels : sequence of Panel
         Two to four.
-    look, size, filters, movement, view, camera, transparent, bar
+    look : Look
+    size, filters, view, camera, transparent, bar
         As for `hexmend_app.scene.export.picture.picture`.
+    movement : Movement, optional
+        Of the first; the others compare with the same moment.
     wipe : Wipe, optional
         Lays two of them over one another; None shows all side by side.
     """
@@ -78,11 +82,9 @@ def figure(
         off_screen=True, shape=(1, ROOM), border=False, window_size=(width, height - strip - rows * line)
     )
     try:
-        panes = Panes(plotter)
-        panes.set_movement(movement)
-        panes.set_look(look)
+        panes = Panes(plotter, filters)
         first, *others = panels
-        panes.first.set_mesh(first.mesh, first.figures, filters)
+        panes.draw(Frame(first.mesh, first.figures, movement, look))
         panes.show([(other.mesh, other.figures) for other in others], wipe)
         panes.look_along(view)
         if camera is not None:
@@ -92,7 +94,10 @@ def figure(
         panes.still()
         plotter.show(auto_close=False, interactive=False)
         pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
-        colouring, apart = panes.first.colouring, [(name, None, colour) for name, _, colour in panes.first.apart]
+        colouring, apart = (
+            panes.first.colouring,
+            [(name, None, colour) for name, _, colour in panes.first.colours.apart],
+        )
     finally:
         plotter.close()
     image = Image.fromarray(np.asarray(pixels))

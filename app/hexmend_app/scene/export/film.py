@@ -12,6 +12,7 @@ from PIL import Image, ImageDraw
 from hexmend.errors import HexmendError
 from hexmend.io.atomic import replacing
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look, Since
 from hexmend_app.state.movement import Moment, Movement
@@ -57,7 +58,6 @@ def pictures(
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - 2 * strip))
     try:
         viewport = Viewport(plotter)
-        viewport.set_look(look)
         seen_last: Moment | None = None
         for shot in shots:
             mesh, figures = shot.state.mesh, shot.state.figures
@@ -65,13 +65,11 @@ def pictures(
                 before = seen_last if look.traces.since is Since.ITERATION else movement.before
                 now = Moment(mesh.points, figures, "the picture before")
                 movement = Movement(movement.mesh, before or now, mesh.points, figures)
-                viewport.set_movement(movement)
                 seen_last = now
-            if viewport.colouring is None:
-                viewport.set_mesh(mesh, figures)
+            first = viewport.frame is None
+            viewport.draw(Frame(mesh, figures, movement, look))
+            if first:
                 _place(plotter, viewport, view, camera)
-            else:
-                viewport.set_points(mesh.points, figures)
             viewport.still()
             plotter.renderer.ResetCameraClippingRange()
             plotter.render()
@@ -99,7 +97,7 @@ def _framed(seen: Image.Image, shot: Shot, viewport: Viewport, size: tuple[int, 
     if strip:
         at = (round(0.3 * strip), strip / 2)
         ImageDraw.Draw(whole).text(at, shot.caption, INK, letters(0.42 * strip), anchor="lm")
-        bar = colour_bar(viewport.colouring, viewport.apart, (size[0], strip), seen.mode)
+        bar = colour_bar(viewport.colouring, viewport.colours.apart, (size[0], strip), seen.mode)
         whole.paste(bar, (0, size[1] - strip))
     return whole
 

@@ -9,14 +9,11 @@ import numpy as np
 import pyvista as pv
 from PIL import Image, ImageDraw, ImageFont
 
-from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
-from hexmend.quality import ElementQuality
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.filters import Filters
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.look import Look
-from hexmend_app.state.movement import Movement
 
 INK = (31, 38, 48)
 
@@ -25,27 +22,21 @@ _SMALLEST_WITH_BAR = (320, 160)
 
 
 def picture(
-    mesh: Mesh,
-    figures: ElementQuality,
-    look: Look,
+    frame: Frame,
     size: tuple[int, int],
     *,
     filters: Filters | None = None,
     node_step: NodeStep | None = None,
-    movement: Movement | None = None,
     view: str | tuple[float, float, float] = "iso",
     camera: pv.Camera | None = None,
     transparent: bool = False,
     bar: bool = True,
 ) -> Image.Image:
-    """Draw a mesh.
+    """Draw a frame.
 
     Parameters
     ----------
-    mesh : Mesh
-    figures : ElementQuality
-        Of the mesh.
-    look : Look
+    frame : Frame
     size : (width, height)
         In pixels, the colour bar included.
     filters : Filters, optional
@@ -53,8 +44,6 @@ def picture(
         plane comes, not where they are now.
     node_step : NodeStep, optional
         A node's step that is drawn too.
-    movement : Movement, optional
-        What colours and arrows of a movement show.
     view : str or vector
         The direction to look from, where no camera is given.
     camera : pyvista.Camera, optional
@@ -68,11 +57,9 @@ def picture(
     strip = strip_height(size) if bar else 0
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
     try:
-        viewport = Viewport(plotter)
-        viewport.set_movement(movement)
-        viewport.set_look(look)
-        viewport.set_mesh(mesh, figures, filters)
-        viewport.show_node_step(node_step)
+        viewport = Viewport(plotter, filters=filters)
+        viewport.draw(frame)
+        viewport.chosen.show_node_step(node_step)
         viewport.view(view)
         if camera is not None:
             plotter.camera.DeepCopy(camera)
@@ -89,7 +76,7 @@ def picture(
         return image
     whole = paper(size, image.mode)
     whole.paste(image, (0, 0))
-    whole.paste(colour_bar(viewport.colouring, viewport.apart, (width, strip), image.mode), (0, height - strip))
+    whole.paste(colour_bar(viewport.colouring, viewport.colours.apart, (width, strip), image.mode), (0, height - strip))
     return whole
 
 

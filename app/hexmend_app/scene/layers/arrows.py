@@ -6,8 +6,12 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
+from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.overlay import overlay
+from hexmend_app.scene.layers.structure import uncut
 from hexmend_app.scene.layers.surface import set_points
+from hexmend_app.state.look import Arrows
 from hexmend_app.state.movement import NOTHING, Movement
 
 #: Arrows that are drawn at most, the longest first: so many cost 20 ms of a moving frame without a graphics card.
@@ -56,6 +60,29 @@ class ArrowLayer:
     def layer(self) -> vtkRenderer:
         """What draws inside the mesh."""
         return self._inside
+
+    def draw(self, frame: Frame, keep: np.ndarray | None, body: Body) -> None:
+        """Draw what a frame's look wants of its movement.
+
+        Parameters
+        ----------
+        frame : Frame
+        keep : (m,) bool, optional
+            Hexes that are shown, in whole or in part; None for all.
+        body : Body
+            Knows which nodes are in sight.
+        """
+        mesh, traces = frame.mesh, frame.look.traces
+        if traces.arrows is Arrows.NONE or frame.movement is None:
+            self.hide()
+            return
+        through = traces.arrows is Arrows.ALL
+        if through:
+            nodes = np.zeros(mesh.n_nodes, bool)
+            nodes[mesh.hexes if keep is None else mesh.hexes[keep]] = True
+        else:
+            nodes = body.nodes_in_sight(mesh)
+        self.show(frame.movement, nodes & uncut(frame.look, mesh.points), traces.factor, through)
 
     def hide(self) -> None:
         """Draw none."""

@@ -66,9 +66,9 @@ class StructureLayers:
         """Take another mesh; its structure is found when first wanted."""
         self._mesh, self._found = mesh, None
 
-    def set_pins(self, mesh: Mesh) -> None:
-        """Take the same mesh with other nodes pinned."""
-        self._mesh = mesh
+    def set_pins(self, pinned: np.ndarray | None) -> None:
+        """Take which nodes of the same mesh are pinned, (n,) bool; `move` draws them."""
+        self._mesh = self._mesh.replace(pinned=pinned)
 
     def choose(
         self, look: Look, points: np.ndarray, figures: ElementQuality, faces: Faces, keep: np.ndarray | None

@@ -44,7 +44,7 @@ def mesh_file(tmp_path):
 
 def faces(window):
     """The hexes of the faces that are drawn."""
-    return window.canvas.viewport._faces.hexes
+    return window.canvas.viewport.body.faces.hexes
 
 
 def shown(window):
@@ -199,16 +199,16 @@ def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtb
     assert window.view.look.shrink == 0.3
     window.view.change(peel=3)
     chosen = np.flatnonzero(window.document.now.mesh.topology.layers >= 3)
-    before = window.canvas.viewport._faces
+    before = window.canvas.viewport.body.faces
     window.smoothing_panel.set_method("laplacian")
     window.smoothing_panel.step()
     qtbot.waitUntil(lambda: window.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     drawn = window.canvas.viewport
-    assert drawn._faces is before  # nothing depends on quality, so no face is looked for anew
+    assert drawn.body.faces is before  # nothing depends on quality, so no face is looked for anew
     corners = drawn._points[drawn.mesh.hexes[chosen]]
     assert not np.array_equal(drawn._points, window.document.start.mesh.points)
     expected = corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)
-    np.testing.assert_allclose(drawn._whole.points, expected.reshape(-1, 3), atol=1e-12)
+    np.testing.assert_allclose(drawn.body.whole.points, expected.reshape(-1, 3), atol=1e-12)
 
 
 def test_of_many_elements_those_in_sight_are_shrunk(window, qtbot, monkeypatch):
@@ -225,7 +225,7 @@ def test_of_many_elements_those_in_sight_are_shrunk(window, qtbot, monkeypatch):
 
 def test_a_smooth_cut_is_not_shrunk(window):
     window.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
-    assert window.canvas.viewport._faces.shrink == 0
+    assert window.canvas.viewport.body.faces.shrink == 0
     assert shown(window) == "1,000 of 1,000 elements shown, then cut"
 
 

@@ -45,16 +45,18 @@ def test_colours_follow_the_iterations_and_the_moment_they_are_compared_with(win
     press(panel.colours, "q-change")
     assert window.view.look.scale.mode is RangeMode.FITTED
     assert viewport.colouring.title == "change of q(H) since opening"
-    np.testing.assert_array_equal(viewport._values, window.document.now.figures.q - window.document.start.figures.q)
+    np.testing.assert_array_equal(
+        viewport.colours.values, window.document.now.figures.q - window.document.start.figures.q
+    )
     timeline.go(record, 3)
     press(panel.since, "iteration")
     then = window.session.history.state(type(timeline.moment)(record, 2), window.document.now.mesh)
-    np.testing.assert_allclose(viewport._values, window.document.now.figures.q - then.figures.q)
+    np.testing.assert_allclose(viewport.colours.values, window.document.now.figures.q - then.figures.q)
     assert window.canvas.colour_bar.accessibleDescription().endswith(viewport.colouring.label(viewport.colouring.high))
     timeline.step(1)
     assert viewport.colouring.title == f"change of q(H) since {record.name} 3"
     timeline.go(record, 0)
-    assert not viewport._values.any()
+    assert not viewport.colours.values.any()
     press(panel.colours, "")
     assert window.view.look.scale.metric == "q"
     assert window.view.look.scale.mode is RangeMode.FULL
@@ -154,7 +156,7 @@ def test_another_mesh_can_be_opened_while_a_movement_is_shown(window, record, pa
     io.write(tmp_path / "other.vtu", gallery.make("cube", size=64, scramble=0.3))
     open_and_wait(qtbot, window, tmp_path / "other.vtu")
     assert window.canvas.viewport.arrows == (0, 0)
-    assert not window.canvas.viewport._values.any()
+    assert not window.canvas.viewport.colours.values.any()
     assert figures(panel)["Nodes"].startswith("0 of ")
 
 
@@ -174,7 +176,7 @@ def test_a_film_compares_each_picture_with_the_one_before(window, record, panel)
     press(panel.colours, "q-change")
     press(panel.since, "iteration")
     taken = list(shots(history, record, mesh, [0, 2, 5]))
-    look, movement = window.view.look, window.canvas.viewport.movement
+    look, movement = window.view.look, window.canvas.viewport.frame.movement
     frames = [np.asarray(one) for one in pictures(taken, look, (400, 300), movement=movement)]
     assert len(frames) == 3
     assert (frames[0] != frames[1]).any()

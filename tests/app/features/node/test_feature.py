@@ -39,7 +39,7 @@ def choose(window, name):
 
 
 def shown(window):
-    return window.canvas.viewport.node_step
+    return window.canvas.viewport.chosen.node_step
 
 
 def wait_for_step(window, qtbot, method, node=None):
@@ -226,7 +226,7 @@ def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictu
     step = shown(window)
     assert window.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size
-    qtbot.waitUntil(lambda: not window.canvas._fly.isActive(), timeout=5000)
+    qtbot.waitUntil(lambda: not window.canvas.flying, timeout=5000)
 
     def seen(image, role):
         colour = [int(role.light[k : k + 2], 16) for k in (1, 3, 5)]
@@ -253,7 +253,7 @@ def test_the_marks_and_the_plot_follow_the_theme(at_work, qtbot):
     try:
         theming.choose(Choice.DARK)
         qtbot.wait(20)
-        arrow = at_work.canvas.viewport._pointing._node_step._arrows[UPHILL][1]
+        arrow = at_work.canvas.viewport.chosen._node_step._arrows[UPHILL][1]
         wanted = [int(UPHILL.dark[k : k + 2], 16) / 255 for k in (1, 3, 5)]
         assert arrow.GetProperty().GetColor() == pytest.approx(wanted)
         assert at_work.node_panel.plot._curve.opts["pen"].color().name() == SEARCH.dark

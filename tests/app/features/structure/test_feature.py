@@ -161,9 +161,9 @@ def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five,
     with qtbot.waitSignal(five.finder.found, timeout=20000):
         open_and_wait(qtbot, five, tmp_path / "cube.vtu")
         assert five.finder.structure is None
-        assert not five.canvas.viewport.look.structure.edges  # the view does not wait for them
+        assert not five.canvas.viewport.frame.look.structure.edges  # the view does not wait for them
     qtbot.wait(10)
-    assert five.canvas.viewport.look.structure == Structure(irregular=True, sharp=True)
+    assert five.canvas.viewport.frame.look.structure == Structure(irregular=True, sharp=True)
     assert texts(five.structure_panel, "sharp") == ["36"]
     assert five.structure_panel._layers["irregular"].box.isEnabled()  # to be switched off
     assert count(pixels(five), SHARP) > 300
@@ -191,7 +191,7 @@ def test_a_pinned_node_changes_its_colour(five, qtbot):
     inside = int(np.flatnonzero(five.document.now.mesh.free)[0])
     five.view.change(peel=1)
     assert count(pixels(five), PINNED) == 0
-    visible = five.canvas.viewport._faces.nodes
+    visible = five.canvas.viewport.body.faces.nodes
     inside = int(visible[five.document.now.mesh.free[visible]][0])
     five.commands.pin(inside, True)
     qtbot.wait(20)

@@ -20,8 +20,8 @@ def corners_seen(direction, size, aspect, parallel):
     camera.SetPosition(low + np.array(size) / 2 + direction)
     camera.SetViewUp(0, 0, 1)
     camera.SetParallelProjection(parallel)
-    fit(camera, tuple(np.column_stack([low, low + size]).ravel()), aspect)
     corners = low + np.indices((2, 2, 2)).reshape(3, 8).T * size
+    fit(camera, corners, aspect)
     matrix = pv.array_from_vtkmatrix(camera.GetCompositeProjectionTransformMatrix(aspect, -1, 1))
     seen = np.column_stack([corners, np.ones(8)]) @ matrix.T
     assert (seen[:, 3] > 0).all()  # none behind the camera
@@ -40,5 +40,5 @@ def test_the_box_is_seen_whole_and_reaches_two_opposite_sides(direction, size, a
 def test_a_box_without_size_leaves_the_camera():
     camera = pv.Camera()
     before = camera.GetPosition()
-    fit(camera, (1.0, 1.0, 2.0, 2.0, 3.0, 3.0), 1.5)
+    fit(camera, np.array([[1.0, 2.0, 3.0]] * 3), 1.5)
     assert camera.GetPosition() == before

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hexmend.quality import measure
 from hexmend_app.scene.cutting import cut
 from hexmend_app.scene.filters import Filters
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.surface import quads
 from hexmend_app.scene.skin import Skin
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
@@ -101,7 +102,7 @@ def test_several_planes_leave_what_geometry_says(clip, skin_area, section_area):
 )
 def test_whole_elements_are_kept_by_their_centres(normals, notch):
     clip = PlaneClip(tuple(ClipPlane(normal, (2, 1.5, 1)) for normal in normals), True, notch)
-    kept = Filters(MESH).kept(Look(clip=clip), MESH.points, measure(MESH.points, MESH.hexes))
+    kept = Filters(MESH).kept(Frame(MESH, measure(MESH.points, MESH.hexes), look=Look(clip=clip)))
     beyond = np.array([plane.signed_distance(MESH.points[MESH.hexes].mean(axis=1)) for plane in clip.planes])
     clear = (np.abs(beyond) > 1e-12).all(axis=0)
     hidden = (beyond > 0).all(axis=0) if notch else (beyond > 0).any(axis=0)

@@ -19,6 +19,7 @@ from hexmend_app.cli.render import command
 from hexmend_app.scene.colours import INVERTED, resolve
 from hexmend_app.scene.export.figure import Panel, figure
 from hexmend_app.scene.export.picture import picture
+from hexmend_app.scene.frame import Frame
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.look import Look
 from hexmend_app.state.measured import values
@@ -167,7 +168,7 @@ def test_words_that_begin_with_a_minus_are_values():
 @pytest.mark.parametrize("size", [(64, 64), (128, 96), (320, 160), (200, 600)])
 def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
     mesh = grid(2)
-    assert picture(mesh, measure(mesh.points, mesh.hexes), Look(), size).size == size
+    assert picture(Frame(mesh, measure(mesh.points, mesh.hexes)), size).size == size
 
 
 def asked(mesh, *words):

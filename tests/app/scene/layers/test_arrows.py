@@ -1,10 +1,13 @@
 """Arrows of what has moved."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 import pyvista as pv
 
 from hexmend.quality import measure
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers import arrows as layer
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import PlaneClip
@@ -23,15 +26,20 @@ CUT = PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0))
 def viewport():
     plotter = pv.Plotter(off_screen=True, window_size=(300, 300))
     viewport = Viewport(plotter)
-    viewport.set_mesh(MESH, THEN.figures)
+    viewport.draw(Frame(MESH, THEN.figures))
+    viewport.view("iso")
     viewport.plotter_for_test = plotter
     yield viewport
     plotter.close()
 
 
 def move(viewport, points=NOW, figures=FIGURES):
-    viewport.set_movement(Movement(MESH, THEN, points, figures))
-    viewport.set_points(points, figures)
+    moved = MESH.with_points(points.copy())
+    viewport.draw(Frame(moved, figures, Movement(MESH, THEN, points, figures), viewport.frame.look))
+
+
+def look_at(viewport, look):
+    viewport.draw(dataclasses.replace(viewport.frame, look=look))
 
 
 def drawn(viewport):
@@ -55,15 +63,15 @@ def test_an_arrow_ends_where_its_way_ends_and_its_head_is_no_longer_than_allowed
 def test_nodes_that_have_moved_have_arrows_those_in_sight_or_all(viewport):
     move(viewport)
     assert viewport.arrows == (0, 0)
-    viewport.set_look(Look(traces=Traces(arrows=Arrows.ALL)))
+    look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     every = int(MESH.free.sum())
     assert viewport.arrows == (every, every)
-    viewport.set_look(Look(traces=Traces(arrows=Arrows.SIGHT)))
+    look_at(viewport, Look(traces=Traces(arrows=Arrows.SIGHT)))
     assert viewport.arrows == (0, 0)  # nodes of the boundary stay
-    viewport.set_look(Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT)))
+    look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT)))
     assert 0 < viewport.arrows[0] < every
-    viewport.set_look(
-        Look(clip=PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0), crinkle=False), traces=Traces(arrows=Arrows.SIGHT))
+    look_at(
+        viewport, Look(clip=PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0), crinkle=False), traces=Traces(arrows=Arrows.SIGHT))
     )
     assert 0 < viewport.arrows[0] < every
     move(viewport, MESH.points, THEN.figures)
@@ -72,7 +80,7 @@ def test_nodes_that_have_moved_have_arrows_those_in_sight_or_all(viewport):
 
 def test_of_many_the_longest_are_drawn(viewport, monkeypatch):
     monkeypatch.setattr(layer, "MOST", 20)
-    viewport.set_look(Look(traces=Traces(arrows=Arrows.ALL)))
+    look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     move(viewport)
     assert viewport.arrows == (20, int(MESH.free.sum()))
     starts = np.asarray(viewport._arrows._points.points)[::7]
@@ -82,24 +90,24 @@ def test_of_many_the_longest_are_drawn(viewport, monkeypatch):
 
 def test_arrows_are_seen_follow_the_nodes_and_go(viewport):
     without = drawn(viewport)
-    viewport.set_look(Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=1)))
+    look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=1)))
     plain = drawn(viewport)
     move(viewport)
     one = drawn(viewport)
-    viewport.set_look(Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=3)))
+    look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=3)))
     assert (drawn(viewport) != one).any()
-    viewport.set_look(Look())
+    look_at(viewport, Look())
     move(viewport, MESH.points, THEN.figures)
     np.testing.assert_array_equal(drawn(viewport), without)
     assert (one != plain).any()
 
 
 def test_colours_of_a_change_set_the_newly_inverted_and_the_mended_apart(viewport):
-    viewport.set_look(Look(scale=ColourScale("q-change", mode=RangeMode.FITTED)))
+    look_at(viewport, Look(scale=ColourScale("q-change", mode=RangeMode.FITTED)))
     bad = scrambled(MESH, 1.2).points
     figures = measure(bad, MESH.hexes)
     move(viewport, bad, figures)
-    assert [(name, count) for name, count, _ in viewport.apart] == [
+    assert [(name, count) for name, count, _ in viewport.colours.apart] == [
         ("newly inverted", figures.n_inverted),
         ("still inverted", 0),
         ("mended", 0),
@@ -112,6 +120,6 @@ def test_colours_of_a_change_set_the_newly_inverted_and_the_mended_apart(viewpor
 
 
 def test_without_a_movement_nothing_has_moved(viewport):
-    viewport.set_look(Look(scale=ColourScale("moved-most"), traces=Traces(arrows=Arrows.ALL)))
+    look_at(viewport, Look(scale=ColourScale("moved-most"), traces=Traces(arrows=Arrows.ALL)))
     assert (viewport.colouring.low, viewport.colouring.high) == (0.0, 1.0)
     assert viewport.arrows == (0, 0)

@@ -1,5 +1,7 @@
 """The structure over a mesh, off screen: its colours, what the filters leave of it, and that it follows the nodes."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 import pyvista as pv
@@ -7,6 +9,7 @@ import pyvista as pv
 from hexmend.gallery import make
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.structure import (
     BOUNDARY,
     FREE,
@@ -36,8 +39,9 @@ def draw():
     plotter.camera_set = True
 
     def drawn(mesh, structure, **look):
-        viewport.set_look(Look(edges=False, outline=False, structure=structure, **look))
-        viewport.set_mesh(mesh, measure(mesh.points, mesh.hexes))
+        look = Look(edges=False, outline=False, structure=structure, **look)
+        viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look))
+        viewport.view("iso")
         viewport.moving()
         return pixels()
 
@@ -69,7 +73,7 @@ def test_irregular_edges_are_seen_through_the_mesh_in_the_colour_of_their_valenc
 
 def test_what_nothing_hides_is_thicker(draw):
     through = count(draw(FIVE, Structure(irregular=True)), VALENCES[5])
-    draw.viewport._skin_surface.actor.SetVisibility(False)
+    draw.viewport.body.skin.actor.SetVisibility(False)
     assert count(draw.pixels(), VALENCES[5]) > 1.4 * through
 
 
@@ -106,7 +110,7 @@ def test_nodes_of_locked_elements(draw):
     points[15] = points[15] + [-1.5, 0, 0]  # of an edge of the box, past its neighbour on the boundary
     locked = Mesh(points, mesh.hexes)
     assert count(draw(locked, Structure(locked=True)), LOCKED) > 20
-    draw.viewport.set_points(mesh.points, measure(mesh.points, mesh.hexes))
+    draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=draw.viewport.frame.look))
     assert count(draw.pixels(), LOCKED) == 0
 
 
@@ -127,7 +131,9 @@ def test_only_what_is_shown_has_marks(draw, clip):
     assert layers._irregular.count == 5  # of the eleven, those below the plane
     for marks in (layers._irregular, layers._sharp, layers._nodes):
         assert marks._poly.points[:, 2].max() <= 0.75
-    draw.viewport.set_look(Look(structure=wanted, dug=frozenset(range(FIVE.n_hexes))))
+    draw.viewport.draw(
+        dataclasses.replace(draw.viewport.frame, look=Look(structure=wanted, dug=frozenset(range(FIVE.n_hexes))))
+    )
     assert not layers._irregular.shown
     assert not layers._nodes.shown
 
@@ -135,7 +141,7 @@ def test_only_what_is_shown_has_marks(draw, clip):
 def test_marks_follow_the_nodes_shrunk_elements_too(draw):
     draw(FIVE, Structure(irregular=True, fixed=True), shrink=0.3)
     moved = FIVE.points * [1, 1, 0.5]
-    draw.viewport.set_points(moved, measure(moved, FIVE.hexes))
+    draw.viewport.draw(Frame(FIVE.with_points(moved), measure(moved, FIVE.hexes), look=draw.viewport.frame.look))
     layers = draw.viewport._structure
     axis = layers._irregular._poly.points
     assert axis[:, 2].max() == pytest.approx(0.75)
@@ -153,7 +159,7 @@ def test_many_marks_are_drawn_in_full_in_fine_frames_alone(draw, monkeypatch):
     draw.viewport.still()
     assert layers._inside.GetDraw()
     assert layers._irregular_inside._filled.GetProperty().GetOpacity() == pytest.approx((5 / 11) ** 0.5)
-    draw.viewport.set_look(Look())
+    draw.viewport.draw(dataclasses.replace(draw.viewport.frame, look=Look()))
     assert not layers._inside.GetDraw()
 
 

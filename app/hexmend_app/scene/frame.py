@@ -1,0 +1,44 @@
+"""What is to be seen of a mesh, as one value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.quality import ElementQuality
+from hexmend_app.state.look import Look
+from hexmend_app.state.movement import Movement
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """A mesh with its nodes where they are drawn, and how.
+
+    What draws frames compares each with the last one: the mesh's arrays, the figures and the movement by identity, the
+    look by what it says.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    figures : ElementQuality
+        Of the mesh.
+    movement : Movement, optional
+        What colours and arrows of a movement show; None where nothing of a movement is looked at.
+    look : Look
+    """
+
+    mesh: Mesh
+    figures: ElementQuality
+    movement: Movement | None = None
+    look: Look = field(default_factory=Look)
+
+    def is_of(self, other: Frame | None) -> bool:
+        """Whether it shows the very mesh of another frame, its nodes elsewhere or not."""
+        return other is not None and self.mesh.hexes is other.mesh.hexes
+
+
+def same_hexes(one: Mesh, other: Mesh) -> bool:
+    """Whether two meshes have the same hexes, so that what is said of one's elements holds for the other's."""
+    return one.hexes is other.hexes or np.array_equal(one.hexes, other.hexes)

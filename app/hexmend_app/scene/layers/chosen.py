@@ -1,0 +1,89 @@
+"""The marks of what is chosen in a view: a hex and a node of it, or a node's step."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from hexmend.mesh import Mesh
+from hexmend.node_step import NodeStep
+from hexmend.quality import Node, corner_qualities
+from hexmend_app.scene.layers.highlight import Highlight
+from hexmend_app.scene.layers.node_step import NodeStepMarks
+from hexmend_app.scene.pane import Pane
+
+
+class Chosen:
+    """Marks one hex and a node of it, or a node's step, wherever the nodes go.
+
+    Parameters
+    ----------
+    plotter : pyvista.BasePlotter or Pane
+    """
+
+    def __init__(self, plotter: pv.BasePlotter | Pane):
+        self._highlight = Highlight(plotter)
+        self._node_step = NodeStepMarks(plotter)
+        self._hex: int | None = None
+        self._with_corners = False
+
+    @property
+    def layers(self) -> tuple[vtkRenderer, ...]:
+        """What draws over the mesh."""
+        return self._highlight.layer, *self._node_step.layers
+
+    @property
+    def node_step(self) -> NodeStep | None:
+        """The node's step that is drawn."""
+        return self._node_step.step
+
+    def set_dark(self, dark: bool) -> None:
+        """Take the colours of the dark theme, or of the light one."""
+        self._node_step.set_dark(dark)
+
+    def set_mesh(self, mesh: Mesh) -> None:
+        """Mark nothing: another mesh is drawn."""
+        self._mesh = mesh
+        self.show_node_step(None)
+        self.select(None, False, None)
+
+    def move(self, mesh: Mesh) -> None:
+        """Follow the nodes of the same mesh to where they are now."""
+        self._mesh = mesh
+        self._show_hex()
+        self._node_step.move(mesh.points)
+
+    def select(self, h: int | None, corners: bool, node: Node | None) -> None:
+        """Mark one hex, with the quality at each of its corners or without, and one of its nodes; None marks none."""
+        self._hex, self._with_corners = h, corners
+        self._show_hex()
+        if h is not None:
+            self._mark_node(node)
+
+    def show_node_step(self, step: NodeStep | None) -> None:
+        """Draw a node's step, in the place of the marks of the hex that is selected; None draws none."""
+        if step is None:
+            self._node_step.hide()
+        else:
+            self._node_step.show(step, self._mesh.hexes[step.hexes], self._mesh.points)
+        self._show_hex()
+
+    def _mark_node(self, node: Node | None) -> None:
+        """Mark a node where it is now, and which way the energy around it falls, if it may go there."""
+        if node is None:
+            self._highlight.show_node(None)
+            return
+        steepness = float(np.linalg.norm(node.downhill))
+        corners = self._mesh.points[self._mesh.hexes[self._hex]]
+        length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
+        goes = node.kind == "free" and steepness > 0
+        self._highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
+
+    def _show_hex(self) -> None:
+        if self._hex is None or self.node_step is not None:
+            self._highlight.hide()
+            return
+        nodes, points = self._mesh.hexes[self._hex], self._mesh.points
+        values = corner_qualities(points, nodes[None])[0] if self._with_corners else None
+        self._highlight.show(points[nodes], values)
