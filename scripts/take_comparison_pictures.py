@@ -24,18 +24,18 @@ _SHOWN = ("laplacian", "getme", "mend")
 
 def compare(window: Window) -> None:
     """Run the methods that are ticked at first, and cut the mesh open."""
-    window.docks["compare"].raise_()
-    window.smoothing_panel.stop_form.set_values({"max_iterations": 100})
-    window.compare_panel.run()
+    window.show_panel("compare")
+    window.features["smooth"].panel.stop_form.set_values({"max_iterations": 100})
+    window.features["compare"].panel.run()
     until(lambda: not window.session.comparison.busy)
-    window.view.set_handles(False)
-    window.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.document.now.mesh.points.mean(axis=0))))
+    window.session.view.set_handles(False)
+    window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
 
 
 def show(window: Window, *names: str) -> None:
     """Put results into views."""
     for name in names:
-        window.compare_panel.view_toggled.emit(name, True)
+        window.features["compare"].panel.view_toggled.emit(name, True)
     turn(0.5)
 
 
@@ -49,7 +49,7 @@ def main(folder: Path) -> None:
         show(window, *_SHOWN)
         shoot(window, folder / "compare-views.png")
         figure = folder / "compare-figure.png"
-        window.saving.picture(figure, (1000, 640))
+        window.features["save"].picture(figure, (1000, 640))
         Image.open(figure).convert("RGB").save(figure, optimize=True)
         window.messages.clear()
         choose(Choice.DARK)

@@ -21,16 +21,16 @@ from hexmend_app.widgets.theming import choose
 
 def worst(window: Window) -> None:
     """The worst element, isolated, with the quality at its corners; the list beside the histogram."""
-    window.element_panel._in_view.click()
-    window.worst_list.next()
-    window.docks["worst"].raise_()
+    window.features["inspect"].panel._in_view.click()
+    window.features["inspect"].worst_list.next()
+    window.show_panel("worst")
     turn(1)
 
 
 def box(window: Window) -> None:
     """A box cut out, smoothly, in the colours of another metric."""
-    low, high = window.document.now.mesh.points.min(axis=0), window.document.now.mesh.points.max(axis=0)
-    window.view.change(
+    low, high = window.session.document.now.mesh.points.min(axis=0), window.session.document.now.mesh.points.max(axis=0)
+    window.session.view.change(
         clip=BoxClip(tuple((low + high) / 2 * (1, 0, 1)), tuple(high), crinkle=False, notch=True),
         scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED),
     )
@@ -38,39 +38,41 @@ def box(window: Window) -> None:
 
 def structure(window: Window) -> None:
     """Irregular edges seen through the mesh, fixed nodes on what a cut has left."""
-    middle = tuple(window.document.now.mesh.points.mean(axis=0))
-    window.view.set_handles(False)
-    window.view.change(
+    middle = tuple(window.session.document.now.mesh.points.mean(axis=0))
+    window.session.view.set_handles(False)
+    window.session.view.change(
         clip=PlaneClip.at((1, -1, 0), middle), structure=Structure(irregular=True, sharp=True, fixed=True, free=True)
     )
 
 
 def inside(window: Window) -> None:
     """Two layers peeled, elements shrunk, only those of middling quality."""
-    window.view.change(peel=2, shrink=0.35, quality_range=ValueRange("q", 0.2, 0.8))
+    window.session.view.change(peel=2, shrink=0.35, quality_range=ValueRange("q", 0.2, 0.8))
 
 
 def compared(window: Window) -> None:
     """Three methods in one histogram, as the thesis's Figure 4.9 compares them; as shares up to each quality."""
-    window.histogram.head.cumulative.trigger()
+    window.features["histogram"].panel.head.cumulative.trigger()
     for method in ("laplacian", "getme", "mend"):
-        window.smoothing_panel.set_method(method)
-        window.smoothing_panel.run_or_pause()
-        until(lambda: window.smoothing.phase is Phase.FINISHED)
-        window.histogram.keep_requested.emit()
-        window.commands.reset()
-    window.smoothing_panel.run_or_pause()
-    until(lambda: window.smoothing.phase is Phase.FINISHED)
+        window.features["smooth"].panel.set_method(method)
+        window.features["smooth"].panel.run_or_pause()
+        until(lambda: window.session.smoothing.phase is Phase.FINISHED)
+        window.features["histogram"].panel.keep_requested.emit()
+        window.session.commands.reset()
+    window.features["smooth"].panel.run_or_pause()
+    until(lambda: window.session.smoothing.phase is Phase.FINISHED)
 
 
 def dark(window: Window) -> None:
     """Tags in the dark theme."""
     choose(Choice.DARK)
-    figures = window.document.now.figures
-    window.commands.tag("inverted", np.flatnonzero(figures.inverted))
-    window.commands.tag("flat", np.flatnonzero(~figures.inverted & (figures.q < 0.3)))
-    window.docks["tags"].raise_()
-    window.view.change(clip=PlaneClip.at((1, 0, 0), tuple(window.document.now.mesh.points.mean(axis=0))))
+    figures = window.session.document.now.figures
+    window.session.commands.tag("inverted", np.flatnonzero(figures.inverted))
+    window.session.commands.tag("flat", np.flatnonzero(~figures.inverted & (figures.q < 0.3)))
+    window.show_panel("tags")
+    window.session.view.change(
+        clip=PlaneClip.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0)))
+    )
 
 
 SCENES = (

@@ -21,11 +21,11 @@ def main(folder: Path) -> None:
         path = Path(place) / "bridge-sharp.vtu"
         write(path, make("bridge-sharp", size=4000, scramble=0.3, seed=1))
         window = opened(path, (1240, 780))
-        panel, chosen = window.node_panel, window.document.now.mesh
-        window.smoothing_panel.set_method("local-sd")
-        window.docks["node"].raise_()
+        panel, chosen = window.features["node"].panel, window.session.document.now.mesh
+        window.features["smooth"].panel.set_method("local-sd")
+        window.show_panel("node")
         node = int(chosen.free.nonzero()[0][2000])
-        window.selection.choose(int(chosen.topology.node_corners[node][0] // 8), node)
+        window.session.selection.choose(int(chosen.topology.node_corners[node][0] // 8), node)
         until(lambda: window.canvas.viewport.node_step is not None)
         panel._patch.click()
         turn(1)

@@ -61,8 +61,8 @@ def opened(mesh: str | Path, size: tuple[int, int] = (1320, 830)) -> Window:
     window.show()
     turn(0.5)
     window.build_canvas()
-    window.open(mesh)
-    until(lambda: window.document.is_open)
+    window.features["open"].open(mesh)
+    until(lambda: window.session.document.is_open)
     return window
 
 
@@ -81,9 +81,9 @@ def take(scenes: Scenes, folder: Path, prefix: str) -> None:
 
 def shut(window: Window) -> None:
     """Close the window, whatever is unsaved."""
-    window.smoothing.end_now()
-    window.document.commit("shown", window.document.now)
-    window.document.saved(window.document.path)
+    window.session.smoothing.end_now()
+    window.session.document.commit("shown", window.session.document.now)
+    window.session.document.saved(window.session.document.path)
     window.close()
     turn(0.1)
 
@@ -92,23 +92,23 @@ def main(mesh: str, folder: Path) -> None:
     """Go through the scenes."""
     window = opened(mesh)
     shoot(window, folder / "window-open.png")
-    middle = tuple(window.document.now.mesh.points.mean(axis=0))
-    window.view.set_clip(PlaneClip.at((1, 0, 0), middle, crinkle=True))
+    middle = tuple(window.session.document.now.mesh.points.mean(axis=0))
+    window.session.view.set_clip(PlaneClip.at((1, 0, 0), middle, crinkle=True))
     shoot(window, folder / "window-cut.png")
-    window.smoothing_panel.run_or_pause()
-    until(lambda: window.smoothing.phase is Phase.RUNNING)
+    window.features["smooth"].panel.run_or_pause()
+    until(lambda: window.session.smoothing.phase is Phase.RUNNING)
     turn(1)
-    if window.smoothing.phase is Phase.RUNNING:  # a fast method may be through by now
-        window.smoothing_panel.run_or_pause()
-        until(lambda: window.smoothing.phase in (Phase.PAUSED, Phase.FINISHED))
-    if window.smoothing.phase is Phase.PAUSED:
-        window.smoothing_panel.step()
+    if window.session.smoothing.phase is Phase.RUNNING:  # a fast method may be through by now
+        window.features["smooth"].panel.run_or_pause()
+        until(lambda: window.session.smoothing.phase in (Phase.PAUSED, Phase.FINISHED))
+    if window.session.smoothing.phase is Phase.PAUSED:
+        window.features["smooth"].panel.step()
         turn(1)
-    window.view.set_clip(PlaneClip.at((1, 0, 0), middle, crinkle=False))
+    window.session.view.set_clip(PlaneClip.at((1, 0, 0), middle, crinkle=False))
     shoot(window, folder / "window-smoothing.png")
-    if window.smoothing.phase is not Phase.FINISHED:
-        window.smoothing.stop()
-    until(lambda: window.smoothing.phase is Phase.FINISHED)
+    if window.session.smoothing.phase is not Phase.FINISHED:
+        window.session.smoothing.stop()
+    until(lambda: window.session.smoothing.phase is Phase.FINISHED)
     shoot(window, folder / "window-stopped.png")
     shut(window)
 

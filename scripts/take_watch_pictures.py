@@ -21,30 +21,30 @@ from hexmend_app.widgets.theming import choose
 
 def run(window: Window, method: str, iterations: int) -> None:
     """Run a method from what is shown on."""
-    window.smoothing_panel.set_method(method)
-    window.smoothing_panel.stop_form.set_values({"max_iterations": iterations})
-    window.smoothing_panel.run_or_pause()
-    until(lambda: window.smoothing.phase is Phase.FINISHED)
+    window.features["smooth"].panel.set_method(method)
+    window.features["smooth"].panel.stop_form.set_values({"max_iterations": iterations})
+    window.features["smooth"].panel.run_or_pause()
+    until(lambda: window.session.smoothing.phase is Phase.FINISHED)
     turn(0.2)
 
 
 def cut(window: Window) -> None:
     """Cut through the middle, by whole elements, without handles."""
-    window.view.set_handles(False)
-    window.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.document.now.mesh.points.mean(axis=0))))
+    window.session.view.set_handles(False)
+    window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
 
 
 def timeline(window: Window) -> None:
     """Paused where an element inverts, the iteration before kept in a view, the cut and the chosen element in both."""
-    panel = window.smoothing_panel
+    panel = window.features["smooth"].panel
     panel.set_method("laplacian")
     panel.stop_form.set_values({"tolerance": 0.0})
     panel.show_break_points()
     panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True))
     panel.run_or_pause()
-    until(lambda: window.smoothing.phase is Phase.PAUSED)
+    until(lambda: window.session.smoothing.phase is Phase.PAUSED)
     window.session.timeline.step(-1)
-    window.actions_by_id["iteration_beside"].trigger()
+    window.actions["beside"].trigger()
     window.session.timeline.go_to_newest()
     cut(window)
 
@@ -52,7 +52,7 @@ def timeline(window: Window) -> None:
 def convergence(window: Window) -> None:
     """Three runs, of which one is a branch, and the iteration gone to."""
     timeline = window.session.timeline
-    window.docks["convergence"].raise_()
+    window.show_panel("convergence")
     run(window, "mend", 30)
     trunk = timeline.record
     timeline.go(trunk, 2)
@@ -66,22 +66,22 @@ def convergence(window: Window) -> None:
 
 def movement(window: Window) -> None:
     """Displacement since the mesh was opened, as colours and as arrows."""
-    window.docks["movement"].raise_()
+    window.show_panel("movement")
     run(window, "mend", 30)
     cut(window)
-    window.view.change(traces=Traces(arrows=Arrows.SIGHT))
-    window.colour_panel.choose_metric("moved-most")
+    window.session.view.change(traces=Traces(arrows=Arrows.SIGHT))
+    window.features["look"].panel.choose_metric("moved-most")
     window.canvas.look_along("+x")
 
 
 def change(window: Window) -> None:
     """What one iteration has made better, worse, inverted and mended; in the dark theme."""
     choose(Choice.DARK)
-    window.docks["movement"].raise_()
+    window.show_panel("movement")
     run(window, "laplacian", 6)
     window.session.timeline.go(window.session.timeline.record, 1)
-    window.view.change(traces=Traces(Since.ITERATION))
-    window.colour_panel.choose_metric("q-change")
+    window.session.view.change(traces=Traces(Since.ITERATION))
+    window.features["look"].panel.choose_metric("q-change")
     cut(window)
 
 

@@ -67,6 +67,7 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     window.resize(1400, 900)
     window.show()
     qtbot.waitExposed(window)
+    window.furnish()
     window.build_canvas()
     open_and_wait(qtbot, window, mesh_file)
     window.windowHandle().requestActivate()

@@ -13,18 +13,20 @@ LEFT = Qt.MouseButton.LeftButton
 
 
 def open_and_wait(qtbot, window, path):
-    with qtbot.waitSignal(window.opener.ended, timeout=PATIENCE):
-        window.open(path)
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
+        window.features["open"].open(path)
 
 
 def click(window, text):
-    button = next(b for b in window.smoothing_panel.findChildren(QPushButton) if b.text() == text and b.isVisible())
+    button = next(
+        b for b in window.features["smooth"].panel.findChildren(QPushButton) if b.text() == text and b.isVisible()
+    )
     assert button.isEnabled()
     QTest.mouseClick(button, LEFT)
 
 
 def phase(window, phase):
-    return lambda: window.smoothing.phase is phase
+    return lambda: window.session.smoothing.phase is phase
 
 
 def pixels(window):

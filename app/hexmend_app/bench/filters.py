@@ -35,7 +35,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
     from hexmend_app.state.clip import BoxClip, PlaneClip
     from hexmend_app.state.look import Isolation, ValueRange
 
-    mesh = window.document.now.mesh
+    mesh = window.session.document.now.mesh
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     places = [tuple(low + (high - low) * share) for share in np.linspace(0.4, 0.6, _CHANGES)]
     deep = int(mesh.topology.layers.argmax())
@@ -54,7 +54,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
         "clip, peel, shrink": [{"clip": PlaneClip.at((1, 0, 0), place), "peel": 1, "shrink": 0.3} for place in places],
     }
     viewport = window.canvas.viewport
-    window.view.set_handles(False)
+    window.session.view.set_handles(False)
     kept, spent = viewport.kept, [0.0]
 
     def timed() -> np.ndarray | None:
@@ -70,7 +70,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
         for fields in changes:
             spent.clear()
             began = perf_counter()
-            window.view.change(**fields)
+            window.session.view.change(**fields)
             done = perf_counter()
             draw(window)
             frames.append(perf_counter() - done)
@@ -82,8 +82,8 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
             "drawing": 1e3 * median(frames),
             "quads": len(viewport.body.faces.quads),
         }
-        window.view.show_another()
-        window.view.change(shrink=0.0)
+        window.session.view.show_another()
+        window.session.view.change(shrink=0.0)
     return answer
 
 

@@ -40,10 +40,10 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
     from hexmend_app.state.clip import PlaneClip
     from hexmend_app.state.document import State
 
-    start = window.document.start
+    start = window.session.document.start
     middle = tuple(start.mesh.points.mean(axis=0))
-    window.view.set_handles(False)
-    window.view.set_clip(None if cut == "whole" else PlaneClip.at((1, 0, 0), middle, cut == "crinkle"))
+    window.session.view.set_handles(False)
+    window.session.view.set_clip(None if cut == "whole" else PlaneClip.at((1, 0, 0), middle, cut == "crinkle"))
     shift = start.mesh.mean_edge_length * 0.05 * np.random.default_rng(0).normal(size=start.mesh.points.shape)
     shift *= start.mesh.free[:, None]
     states = [State.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]
@@ -58,7 +58,7 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
     for k in range(_FRAMES):
         state = states[k % 3]
         began = perf_counter()
-        canvas.draw(Frame(state.mesh, state.figures, look=window.view.look))
+        canvas.draw(Frame(state.mesh, state.figures, look=window.session.view.look))
         draw(window)
         times.append(perf_counter() - began)
     for observer in told:
@@ -73,20 +73,20 @@ def _while_running(window: Window) -> dict[str, Any]:
     from hexmend.run import Stop
     from hexmend.smoothers.local_sd import LocalSteepestDescent
 
-    window.document.preview(window.document.start)
-    window.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
-    while window.smoothing.phase.value != "running":
+    window.session.document.preview(window.session.document.start)
+    window.session.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
+    while window.session.smoothing.phase.value != "running":
         turn(0.1)
     beats: list[float] = []
     timer = QTimer()
     timer.setInterval(_BEAT)
     timer.timeout.connect(lambda: beats.append(perf_counter()))
     frames: list[int] = []
-    window.smoothing.iterated.connect(lambda frame: frames.append(frame.iteration.number))
+    window.session.smoothing.iterated.connect(lambda frame: frames.append(frame.iteration.number))
     timer.start()
     turn(_SECONDS)
     timer.stop()
-    window.smoothing.end_now()
+    window.session.smoothing.end_now()
     late = np.maximum(np.diff(beats) * 1e3 - _BEAT, 0)
     if not len(late):
         raise HexmendError("the event loop did not turn while the smoother ran")

@@ -52,7 +52,7 @@ def _row(window: Window) -> dict[str, Any]:
 def _others(window: Window) -> list[State]:
     from hexmend_app.state.document import State
 
-    mesh = window.document.now.mesh
+    mesh = window.session.document.now.mesh
     shift = mesh.mean_edge_length * 0.005 * np.random.default_rng(0).normal(size=(3, *mesh.points.shape))
     return [State.of(mesh.with_points(mesh.points + one * mesh.free[:, None])) for one in shift]
 

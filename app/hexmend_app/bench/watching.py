@@ -54,8 +54,8 @@ def _run(window: Window, iterations: int) -> float:
     from hexmend.smoothers.laplacian import Laplacian
 
     began = perf_counter()
-    window.smoothing.start(Laplacian(), Stop(tolerance=0, max_iterations=iterations))
-    while window.smoothing.busy:
+    window.session.smoothing.start(Laplacian(), Stop(tolerance=0, max_iterations=iterations))
+    while window.session.smoothing.busy:
         turn(0.1)
     return perf_counter() - began
 
@@ -76,17 +76,17 @@ def _stop(window: Window) -> tuple[float, float]:
     from hexmend.run import Stop
     from hexmend.smoothers.local_sd import LocalSteepestDescent
 
-    window.document.preview(window.document.start)
-    window.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
-    while window.smoothing.record.newest < 3:
+    window.session.document.preview(window.session.document.start)
+    window.session.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
+    while window.session.smoothing.record.newest < 3:
         turn(0.05)
     ended: list[float] = []
-    window.smoothing.ended.connect(lambda result: ended.append(perf_counter()))
+    window.session.smoothing.ended.connect(lambda result: ended.append(perf_counter()))
     began = perf_counter()
-    window.smoothing.stop()
+    window.session.smoothing.stop()
     while not ended:
         turn(0.02)
-    last = window.smoothing.record.rows[-1]
+    last = window.session.smoothing.record.rows[-1]
     return 1e3 * (ended[0] - began), 1e3 * last["seconds"] / last["iteration"]
 
 

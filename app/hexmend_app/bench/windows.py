@@ -37,11 +37,13 @@ def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) ->
         window.resize(1440, 900)
         window.show()
         window.build_canvas()
-        window.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
+        window.session.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
         turn(0.5)  # until the layout has settled
         rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, **row(window)})
-        window.document.commit("measured", window.document.now)  # or closing would ask for what is not saved
-        window.document.saved(window.document.path)
+        window.session.document.commit(
+            "measured", window.session.document.now
+        )  # or closing would ask for what is not saved
+        window.session.document.saved(window.session.document.path)
         window.close()
         app.processEvents()
     return {"meshes": rows}

@@ -100,3 +100,14 @@ TAKEN = Role("#00b883", "#2ee6ac")
 TRIED = Role("#d55e00", "#ff8a4a")
 PATCH = Role("#ffffff", "#ffffff")
 OTHERWISE = Role("#9a80f0", "#b3a0ff")  # where the patch would be, or was
+
+#: Colours of what is kept, by slot: Okabe and Ito's without the blue of what is now, and without their yellow, which is
+#: too pale for a line.
+KEPT = (
+    Role("#d55e00", "#d55e00"),
+    Role("#009e73", "#009e73"),
+    Role("#e69f00", "#e69f00"),
+    Role("#56b4e9", "#56b4e9"),
+    Role("#000000", "#ffffff"),
+    Role("#cc79a7", "#cc79a7"),
+)

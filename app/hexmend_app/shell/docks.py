@@ -1,115 +1,183 @@
-"""Where the window's widgets stand: the docks around the view."""
+"""Where panels stand: in tabs at the right, in a drawer below the view, in a line under it."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QScrollArea, QStyle, QTabBar, QVBoxLayout, QWidget
+from collections.abc import Sequence
+from itertools import groupby
 
-from hexmend_app.widgets.style import smaller
+from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
-#: Number of the layout: one that was saved with other docks is not restored.
-LAYOUT = 6
+from hexmend_app.feature import Panel, Place
+from hexmend_app.shell.column import column
+from hexmend_app.shell.tabs import Drawer, Tabs
 
-#: Pixels that a column has to spare, for words that are longer once there are figures in them.
-_LONGER = 8
+#: Number of the layout: one that was saved with other panels is not restored.
+LAYOUT = "7"
 
+#: Pixels that the view keeps whatever is dragged.
+_LEAST_VIEW = (320, 240)
 
-class _Column(QScrollArea):
-    """Shows what the focus comes to by keys, from within or from elsewhere, which Qt's own scrolls to only from within.
-
-    What a mouse button is pressed on is not moved away under it.
-    """
-
-    def __init__(self) -> None:
-        super().__init__()
-        QApplication.instance().focusChanged.connect(self._follow)
-
-    def _follow(self, before: QWidget | None, now: QWidget | None) -> None:
-        if now is not None and self.isAncestorOf(now) and not QApplication.mouseButtons():
-            self.ensureWidgetVisible(now)
+#: Width of the right column where nothing was saved, as a share of the window's and in pixels at least, and how much
+#: of its height is for tools.
+_COLUMN, _LEAST_COLUMN, _TOOLS = 0.17, 270, 0.56
 
 
-def column(*parts: QWidget) -> QScrollArea:
-    """Widgets one below the other, that scroll where there is no room."""
-    tools = QWidget()
-    layout = QVBoxLayout(tools)
-    layout.setContentsMargins(8, 6, 8, 6)
-    layout.setSpacing(8)
-    for part in parts:
-        layout.addWidget(part)
-    layout.addStretch()
-    scroll = _Column()
-    scroll.setWidget(tools)
-    scroll.setWidgetResizable(True)
-    scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-    scroll.setFrameShape(QScrollArea.Shape.NoFrame)
-    scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    bar = scroll.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
-    scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar + _LONGER)
-    return scroll
+class Docks(QWidget):
+    """The view with all panels around it.
 
-
-def add_docks(
-    window: QMainWindow,
-    tools: QWidget,
-    histogram: QWidget,
-    tabs: list[tuple[str, str, QWidget]],
-    behind: list[tuple[str, str, QWidget]],
-) -> dict[str, QDockWidget]:
-    """Put tools at the right, a histogram below with others behind it, and beside it tabs, the first in front.
-
-    Parameters
-    ----------
-    window : QMainWindow
-    tools, histogram : QWidget
-    tabs, behind : list of (name, title, widget)
-
-    Returns
+    Signals
     -------
-    dict
-        Docks by name.
+    changed
+        Other panels can be seen.
+
+    Attributes
+    ----------
+    view : QVBoxLayout
+        Where the 3D view goes.
     """
-    areas = Qt.DockWidgetArea
-    window.setDockNestingEnabled(True)
-    window.setCorner(Qt.Corner.BottomRightCorner, areas.RightDockWidgetArea)
-    docks = {"tools": _dock(window, "tools", "Smooth, cut and colour", tools, areas.RightDockWidgetArea)}
-    below = docks["histogram"] = _dock(window, "histogram", "Distribution", histogram, areas.BottomDockWidgetArea)
-    for name, title, widget in tabs:
-        docks[name] = _dock(window, name, title, widget, areas.BottomDockWidgetArea)
-    first, *others = (docks[name] for name, _, _ in tabs)
-    window.splitDockWidget(below, first, Qt.Orientation.Horizontal)
-    for before, after in zip([first, *others], others, strict=False):
-        window.tabifyDockWidget(before, after)
-    first.raise_()
-    for name, title, widget in behind:
-        docks[name] = _dock(window, name, title, widget, areas.BottomDockWidgetArea)
-        window.tabifyDockWidget(below, docks[name])
-    below.raise_()
-    window.resizeDocks([below, first], [540, 460], Qt.Orientation.Horizontal)
-    window.resizeDocks([below], [270], Qt.Orientation.Vertical)
-    return docks
 
+    changed = Signal()
 
-def name_tabs(window: QMainWindow) -> None:
-    """Name the tabs of docks, which Qt makes as the window is shown, and keep their words whole."""
-    for tabs in window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly):
-        tabs.setAccessibleName("Panels")
-        tabs.setFont(smaller(tabs.font()))
-        tabs.setElideMode(Qt.TextElideMode.ElideNone)
-        tabs.setUsesScrollButtons(True)
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._where: dict[str, tuple[Tabs, QWidget]] = {}
+        self._centre = QWidget()
+        self._centre.setMinimumSize(*_LEAST_VIEW)
+        self.view = QVBoxLayout(self._centre)
+        self.view.setContentsMargins(0, 0, 0, 0)
+        self.view.setSpacing(0)
+        self.drawer = Drawer("Panels below the view")
+        self._tabs = {Place.TOOLS: Tabs("Tools"), Place.FACTS: Tabs("Figures"), Place.DRAWER: self.drawer}
+        self._left, self._right = QSplitter(Qt.Orientation.Vertical), QSplitter(Qt.Orientation.Vertical)
+        self._all = QSplitter(Qt.Orientation.Horizontal)
+        for splitter, parts in (
+            (self._left, (self._centre, self.drawer)),
+            (self._right, (self._tabs[Place.TOOLS], self._tabs[Place.FACTS])),
+            (self._all, (self._left, self._right)),
+        ):
+            for part in parts:
+                splitter.addWidget(part)
+            splitter.setHandleWidth(5)
+        for splitter in (self._left, self._all):
+            splitter.setCollapsible(0, False)
+            splitter.setStretchFactor(0, 1)
+            splitter.setStretchFactor(1, 0)
+        self._left.setCollapsible(1, False)
+        self._right.setStretchFactor(0, 3)
+        self._right.setStretchFactor(1, 2)
+        self._placed = False
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._all)
+        for tabs in self._tabs.values():
+            tabs.changed.connect(self.changed)
 
+    def add(self, panels: Sequence[Panel]) -> None:
+        """Give panels their places: those of one tab one below the other, all in their order."""
+        panels = sorted(panels, key=lambda one: (list(Place).index(one.place), one.order))
+        for place, group in groupby(panels, key=lambda one: one.place):
+            if place is Place.BELOW:
+                for panel in group:
+                    self.view.addWidget(panel.widget)
+                continue
+            if place is Place.EMPTY:
+                for panel in group:
+                    self.view.insertWidget(0, panel.widget, 1)
+                continue
+            for title, within in groupby(group, key=lambda one: one.tab or one.title):
+                self._add_tab(self._tabs[place], title, list(within))
 
-def _dock(window: QMainWindow, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
-    dock = QDockWidget(title)
-    dock.setObjectName(name)
-    dock.setWidget(widget)
-    # A dock behind others is as good as hidden, which Qt does not say: Tab would walk through what cannot be seen.
-    policy = widget.sizePolicy()
-    policy.setRetainSizeWhenHidden(True)
-    widget.setSizePolicy(policy)
-    dock.visibilityChanged.connect(widget.setVisible)
-    dock.setFeatures(
-        QDockWidget.DockWidgetFeature.DockWidgetMovable | QDockWidget.DockWidgetFeature.DockWidgetFloatable
-    )
-    window.addDockWidget(area, dock)
-    return dock
+    def _add_tab(self, tabs: Tabs, title: str, panels: list[Panel]) -> None:
+        first = panels[0]
+        alone = len(panels) == 1 and not first.scrolls and first.place is not Place.TOOLS
+        page = first.widget if alone else column(panels)
+        tabs.add(page, title, first.help)
+        for panel in panels:
+            self._where[panel.id] = (tabs, page)
+
+    def ids(self) -> list[str]:
+        """The panels that have tabs, in their order."""
+        return list(self._where)
+
+    def show_panel(self, id: str) -> None:
+        """Bring a panel to the front, unfolded, and all panels back if they are hidden."""
+        self.set_hidden(False)
+        tabs, page = self._where[id]
+        tabs.bring(page)
+
+    def close_panel(self, id: str) -> None:
+        """Take a panel's tab away, until it is shown again."""
+        tabs, page = self._where[id]
+        tabs.close_page(page)
+
+    def is_open(self, id: str) -> bool:
+        """Whether a panel has a tab."""
+        tabs, page = self._where[id]
+        return tabs.is_open(page)
+
+    def in_front(self, id: str) -> bool:
+        """Whether a panel can be seen."""
+        tabs, page = self._where[id]
+        return tabs.shows(page) and not tabs.isHidden() and not self._right_hidden(tabs)
+
+    def _right_hidden(self, tabs: Tabs) -> bool:
+        return tabs is not self.drawer and self._right.isHidden()
+
+    @property
+    def hidden(self) -> bool:
+        """Whether all panels are hidden."""
+        return self._right.isHidden()
+
+    def set_hidden(self, hidden: bool) -> None:
+        """Leave the window to the view, or bring the panels back as they were."""
+        if hidden != self.hidden:
+            self._right.setVisible(not hidden)
+            self.drawer.setVisible(not hidden)
+            self.changed.emit()
+
+    # How it is laid out
+
+    def place(self) -> None:
+        """Share the room out as it is where nothing was saved."""
+        width = max(round(self.width() * _COLUMN), _LEAST_COLUMN)
+        self._all.setSizes([self.width() - width, width])
+        tools = round(self.height() * _TOOLS)
+        self._right.setSizes([tools, self.height() - tools])
+        self._placed = True
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Share the room out at first sight."""
+        super().resizeEvent(event)
+        if not self._placed and self.width() > 2 * _LEAST_COLUMN:
+            self.place()
+
+    def state(self) -> dict[str, object]:
+        """The layout, for `restore`."""
+        return {
+            "layout": LAYOUT,
+            "all": self._all.saveState(),
+            "right": self._right.saveState(),
+            "hidden": self.hidden,
+            "drawer": self.drawer.height_unfolded,
+            "folded": self.drawer.folded,
+            "fronts": [tabs.front for tabs in self._tabs.values()],
+            "closed": [id for id in self._where if not self.is_open(id)],
+        }
+
+    def restore(self, state: dict[str, object]) -> None:
+        """Lay out as it was; what was saved with other panels is left alone."""
+        if state.get("layout") != LAYOUT:
+            return
+        self._placed = True
+        for splitter, name in ((self._all, "all"), (self._right, "right")):
+            splitter.restoreState(QByteArray(state[name]))
+        for tabs, front in zip(self._tabs.values(), state["fronts"], strict=True):
+            tabs.set_front(front)
+        for id in state["closed"]:
+            if id in self._where:
+                self.close_panel(id)
+        self.drawer.height_unfolded = int(state["drawer"])
+        self.drawer.set_folded(bool(state["folded"]))
+        self.set_hidden(bool(state["hidden"]))

@@ -1,75 +1,137 @@
-"""Menus and tool bar, built from the actions as data."""
+"""Menus, tool bar and shortcuts, made from what features declare."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterable, Sequence
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
-from hexmend_app.shell.actions import ACTIONS, ActionSpec
+from hexmend_app.feature import MENUS, Action
 from hexmend_app.widgets.style import icon
 
 
-def build_menus(window: QMainWindow, handlers: dict[str, Callable], above: dict[str, QMenu]) -> dict[str, QAction]:
-    """Give a window its menus and tool bar.
+class Menus:
+    """The window's menus with their actions, which are brought up to date together.
 
     Parameters
     ----------
     window : QMainWindow
-    handlers : dict
-        What each action calls, by its id; that of a checkable action takes whether it is on.
-    above : dict
-        Menus that stand above an action in its menu, by its id.
+    actions : sequence of Action
+        In the order of their features.
 
-    Returns
-    -------
-    dict
-        Actions by id.
+    Attributes
+    ----------
+    actions : dict of QAction
+        By id, in the order of the menus.
     """
-    bar = QToolBar("Tools")
-    bar.setObjectName("toolbar")
-    bar.setMovable(False)
-    bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-    window.addToolBar(bar)
-    actions: dict[str, QAction] = {}
-    menus: dict[str, QMenu] = {}
-    groups: dict[str, QActionGroup] = {}
-    for spec in ACTIONS:
-        if spec.menu not in menus:
-            within, _, name = spec.menu.rpartition("/")
-            menus[spec.menu] = (menus[within] if within else window.menuBar()).addMenu(name)
-            if bar.actions() and not bar.actions()[-1].isSeparator():
-                bar.addSeparator()
-        action = actions[spec.id] = _action(window, spec)
-        handle = handlers[spec.id]
-        if spec.checkable:
-            action.toggled.connect(handle)
+
+    def __init__(self, window: QMainWindow, actions: Sequence[Action]):
+        self._window = window
+        self._declared: dict[str, Action] = {}
+        self.actions: dict[str, QAction] = {}
+        self._bar = QToolBar("Tools")
+        self._bar.setObjectName("toolbar")
+        self._bar.setIconSize(QSize(18, 18))
+        self._menus = _menus(window)
+        for menu in ("", *MENUS):
+            self._fill(menu, [one for one in actions if one.menu == menu])
+        for name, menu in self._menus.items():
+            menu.menuAction().setVisible(not menu.isEmpty())
+            if "/" in name and menu.isEmpty():
+                menu.deleteLater()
+        self._bar.setMinimumWidth(self._bar.sizeHint().width())  # or it hides what it has room for
+        self._window.menuBar().setCornerWidget(self._bar, Qt.Corner.TopRightCorner)
+
+    def _fill(self, name: str, actions: list[Action]) -> None:
+        group = QActionGroup(self._window) if any(one.exclusive for one in actions) else None
+        part = None
+        for declared in sorted(actions, key=lambda one: one.part):
+            action = self._make(declared)
+            if name:
+                menu = self._menus[name]
+                if part is not None and part != declared.part:
+                    menu.addSeparator()
+                menu.addAction(action)
+                if declared.submenu is not None:
+                    menu.addMenu(declared.submenu)
+            else:
+                self._window.addAction(action)
+            part = declared.part
+            if declared.exclusive:
+                group.addAction(action)
+            if declared.tool:
+                self._bar.addAction(action)
+        if self._bar.actions() and not self._bar.actions()[-1].isSeparator():
+            self._bar.addSeparator()
+
+    def _make(self, declared: Action) -> QAction:
+        if declared.id in self._declared:
+            raise ValueError(f"two features declare an action {declared.id!r}")
+        action = QAction(declared.text, self._window)
+        if declared.icon:
+            action.setIcon(icon(declared.icon))
+        if declared.tool:
+            action.setIconText(declared.tool)
+        keys = f" ({declared.keys})" if declared.keys else ""
+        action.setShortcut(QKeySequence(declared.keys))
+        action.setToolTip(f"<qt>{declared.help}{keys}</qt>")
+        action.setStatusTip(declared.help)
+        action.setProperty("within", declared.menu.rpartition("/")[2] if "/" in declared.menu else "")
+        action.setCheckable(declared.checked is not None)
+        handle = declared.handle
+        if declared.checked is not None:
+            action.triggered.connect(handle)  # not as `refresh` says that it is on
         else:
-            action.triggered.connect(lambda checked=False, handle=handle: handle())
-        if spec.exclusive:
-            groups.setdefault(spec.menu, QActionGroup(window)).addAction(action)
-            action.setProperty("within", menus[spec.menu].title().replace("&", ""))
-        if spec.separated:
-            menus[spec.menu].addSeparator()
-        if spec.id in above:
-            menus[spec.menu].addMenu(above[spec.id])
-        menus[spec.menu].addAction(action)
-        if spec.tool:
-            bar.addAction(action)
-    return actions
+            action.triggered.connect(lambda checked=False: handle())
+        self._declared[declared.id] = declared
+        self.actions[declared.id] = action
+        return action
+
+    def refresh(self, is_open: bool) -> None:
+        """Say of every action whether it can be done, whether it is on, and what it is about.
+
+        Parameters
+        ----------
+        is_open : bool
+            Whether a mesh is open.
+        """
+        for id, declared in self._declared.items():
+            action = self.actions[id]
+            action.setEnabled((is_open or not declared.needs_mesh) and declared.enabled())
+            if declared.checked is not None:
+                action.setChecked(declared.checked())
+            if declared.title is not None:
+                action.setText(declared.title())
+                action.setIconText(declared.tool or declared.text.replace("&", ""))
+
+    def declared(self) -> Iterable[Action]:
+        """Every action as it was declared."""
+        return self._declared.values()
+
+    def in_view(self) -> QMenu:
+        """A menu of what can be done where the view was clicked."""
+        menu = QMenu(self._window)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        before = None
+        for id, declared in self._declared.items():
+            if declared.in_view and self.actions[id].isEnabled():
+                if before not in (None, declared.menu):
+                    menu.addSeparator()
+                menu.addAction(self.actions[id])
+                before = declared.menu
+        return menu
 
 
-def _action(window: QMainWindow, spec: ActionSpec) -> QAction:
-    action = QAction(spec.text, window)
-    if spec.icon:
-        action.setIcon(icon(spec.icon))
-    if spec.tool:
-        action.setIconText(spec.tool)
-    keys = f" ({spec.shortcut})" if spec.shortcut else ""
-    action.setShortcut(QKeySequence(spec.shortcut))
-    action.setToolTip(f"<qt>{spec.help}{keys}</qt>")
-    action.setStatusTip(spec.help)
-    action.setCheckable(spec.checkable)
-    return action
+def _menus(window: QMainWindow) -> dict[str, QMenu]:
+    menus: dict[str, QMenu] = {}
+    taken: set[str] = set()
+    for name in MENUS:
+        within, _, title = name.rpartition("/")
+        letter = next((k for k, c in enumerate(title) if c.lower() not in taken), 0)
+        if not within:
+            taken.add(title[letter].lower())
+        around = menus[within] if within else window.menuBar()
+        menus[name] = around.addMenu(title if within else f"{title[:letter]}&{title[letter:]}")
+    return menus

@@ -51,10 +51,15 @@ def open_window(mesh: str | None = None) -> int:
     alive.start(250)
     alive.timeout.connect(lambda: None)
     window.show()
-    app.processEvents()
-    window.open(Path(mesh) if mesh else demo_mesh())
-    QTimer.singleShot(0, window.build_canvas)
+    app.processEvents()  # it is seen before what is slow to load is loaded
+    QTimer.singleShot(0, lambda: _go_on(window, Path(mesh) if mesh else demo_mesh()))
     return app.exec()
+
+
+def _go_on(window: Window, mesh: Path) -> None:
+    window.furnish()
+    window.features["open"].open(mesh)
+    window.build_canvas()
 
 
 def report_unexpected_errors(window: Window) -> None:

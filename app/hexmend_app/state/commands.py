@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hexmend.io import left_out, write
-from hexmend.parameters import declared
 from hexmend.quality import summarise
 from hexmend.recipe import Recipe, Stage
-from hexmend.run import Stop
-from hexmend.smoothers import METHODS
 from hexmend_app.state.document import State
-from hexmend_app.state.session import Session
+
+if TYPE_CHECKING:
+    from hexmend_app.state.session import Session
 
 
 class Commands:
@@ -28,12 +29,12 @@ class Commands:
 
     def __init__(self, session: Session):
         self._session = session
-        self.document, self.smoothing, self.opener = session.document, session.smoothing, session.opener
-        self.stepping = session.stepping
+        self.document, self.smoothing = session.document, session.smoothing
 
     def open(self, path: str | Path) -> None:
         """Open a mesh; a run under way ends first. What is open stays where the file cannot be read."""
-        self.opener.open(path)
+        self.smoothing.end_now()
+        self._session.opener.open(path)
 
     def save(self, path: str | Path) -> list[str]:
         """Write the mesh as it is now; the tags that the file's format cannot hold.
@@ -43,7 +44,7 @@ class Commands:
         HexmendError
             Where it cannot be written; the file that was there stays.
         """
-        self.stepping.leave()
+        self._session.stepping.leave()
         moment = self._session.timeline.moment
         if self.document.previews and self._session.editable:
             self.document.commit("go back" if moment is None else f"go to {moment.name}", self.document.now)
@@ -51,39 +52,38 @@ class Commands:
         self.document.saved(Path(path))
         return left_out(path, self.document.now.mesh)
 
-    def run(self, method: str, values: dict, stop: dict) -> None:
+    def run(self, stage: Stage) -> None:
         """Run a method on the mesh as it is now, unless another is being read."""
-        if not self.opener.busy:
-            self.stepping.leave()
-            self.smoothing.start(METHODS[method](**values), Stop(**stop))
+        self._start(stage)
 
-    def step(self, method: str, values: dict, stop: dict, iterations: int) -> None:
+    def step(self, stage: Stage, iterations: int) -> None:
         """Make so many iterations: the next of a paused run, or the first of a new one."""
         if self.smoothing.busy:
             self.smoothing.step(iterations)
-        elif not self.opener.busy:
-            self.stepping.leave()
-            self.smoothing.start(METHODS[method](**values), Stop(**stop), iterations)
+        else:
+            self._start(stage, iterations)
+
+    def _start(self, stage: Stage, iterations: float = math.inf) -> None:
+        if not self._session.opener.busy:
+            self._session.stepping.leave()
+            self._session.order.begun = stage
+            self.smoothing.start(stage.smoother, stage.stop, iterations)
 
     def run_recipe(self, recipe: Recipe) -> None:
         """Run methods one after another on the mesh as it is now, unless another is being read."""
-        if not self.opener.busy:
-            self.stepping.leave()
+        if not self._session.opener.busy:
+            self._session.stepping.leave()
             self.smoothing.start(recipe, None)
 
-    def change(self, method: str, values: dict, stop: dict) -> None:
-        """Do the rest of a run's stage by another method, with other values or other limits."""
-        self.smoothing.change(Stage(METHODS[method](**values), Stop(**stop)))
-
-    def branch(self, method: str, values: dict, stop: dict) -> None:
+    def branch(self, stage: Stage) -> None:
         """Run a method on the mesh as it is shown, whatever iteration that is; a run under way ends first."""
         self.smoothing.end_now()
-        self.run(method, values, stop)
+        self.run(stage)
 
     def reset(self) -> None:
         """End a run and put the nodes back to where they were when the mesh was opened."""
         self.smoothing.end_now()
-        self.stepping.leave()
+        self._session.stepping.leave()
         self.document.reset()
 
     def take(self, title: str, state: State) -> None:
@@ -92,7 +92,7 @@ class Commands:
         What is pinned and tagged stays so.
         """
         if self._session.editable:
-            self.stepping.leave()
+            self._session.stepping.leave()
             mesh = self.document.now.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
 
@@ -128,7 +128,7 @@ class Commands:
     def _amend(self, title: str, **changes: object) -> None:
         """Change what the mesh carries beside its nodes' places."""
         if self._session.editable:
-            self.stepping.leave()
+            self._session.stepping.leave()
             now = self.document.now
             mesh = now.mesh.replace(**changes)
             summary = summarise(mesh, now.figures) if "pinned" in changes else now.summary
@@ -137,16 +137,11 @@ class Commands:
     def undo(self) -> None:
         """Take back the last change, unless the mesh may not be changed."""
         if self._session.editable:
-            self.stepping.leave()
+            self._session.stepping.leave()
             self.document.undo()
 
     def redo(self) -> None:
         """Do again what was taken back, unless the mesh may not be changed."""
         if self._session.editable:
-            self.stepping.leave()
+            self._session.stepping.leave()
             self.document.redo()
-
-
-def methods_offered() -> list[tuple]:
-    """Every registered method as the smoothing panel takes it."""
-    return [(one.name, one.title, one.help, one.source, declared(one)) for one in METHODS.values()]

@@ -39,6 +39,8 @@ class Smoothing(QObject):
     Attributes
     ----------
     phase : Phase
+    work : Smoother, Recipe or None
+        What the run does that goes on or went on last.
     record : Record or None
         The history's of the run that goes on or went on last.
     following : bool
@@ -72,6 +74,7 @@ class Smoothing(QObject):
         self._title = ""
         self._metrics: frozenset[str] = frozenset()
         self._breakpoints = Breakpoints()
+        self.work: Smoother | Recipe | None = None
         self.record: Record | None = None
         self.following = True
         self.phase = Phase.IDLE
@@ -90,7 +93,7 @@ class Smoothing(QObject):
         if self.busy or not self._document.is_open:
             return
         self._before = self._document.now
-        self._title = smoother.title
+        self.work, self._title = smoother, smoother.title
         self.record = self._history.begin(smoother.name, smoother.title, self._before)
         self.following = True
         self._worker = Worker(self._before.mesh, smoother, stop, partial(self._history.add, self.record))
@@ -141,6 +144,10 @@ class Smoothing(QObject):
         """Do the rest of the stage at hand by another method, with other values or other limits."""
         if self._worker is not None:
             self._worker.change(stage)
+            if isinstance(self.work, Recipe):
+                at = self.record.rows[-1]["stage"] - 1
+                stages = (*self.work.stages[:at], stage, *self.work.stages[at + 1 :])
+                self.work = Recipe.of(*stages, title=self.work.title)
 
     def stop(self) -> None:
         """End the run after the iteration at hand, or once it is prepared; what was reached stays."""

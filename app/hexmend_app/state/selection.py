@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 
@@ -11,17 +14,33 @@ class Selection(QObject):
     Signals
     -------
     changed
+    visited(hexes)
+        A hex, or several together, are to be brought before the camera; a tuple of int.
+
+    Attributes
+    ----------
+    hex, node : int or None
+    listing : callable
+        Gives the worst hexes as they are listed, (k,) int, the worst first; whoever lists them sets it.
     """
 
     changed = Signal()
+    visited = Signal(object)
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.hex: int | None = None
         self.node: int | None = None
+        self.listing: Callable[[], np.ndarray] = lambda: np.empty(0, np.int64)
 
     def choose(self, hex: int | None, node: int | None = None) -> None:
         """Look at another element and node, or at none; says nothing where nothing changes."""
         if (hex, node) != (self.hex, self.node):
             self.hex, self.node = hex, node
             self.changed.emit()
+
+    def visit(self, *hexes: int) -> None:
+        """Bring a hex, or several together, before the camera; one alone is looked at too."""
+        if len(hexes) == 1:
+            self.choose(hexes[0], self.node if hexes[0] == self.hex else None)
+        self.visited.emit(tuple(int(h) for h in hexes))

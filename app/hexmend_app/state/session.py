@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
+from hexmend_app.state.chain import Chain
+from hexmend_app.state.commands import Commands
 from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
 from hexmend_app.state.explainer import Explainer
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.history import History
+from hexmend_app.state.kept import KeptMoments
 from hexmend_app.state.opener import Opener
+from hexmend_app.state.order import Order
 from hexmend_app.state.reference import References
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
@@ -22,11 +26,20 @@ from hexmend_app.state.views import Views
 class Session(QObject):
     """The open mesh, how it is looked at, what is chosen in it, and what works on it beside the window.
 
+    Signals
+    -------
+    changed
+        Anything of it is another.
+    editable_changed
+        Whether the mesh may be changed by hand is another.
+
     Attributes
     ----------
     document : Document
     view : View
     selection : Selection
+    order : Order
+    chain : Chain
     history : History
     smoothing : Smoothing
     timeline : Timeline
@@ -37,13 +50,20 @@ class Session(QObject):
     stepping : Stepping
     comparison : Comparison
     views : Views
+    kept : KeptMoments
+    commands : Commands
     """
+
+    changed = Signal()
+    editable_changed = Signal()
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.document = Document(self)
         self.view = View(self)
         self.selection = Selection(self)
+        self.order = Order(self)
+        self.chain = Chain(self)
         self.history = History()
         self.smoothing = Smoothing(self.document, self.history, self)
         self.timeline = Timeline(self.document, self.smoothing, self.history, self)
@@ -54,6 +74,13 @@ class Session(QObject):
         self.stepping = Stepping(self.document, self)
         self.comparison = Comparison(self.document, self)
         self.views = Views(self.document, self)
+        self.kept = KeptMoments(self)
+        self.commands = Commands(self)
+        self._editable = False
+        self.document.mesh_replaced.connect(self._on_another)
+        for part in self.children():
+            for told in _signals(part):
+                told.connect(self._on_change)
 
     @property
     def editable(self) -> bool:
@@ -67,3 +94,22 @@ class Session(QObject):
         self.finder.shut_down()
         self.explainer.shut_down()
         self.comparison.shut_down()
+
+    def _on_another(self) -> None:
+        """Nothing is chosen, hidden or kept of the mesh that is open now."""
+        self.selection.choose(None)
+        self.view.show_another()
+        self.kept.clear()
+
+    def _on_change(self, *_: object) -> None:
+        if self.editable != self._editable:
+            self._editable = self.editable
+            self.editable_changed.emit()
+        self.changed.emit()
+
+
+def _signals(part: QObject) -> list[Signal]:
+    """What a part of the state tells."""
+    own = {name for kind in type(part).mro() if kind is not QObject for name, one in vars(kind).items()
+           if isinstance(one, Signal)} - {"destroyed", "objectNameChanged"}  # fmt: skip
+    return [getattr(part, name) for name in sorted(own)]

@@ -17,9 +17,12 @@ class View(QObject):
     Signals
     -------
     look_changed
+    metric_wanted(name)
+        The colours are to show another metric, in the range that suits it.
     """
 
     look_changed = Signal()
+    metric_wanted = Signal(str)
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
@@ -38,6 +41,10 @@ class View(QObject):
             if not look.dug:
                 self._dug.clear()
             self.look_changed.emit()
+
+    def colour_by(self, metric: str) -> None:
+        """Have the colours show another metric, or movement, in the range that suits it."""
+        self.metric_wanted.emit(metric)
 
     def show_another(self) -> None:
         """Hide nothing: another mesh is open, of which other elements would be meant."""

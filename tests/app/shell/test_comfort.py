@@ -10,12 +10,13 @@ import threading
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QSettings, Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QLineEdit, QPushButton
 
-from hexmend_app.features.help.hint import Hint
 from hexmend_app.resources import demo_mesh
+from hexmend_app.shell.keys import words
+from hexmend_app.shell.keys_page import KeysPage
 from hexmend_app.state import opener, worker
 from hexmend_app.state.recent import MOST
 from hexmend_app.state.run import Phase
@@ -32,40 +33,40 @@ def choose(menu, key):
 
 
 def test_opened_files_are_offered_newest_first_once_each(window, qtbot, tmp_path, mesh_file):
-    assert window.recent.files() == [mesh_file]
+    assert window.features["open"].recent.files() == [mesh_file]
     other = tmp_path / "R&D" / "other.vtu"
     other.parent.mkdir()
     shutil.copy(mesh_file, other)
     open_and_wait(qtbot, window, other)
     open_and_wait(qtbot, window, demo_mesh())
-    with qtbot.waitSignal(window.opener.failed, timeout=5000):
-        window.open(tmp_path / "nowhere.vtu")
-    assert window.recent.files() == [other, mesh_file]
-    with qtbot.waitSignal(window.opener.ended, timeout=5000) as ended:
+    with qtbot.waitSignal(window.session.opener.failed, timeout=5000):
+        window.features["open"].open(tmp_path / "nowhere.vtu")
+    assert window.features["open"].recent.files() == [other, mesh_file]
+    with qtbot.waitSignal(window.session.opener.ended, timeout=5000) as ended:
         choose(window.recent_menu, Qt.Key.Key_2)
     assert ended.args == [mesh_file]
-    assert window.recent.files() == [mesh_file, other]
+    assert window.features["open"].recent.files() == [mesh_file, other]
     assert window.recent_menu.isHidden()
 
 
 def test_a_file_that_is_gone_says_so_and_the_list_is_cleared(window, tmp_path):
     for k in range(MOST + 2):
-        window.recent.add(tmp_path / f"mesh{k}.vtu")
-    assert len(window.recent.files()) == MOST
+        window.features["open"].recent.add(tmp_path / f"mesh{k}.vtu")
+    assert len(window.features["open"].recent.files()) == MOST
     window.recent_menu.popup(QPoint(50, 50))
     gone = window.recent_menu.actions()[0]
     assert "no longer there" in gone.text()
     assert not gone.isEnabled()
     QTest.keyClick(window.recent_menu, Qt.Key.Key_C)
-    assert window.recent.files() == []
+    assert window.features["open"].recent.files() == []
     assert not window.recent_menu.menuAction().isEnabled()
 
 
 def test_the_welcome_offers_recent_files(window, qtbot, mesh_file):
-    window.welcome.show()
+    window.features["open"].welcome.show()
     qtbot.wait(20)
-    link = next(b for b in window.welcome.findChildren(QPushButton) if mesh_file.name in b.text())
-    with qtbot.waitSignal(window.opener.ended, timeout=5000):
+    link = next(b for b in window.features["open"].welcome.findChildren(QPushButton) if mesh_file.name in b.text())
+    with qtbot.waitSignal(window.session.opener.ended, timeout=5000):
         QTest.mouseClick(link, LEFT)
 
 
@@ -90,38 +91,38 @@ def slow_read(monkeypatch):
 def test_opening_says_what_it_does_and_is_cancelled(window, qtbot, slow_read, mesh_file, tmp_path, by):
     other = tmp_path / "slow.vtu"
     shutil.copy(mesh_file, other)
-    before = window.document.now
-    window.selection.choose(3)
-    window.open(other)
+    before = window.session.document.now
+    window.session.selection.choose(3)
+    window.features["open"].open(other)
     assert window.busy.isVisible()
     assert "Reading slow.vtu" in window.busy.text()
     if by == "button":
         QTest.mouseClick(window.busy.findChild(QPushButton), LEFT)
     else:
         QTest.keyClick(window.windowHandle(), Qt.Key.Key_Escape)
-    assert not window.opener.busy
+    assert not window.session.opener.busy
     assert not window.busy.isVisible()
-    assert window.selection.hex == 3  # Esc was for the opening alone
+    assert window.session.selection.hex == 3  # Esc was for the opening alone
     assert "Opening slow.vtu was cancelled" in window.messages.messages()[-1][1]
     slow_read.set()
     qtbot.wait(300)
-    assert window.document.now is before
-    assert window.recent.files() == [mesh_file]
+    assert window.session.document.now is before
+    assert window.features["open"].recent.files() == [mesh_file]
     open_and_wait(qtbot, window, other)
-    assert window.document.name == "slow.vtu"
+    assert window.session.document.name == "slow.vtu"
 
 
 def test_another_mesh_is_opened_while_a_cancelled_one_is_still_read(window, qtbot, slow_read, mesh_file, tmp_path):
     other = tmp_path / "slow.vtu"
     shutil.copy(mesh_file, other)
-    window.open(other)
-    window.opener.cancel()
-    window.open(mesh_file)
-    with qtbot.waitSignal(window.opener.ended, timeout=5000) as ended:
+    window.features["open"].open(other)
+    window.session.opener.cancel()
+    window.features["open"].open(mesh_file)
+    with qtbot.waitSignal(window.session.opener.ended, timeout=5000) as ended:
         slow_read.set()
     assert ended.args == [mesh_file]
     qtbot.wait(200)
-    assert window.document.name == mesh_file.name
+    assert window.session.document.name == mesh_file.name
 
 
 @pytest.fixture
@@ -139,40 +140,41 @@ def slow_method(monkeypatch):
 
 
 def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_method):
-    before = window.document.now
+    before = window.session.document.now
     click(window, "Run")
-    assert window.smoothing.phase is Phase.PREPARING
+    assert window.session.smoothing.phase is Phase.PREPARING
     qtbot.wait(100)
     assert "Preparing" in sentence(window)
     click(window, "Stop")
-    assert window.smoothing.phase is Phase.STOPPING
+    assert window.session.smoothing.phase is Phase.STOPPING
     assert "as soon as the method is ready" in sentence(window)
-    assert not window.actions_by_id["stop"].isEnabled()
+    assert not window.actions["stop"].isEnabled()
     slow_method.set()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.document.now is before
-    assert window.document.undo_title is None
+    assert window.session.document.now is before
+    assert window.session.document.undo_title is None
     assert "Stopped" in sentence(window)
     assert not window.busy.isVisible()
 
 
 def sentence(window):
-    return window.smoothing_panel._sentence.text()
+    return window.features["smooth"].panel._sentence.text()
 
 
-# The first hint
+# Keys
 
 
-def test_the_hint_is_there_until_it_is_dismissed_and_again_by_key(window, qtbot):
-    assert window.hint.isVisible()
-    QTest.mouseClick(window.hint.close_button, LEFT)
-    assert not window.hint.isVisible()
-    later = Hint()
-    qtbot.addWidget(later)
-    assert later.isHidden()
+def test_the_page_of_keys_lists_every_key_and_finds_letters(window, qtbot):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_F1)
-    assert window.hint.isVisible()
-    assert QSettings().contains("hint dismissed")
+    page = next(one for one in window.findChildren(KeysPage) if one.isVisible())
+    text = page.text()
+    for declared in window.menus.declared():
+        assert words(declared) in text
+        assert declared.keys in text.replace("\xa0", " ")
+    QTest.keyClicks(page.findChild(QLineEdit), "sharp")
+    assert "Sharp edges" in page.text()
+    assert "Open" not in page.text()
+    page.close()
 
 
 # Sharp screens
@@ -195,11 +197,11 @@ window.show()
 window.build_canvas()
 path = tempfile.mkdtemp() + "/cube.vtu"
 io.write(path, gallery.make("cube", size=512))
-window.open(path)
-while not window.document.is_open:
+window.features["open"].open(path)
+while not window.session.document.is_open:
     QTest.qWait(20)
 QTest.qWait(400)
-view, mesh = window.canvas.interactor, window.document.now.mesh
+view, mesh = window.canvas.interactor, window.session.document.now.mesh
 ratio = view.devicePixelRatioF()
 corner = view.mapTo(window, view.rect().topLeft()).toPointF() * ratio
 assert (corner.x() % 1, corner.y() % 1) == (0, 0), corner
@@ -213,10 +215,10 @@ for middle in middles[np.argsort(middles @ towards)[-40:]]:
     renderer.WorldToDisplay()
     x, y, _ = renderer.GetDisplayPoint()
     QTest.mouseClick(view, LEFT, pos=QPointF(x / ratio, view.height() - y / ratio).toPoint())
-    corners = mesh.points[mesh.hexes[window.selection.hex]]
+    corners = mesh.points[mesh.hexes[window.session.selection.hex]]
     seen += bool((corners.min(axis=0) - 1e-9 <= middle).all() and (middle <= corners.max(axis=0) + 1e-9).all())
 assert seen == 40, seen
-assert window.saving.picture(sys.argv[1], (640, 400))
+assert window.features["save"].picture(sys.argv[1], (640, 400))
 window.close()
 """
 

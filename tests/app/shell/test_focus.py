@@ -57,9 +57,9 @@ def controls(window):
 @pytest.fixture
 def everything_on(window):
     """The window with as much switched on as there is."""
-    window.actions_by_id["clip"].trigger()
+    window.actions["cut"].trigger()
     window.messages.show_error("Something", "to copy and dismiss")
-    for section in window.smoothing_panel._sections:
+    for section in window.features["smooth"].panel._sections:
         section.expand()
     return window
 
@@ -67,7 +67,7 @@ def everything_on(window):
 @pytest.mark.parametrize("front", ["quality", "worst", "element", "node", "tags", "outcome"])
 def test_tab_reaches_every_control_once_and_comes_back(everything_on, qtbot, front):
     window = everything_on
-    window.selection.choose(7)
+    window.session.selection.choose(7)
     window.docks[front].raise_()
     qtbot.wait(50)
     reached = walk(window)
@@ -83,7 +83,7 @@ def test_tab_goes_in_reading_order(everything_on):
     reached = walk(window)
     parts = [
         window.canvas,
-        window.timeline_bar,
+        window.features["timeline"].panel,
         window.docks["tools"],
         window.docks["histogram"],
         window.docks["quality"],
@@ -96,13 +96,18 @@ def test_tab_goes_in_reading_order(everything_on):
     assert set(seen) == set(range(len(parts)))
     assert all(isinstance(one, QTabBar) for one, part in zip(reached, at, strict=True) if part is None)
     assert_read_from_the_top(window, reached)
-    window.smoothing_panel.set_method("local-sd")  # its parameters are made while the window is there
+    window.features["smooth"].panel.set_method("local-sd")  # its parameters are made while the window is there
     QTest.qWait(50)
     assert_read_from_the_top(window, walk(window))
 
 
 def assert_read_from_the_top(window, reached):
-    for panel in (window.colour_panel, window.clip_panel, window.inside_panel, window.smoothing_panel):
+    for panel in (
+        window.features["look"].panel,
+        window.features["cut"].panel,
+        window.features["cut"].inside,
+        window.features["smooth"].panel,
+    ):
         inside = [one for one in reached if panel.isAncestorOf(one)]
         places = [one.mapTo(panel, QPoint(0, one.height() // 2)) for one in inside]
         for (x, y), (next_x, next_y) in zip(
@@ -113,15 +118,15 @@ def assert_read_from_the_top(window, reached):
 
 
 def test_the_focus_alone_changes_nothing(window):
-    window.docks["worst"].raise_()
-    look, chosen = window.view.look, window.selection.hex
+    window.show_panel("worst")
+    look, chosen = window.session.view.look, window.session.selection.hex
     walk(window)
-    assert (window.view.look, window.selection.hex) == (look, chosen)
+    assert (window.session.view.look, window.session.selection.hex) == (look, chosen)
 
 
 def test_every_control_has_a_name(everything_on):
     window = everything_on
-    window.selection.choose(7, int(window.document.now.mesh.hexes[7, 0]))
+    window.session.selection.choose(7, int(window.session.document.now.mesh.hexes[7, 0]))
     nameless = []
     for name in ("quality", "worst", "element", "tags"):
         window.docks[name].raise_()
@@ -233,7 +238,7 @@ def letter(action):
 def test_every_action_has_a_key_and_no_two_the_same(window):
     keys = [action.shortcut().toString() for action in window.findChildren(QAction) if not action.shortcut().isEmpty()]
     assert [key for key, times in Counter(keys).items() if times > 1] == []
-    for action in window.actions_by_id.values():
+    for action in window.actions.values():
         assert letter(action) or not action.shortcut().isEmpty(), action.text()
 
 

@@ -24,60 +24,60 @@ from tests.patience import PATIENCE
 
 
 def middle(window):
-    return tuple(window.document.now.mesh.points.mean(axis=0))
+    return tuple(window.session.document.now.mesh.points.mean(axis=0))
 
 
 def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path):
     io.write(tmp_path / "small.vtu", scrambled(grid(3), 0.3))
-    window.selection.choose(7)
-    window.commands.tag("before", [7])
-    with qtbot.waitSignal(window.opener.ended, timeout=PATIENCE):
-        window.open(tmp_path / "small.vtu")
-        before = window.document.now
-        assert not any(window.actions_by_id[id].isEnabled() for id in ("run", "step", "reset", "undo", "tag"))
-        assert not window.smoothing_panel.isEnabled()
-        window.smoothing_panel.run_requested.emit("laplacian", {}, {})
-        window.commands.tag("late", [8])
-        window.commands.undo()
-        assert window.document.now is before
-        assert not window.smoothing.busy
-    assert window.document.now is window.document.start
-    assert window.document.now.mesh.n_hexes == 27
-    assert window.actions_by_id["run"].isEnabled()
-    assert window.smoothing_panel.isEnabled()
+    window.session.selection.choose(7)
+    window.session.commands.tag("before", [7])
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
+        window.features["open"].open(tmp_path / "small.vtu")
+        before = window.session.document.now
+        assert not any(window.actions[id].isEnabled() for id in ("run", "step", "reset", "undo", "tag"))
+        assert not window.features["smooth"].panel.isEnabled()
+        window.features["smooth"].panel.run_requested.emit("laplacian", {}, {})
+        window.session.commands.tag("late", [8])
+        window.session.commands.undo()
+        assert window.session.document.now is before
+        assert not window.session.smoothing.busy
+    assert window.session.document.now is window.session.document.start
+    assert window.session.document.now.mesh.n_hexes == 27
+    assert window.actions["run"].isEnabled()
+    assert window.features["smooth"].panel.isEnabled()
 
 
 def test_an_element_can_be_tagged_only_under_a_name(window):
-    window.selection.choose(7)
-    assert window.actions_by_id["tag"].isEnabled()
-    window.tag_panel._name.setCurrentText("")
-    assert not window.actions_by_id["tag"].isEnabled()
-    window.tag_panel._name.setCurrentText("bad")
-    assert window.actions_by_id["tag"].isEnabled()
-    window.selection.choose(None)
-    assert not window.actions_by_id["tag"].isEnabled()
+    window.session.selection.choose(7)
+    assert window.actions["tag"].isEnabled()
+    window.features["tags"].panel._name.setCurrentText("")
+    assert not window.actions["tag"].isEnabled()
+    window.features["tags"].panel._name.setCurrentText("bad")
+    assert window.actions["tag"].isEnabled()
+    window.session.selection.choose(None)
+    assert not window.actions["tag"].isEnabled()
 
 
 def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
-    window.commands.tag("one", [1])
-    window.smoothing_panel.set_method("laplacian")
+    window.session.commands.tag("one", [1])
+    window.features["smooth"].panel.set_method("laplacian")
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    table = window.tag_panel.findChild(QTableWidget)
+    table = window.features["tags"].panel.findChild(QTableWidget)
     assert table.editTriggers() == QTableWidget.EditTrigger.NoEditTriggers
     table.item(0, 0).setText("two")  # in an editor that was open before
     assert table.item(0, 0).text() == "one"
-    window.smoothing.end_now()
+    window.session.smoothing.end_now()
     table.item(0, 0).setText("two")
-    assert list(window.document.now.mesh.hex_sets) == ["two"]
+    assert list(window.session.document.now.mesh.hex_sets) == ["two"]
 
 
 @pytest.mark.parametrize("notch", [False, True])
 def test_what_a_smooth_cut_takes_away_is_not_tagged_as_shown(window, notch):
     clip = PlaneClip((ClipPlane((1, 0, 0), middle(window)), ClipPlane((0, 1, 0), middle(window))), False, notch)
-    window.view.set_clip(clip)
-    window.tag_panel.shown_requested.emit("shown")
-    mesh = window.document.now.mesh
+    window.session.view.set_clip(clip)
+    window.features["tags"].panel.shown_requested.emit("shown")
+    mesh = window.session.document.now.mesh
     heights = np.array([plane.signed_distance(mesh.points)[mesh.hexes].min(axis=1) for plane in clip.planes])
     gone = (heights > 0).all(axis=0) if notch else (heights > 0).any(axis=0)
     assert 0 < gone.sum() < mesh.n_hexes
@@ -85,10 +85,10 @@ def test_what_a_smooth_cut_takes_away_is_not_tagged_as_shown(window, notch):
 
 
 def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
-    size = np.ptp(window.document.now.mesh.points, axis=0)
-    low = window.document.now.mesh.points.min(axis=0)
+    size = np.ptp(window.session.document.now.mesh.points, axis=0)
+    low = window.session.document.now.mesh.points.min(axis=0)
     box = BoxClip(tuple(low + 0.2 * size), tuple(low + 0.8 * size))
-    window.view.set_clip(box)
+    window.session.view.set_clip(box)
     qtbot.wait(200)
     view = window.canvas.interactor
     place = seen_at(window, ((box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2, box.high[2]))
@@ -98,11 +98,11 @@ def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
     for k in range(1, 8):
         QTest.mouseMove(view, place + QPoint(0, 4 * k))
         qtbot.wait(10)
-    assert window.view.look.clip != box
+    assert window.session.view.look.clip != box
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     QTest.mouseRelease(view, LEFT, pos=place)
     other = BoxClip(tuple(low), tuple(low + 0.5 * size))
-    window.view.set_clip(other)
+    window.session.view.set_clip(other)
     data = vtkPolyData()
     window.canvas.box._shape.GetPolyData(data)
     np.testing.assert_allclose(np.reshape(data.GetBounds(), (3, 2)).T, [other.low, other.high])
@@ -110,18 +110,18 @@ def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
 
 def test_the_chosen_plane_is_still_the_one_after_the_cut_was_off_or_a_box(window):
     planes = tuple(ClipPlane(normal, middle(window)) for normal in np.eye(3))
-    window.view.set_clip(PlaneClip(planes))
-    window.view.choose_plane(2)
+    window.session.view.set_clip(PlaneClip(planes))
+    window.session.view.choose_plane(2)
     for other in (None, BoxClip((0, 0, 0), (1, 1, 1))):
-        window.view.set_clip(other)
-        window.view.set_clip(PlaneClip(planes))
-        assert window.view.plane_at == 2
-    window.view.set_clip(PlaneClip(planes[:1]))
-    assert window.view.plane_at == 0
+        window.session.view.set_clip(other)
+        window.session.view.set_clip(PlaneClip(planes))
+        assert window.session.view.plane_at == 2
+    window.session.view.set_clip(PlaneClip(planes[:1]))
+    assert window.session.view.plane_at == 0
 
 
 def test_a_mesh_in_other_units_opens_after_a_cut(window, qtbot, tmp_path):
-    window.view.set_clip(PlaneClip.at((0, 1, 0), middle(window)))
+    window.session.view.set_clip(PlaneClip.at((0, 1, 0), middle(window)))
     mesh = scrambled(grid(3), 0.3)
     for scale in (1e-9, 1e9):
         io.write(tmp_path / f"{scale}.vtu", mesh.with_points(scale * mesh.points))
@@ -140,14 +140,14 @@ def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tm
 
 
 def test_a_picture_has_the_elements_of_the_view_where_nodes_moved_since_the_cut(window, tmp_path):
-    window.view.set_clip(PlaneClip.at((1, 0, 0), middle(window)))
-    mesh = window.document.now.mesh
+    window.session.view.set_clip(PlaneClip.at((1, 0, 0), middle(window)))
+    mesh = window.session.document.now.mesh
     moved = mesh.with_points(mesh.points + (np.ptp(mesh.points), 0, 0))
     figures = measure(moved.points, moved.hexes)
-    window.document.commit("shift", State(moved, figures, summarise(moved, figures)))
+    window.session.document.commit("shift", State(moved, figures, summarise(moved, figures)))
     window.canvas.fit()
     window.canvas.viewport.camera.SetFocalPoint(moved.points.mean(axis=0))
-    window.view.change(outline=False)
+    window.session.view.change(outline=False)
     assert window.canvas.viewport.shown > 0
     window.canvas.save_picture(tmp_path / "seen.png", (200, 120), False)
     assert np.ptp(np.asarray(Image.open(tmp_path / "seen.png"))[:, 60:].astype(int)[..., :3], axis=2).max() > 60

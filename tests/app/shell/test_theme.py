@@ -9,14 +9,11 @@ from PySide6.QtGui import QAction, QGuiApplication, QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from hexmend.parameters import declared
 from hexmend.quality import element, measure, node, summarise
-from hexmend.run import Stop
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.cut.clip_panel import ClipPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
-from hexmend_app.features.help.hint import Hint
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.features.inspect.element_panel import ElementPanel
 from hexmend_app.features.inspect.worst_list import WorstList
@@ -30,11 +27,11 @@ from hexmend_app.scene.export.picture import picture
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import THEME, Role
 from hexmend_app.shell.palette import CommandPalette
-from hexmend_app.state.commands import methods_offered
 from hexmend_app.state.convergence import Columns, Curve
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Record
 from hexmend_app.state.look import ValueRange
+from hexmend_app.state.order import Order
 from hexmend_app.state.recent import Recent
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.message_bar import MessageBar
@@ -81,8 +78,7 @@ def test_every_text_can_be_read_on_its_grounds(name, ground, dark):
 
 
 def smoothing():
-    panel = SmoothingPanel(declared(Stop))
-    panel.set_methods(methods_offered())
+    panel = SmoothingPanel(Order())
     panel.form.set_values({})
     return panel
 
@@ -168,7 +164,6 @@ BUILT = {
     "convergence": convergence,
     "colour bar": ColourBar,
     "welcome": lambda: Welcome(Recent()),
-    "hint": Hint,
     "tags": TagPanel,
     "palette": palette,
 }
@@ -202,19 +197,19 @@ def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, name, dark):
 def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     light = pixels(window)
     ground = light[5, 5]
-    window.actions_by_id["theme_dark"].trigger()
+    window.actions["theme_dark"].trigger()
     assert THEME.dark
     assert theming.chosen() is Choice.DARK
     assert QSettings().value("theme") == "dark"
     qtbot.wait(50)
     assert (pixels(window)[5, 5] < ground - 100).all()
     assert window.palette().window().color().name() == theme.PANEL.dark
-    now = window.document.now
+    now = window.session.document.now
     report = np.asarray(picture(Frame(now.mesh, now.figures), (400, 300)))
     assert report[2, 2, :3].tolist() == ground.tolist()
-    on = [choice for choice in Choice if window.actions_by_id[f"theme_{choice.value}"].isChecked()]
+    on = [choice for choice in Choice if window.actions[f"theme_{choice.value}"].isChecked()]
     assert on == [Choice.DARK]
-    window.actions_by_id["theme_light"].trigger()
+    window.actions["theme_light"].trigger()
     assert not THEME.dark
     qtbot.wait(50)
     assert (np.abs(pixels(window) - light).sum(axis=2) > 60).mean() < 0.02
@@ -230,7 +225,7 @@ def test_the_theme_follows_the_desktop_until_one_is_chosen(window, monkeypatch):
     scheme = Qt.ColorScheme.Light
     hints.colorSchemeChanged.emit(scheme)
     assert not THEME.dark
-    window.actions_by_id["theme_light"].trigger()
+    window.actions["theme_light"].trigger()
     scheme = Qt.ColorScheme.Dark
     hints.colorSchemeChanged.emit(scheme)
     assert not THEME.dark

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from hexmend.recipe import Stage
+from hexmend.report import write_comparison
 from hexmend.report.comparison import FIGURES
-from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.canvas.captions import Caption
 from hexmend_app.canvas.wipe_handle import STEP
+from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
 from hexmend_app.features.compare.comparison_table import INITIAL, Entry
-from hexmend_app.features.histogram.legend import KEPT_COLOURS
-from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
-from hexmend_app.scene.palette import BLUE, Role
-from hexmend_app.state.commands import Commands
+from hexmend_app.scene.palette import BLUE, KEPT, Role
 from hexmend_app.state.comparison import Compared
 from hexmend_app.state.document import State
-from hexmend_app.state.kept import KeptMoments
-from hexmend_app.state.session import Session
+from hexmend_app.widgets.questions import ask_comparison
 from hexmend_app.widgets.wording import counted
 
 if TYPE_CHECKING:
@@ -32,79 +31,151 @@ TICKED = ("laplacian", "getme", "local-sd", "mend")
 _NOW = "now"
 
 
-class Comparing:
-    """Has methods compared, and shows what they made of the mesh beside it.
+class FeatureCompare(Feature):
+    """Has methods compared, and shows what they made of the mesh beside it."""
 
-    Parameters
-    ----------
-    session : Session
-        The window's state.
-    commands : Commands
-    panel : ComparePanel
-    smoothing_panel : SmoothingPanel
-        Says with what values the methods run, and when they end.
-    kept : KeptMoments
-        The distributions of what is shown.
-    """
+    order = 58
 
-    def __init__(
-        self,
-        session: Session,
-        commands: Commands,
-        panel: ComparePanel,
-        smoothing_panel: SmoothingPanel,
-        kept: KeptMoments,
-    ):
-        self._session, self._commands, self._panel = session, commands, panel
-        self._comparison, self._views, self._kept = session.comparison, session.views, kept
-        self._smoothing_panel = smoothing_panel
+    def __init__(self, host: Host):
+        super().__init__(host)
+        session = self.session
+        self._comparison, self._views, self._kept = session.comparison, session.views, session.kept
         self._canvas: Canvas | None = None
-        self._comparison.changed.connect(self.refresh)
-        self._comparison.progressed.connect(self._say)
-        self._views.changed.connect(self._show_views)
-        self._views.wiped.connect(self._show_wipe)
-        self._kept.changed.connect(self._show_captions)
+        self._seen = Seen()
+        panel = self.panel = ComparePanel(TICKED)
         panel.run_requested.connect(self._run)
         panel.cancel_requested.connect(self._comparison.cancel)
         panel.view_toggled.connect(self._toggle)
         panel.take_requested.connect(self._take)
         panel.wipe_toggled.connect(self._views.set_wiping)
+        panel.save_requested.connect(self.ask)
+        panel.offer_changed.connect(host.refresh_soon)
 
-    def set_canvas(self, canvas: Canvas) -> None:
-        """Take the 3D view, which comes later than the rest."""
+    def actions(self) -> Sequence[Action]:
+        """Compare, keep beside, wipe."""
+        views, several, wiping = self._views, self._several, self._wiping
+        return (
+            Action(
+                id="compare",
+                text="&Run the comparison",
+                menu="Compare",
+                keys="F6",
+                icon="play",
+                help="Run the methods that are ticked in the panel one after another; the mesh stays as it is.",
+                handle=self.panel.run,
+                enabled=lambda: self.panel.can_run,
+            ),
+            Action(
+                id="cancel_comparison",
+                text="&Cancel the comparison",
+                menu="Compare",
+                keys="Shift+F6",
+                icon="stop",
+                help="End the comparison after the iteration at hand, and keep what has been reached.",
+                handle=self._comparison.cancel,
+                enabled=lambda: self._comparison.busy and not self._comparison.ending,
+            ),
+            Action(
+                id="beside",
+                text="Keep &in a view",
+                menu="Compare",
+                part=1,
+                keys="V",
+                icon="view-split-vertical",
+                help="Show the mesh as it is now in a view of its own, to which what comes can be compared.",
+                handle=self._show_this_beside,
+                enabled=lambda: not views.full,
+                in_view=True,
+            ),
+            Action(
+                id="wipe",
+                text="&Wipe",
+                menu="Compare",
+                part=1,
+                keys="W",
+                icon="compare",
+                help="Lay two views over one another, with an edge between them that is dragged.",
+                handle=views.set_wiping,
+                enabled=several,
+                checked=wiping,
+            ),
+            Action(
+                id="wipe_left",
+                text="Wipe to the &left",
+                menu="Compare",
+                part=1,
+                keys="[",
+                help="See more of the view at the right.",
+                handle=lambda: self._move_wipe(-1),
+                enabled=wiping,
+            ),
+            Action(
+                id="wipe_right",
+                text="Wipe to the ri&ght",
+                menu="Compare",
+                part=1,
+                keys="]",
+                help="See more of the view at the left.",
+                handle=lambda: self._move_wipe(1),
+                enabled=wiping,
+            ),
+            Action(
+                id="close_views",
+                text="Close &other views",
+                menu="Compare",
+                part=1,
+                keys="Ctrl+W",
+                help="Show the mesh as it is now alone.",
+                handle=self._close_all,
+                enabled=several,
+                in_view=True,
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """The table of methods."""
+        return (
+            Panel(
+                id="compare",
+                title="Compare",
+                widget=self.panel,
+                place=Place.DRAWER,
+                order=20,
+                help="What each method makes of the mesh, in a table and in views.",
+            ),
+        )
+
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Take the 3D view."""
         self._canvas = canvas
         canvas.frame.view_closed.connect(self._close)
         canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
         canvas.frame.wipe_moved.connect(self._views.move_wipe)
 
-    def handlers(self) -> dict[str, Callable]:
-        """What its actions do, by id."""
-        return {
-            "compare": self._panel.run,
-            "cancel_comparison": self._comparison.cancel,
-            "iteration_beside": self._show_this_beside,
-            "wipe": self._views.set_wiping,
-            "wipe_left": lambda: self._move_wipe(-1),
-            "wipe_right": lambda: self._move_wipe(1),
-            "close_views": self._close_all,
-        }
+    def refresh(self) -> None:
+        """Show what the methods reached, and what can be done with it."""
+        comparison, views, session = self._comparison, self._views, self.session
+        if self._canvas is not None and session.document.is_open:
+            if self._seen.another("views", views.all, views.wipe and (views.wipe.left, views.wipe.right)):
+                self._canvas.show_beside([(one.state.mesh, one.state.figures) for one in views.all], views.wipe)
+                self._seen.another("wipe", views.wipe)
+            elif self._seen.another("wipe", views.wipe) and views.wipe is not None:
+                self._canvas.move_wipe(views.wipe)
+            now = session.document.now
+            if self._seen.another("captions", views.all, views.wipe, self._kept.all, now if views.all else None):
+                self._show_captions()
+        if self._seen.another("table", comparison.results, comparison.initial, views.all, comparison.busy):
+            entries = [self._initial(), *(self._entry(name, comparison.of(name)) for name in METHODS)]
+            self.panel.set_entries(entries, views.full, comparison.busy)
+        runnable = session.editable and not comparison.busy  # two at once would spoil each other's times
+        self.panel.set_state(runnable, session.editable, self._several(), self._wiping())
+        self._say()
 
-    def offered(self) -> dict[str, bool]:
-        """Which of its actions can be done now."""
-        several, wiping = bool(self._views.all), self._views.wipe is not None
-        return {
-            "compare": self._panel.can_run,
-            "cancel_comparison": self._comparison.busy and not self._comparison.ending,
-            "iteration_beside": not self._views.full,
-            "wipe": several,
-            "wipe_left": wiping,
-            "wipe_right": wiping,
-            "close_views": several,
-        }
+    def _several(self) -> bool:
+        return bool(self._views.all)
 
-    def checked(self) -> dict[str, bool]:
-        """Which of its actions are on."""
-        return {"wipe": self._views.wipe is not None}
+    def _wiping(self) -> bool:
+        return self._views.wipe is not None
 
     # Views
 
@@ -122,8 +193,8 @@ class Comparing:
             self._views.show(name, state)
 
     def _show_this_beside(self) -> None:
-        moment = self._session.timeline.moment
-        self.show("the mesh as it was" if moment is None else moment.name, self._session.document.now)
+        moment = self.session.timeline.moment
+        self.show("the mesh as it was" if moment is None else moment.name, self.session.document.now)
 
     def _close(self, number: int) -> None:
         self._forget(self._views.all[number - 1].state)
@@ -150,50 +221,17 @@ class Comparing:
         if self._views.wipe is not None:
             self._views.move_wipe(self._views.wipe.at + way * STEP)
 
-    def _show_views(self) -> None:
-        if self._canvas is not None:
-            others = [(one.state.mesh, one.state.figures) for one in self._views.all]
-            self._canvas.show_beside(others, self._views.wipe)
-        self._show_captions()
-        self.refresh()
-
-    def _show_wipe(self) -> None:
-        if self._canvas is not None:
-            self._canvas.move_wipe(self._views.wipe)
-
     def _show_captions(self) -> None:
-        if self._canvas is not None and self._session.document.is_open:
-            shown = [(_NOW, self._session.document.now, BLUE)]
-            shown += [(one.name, one.state, self._colour(one.state)) for one in self._views.all]
-            captions = [
-                Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown
-            ]
-            self._canvas.frame.set_captions(captions, self._views.wipe)
+        shown = [(_NOW, self.session.document.now, BLUE)]
+        shown += [(one.name, one.state, self._colour(one.state)) for one in self._views.all]
+        captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
+        self._canvas.frame.set_captions(captions, self._views.wipe)
 
     def _colour(self, state: State) -> Role | None:
         kept = self._kept.of(state)
-        return None if kept is None else KEPT_COLOURS[kept.slot]
+        return None if kept is None else KEPT[kept.slot]
 
     # The table
-
-    def refresh(self) -> None:
-        """Show what the methods reached, and what can be done with it."""
-        comparison, views = self._comparison, self._views
-        entries = [self._initial(), *(self._entry(name, comparison.of(name)) for name in METHODS)]
-        self._panel.set_entries(entries, views.full, comparison.busy)
-        self.enable()
-        self._say()
-
-    def enable(self) -> None:
-        """Offer what can be done now."""
-        session = self._session
-        runnable = session.editable and not self._comparison.busy  # two at once would spoil each other's times
-        self._panel.set_state(runnable, session.editable, bool(self._views.all), self._views.wipe is not None)
-
-    def move(self) -> None:
-        """Say what the view of the mesh as it is now shows."""
-        if self._views.all:
-            self._show_captions()
 
     def _initial(self) -> Entry:
         state = self._comparison.initial
@@ -217,25 +255,25 @@ class Comparing:
         at = comparison.progress
         if at is None:
             ended = f"{counted(done, 'method')} compared" if done else ""
-            self._panel.set_status(f"{ended}, interrupted" if comparison.interrupted and ended else ended)
+            self.panel.set_status(f"{ended}, interrupted" if comparison.interrupted and ended else ended)
         elif comparison.ending:
-            self._panel.set_status(f"Ending {at.method} after this iteration…")
+            self.panel.set_status(f"Ending {at.method} after this iteration…")
         elif at.iteration:
             further = f"iteration {at.iteration:,}, {at.seconds:.1f} s"
-            self._panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): {further}")
+            self.panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): {further}")
         else:
-            self._panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): preparing…")
+            self.panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): preparing…")
 
     # What the user asks for
 
     def _run(self, names: list[str]) -> None:
-        self._smoothing_panel.request(lambda method, values, stop: self._start(names, Stop(**stop)))
+        self.session.order.use(lambda stage: self._start(names, stage))
 
-    def _start(self, names: list[str], stop: Stop) -> None:
-        if self._session.editable:
+    def _start(self, names: list[str], stage: Stage) -> None:
+        if self.session.editable:
             self._close_results()
-            values_of = self._smoothing_panel.values_of
-            self._comparison.start([METHODS[name](**values_of(name)) for name in names], stop)
+            smoothers = [self.session.order.smoother_of(name) for name in names]
+            self._comparison.start(smoothers, stage.stop)
 
     def _state_of(self, name: str) -> State:
         return self._comparison.initial if name == INITIAL else self._comparison.of(name).state
@@ -249,4 +287,20 @@ class Comparing:
 
     def _take(self, name: str) -> None:
         title = "go back to the compared mesh" if name == INITIAL else METHODS[name].title
-        self._commands.take(title, self._state_of(name))
+        self.session.commands.take(title, self._state_of(name))
+
+    # Files
+
+    def ask(self) -> None:
+        """Ask where the table goes and write it."""
+        path = ask_comparison(self.host.window, self.host.stem)
+        if path:
+            self.save(path)
+
+    def save(self, path: str | Path) -> bool:
+        """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; whether it was."""
+        return self.host.said(
+            "The table was not saved",
+            lambda: write_comparison(Path(path), self._comparison.record()),
+            f"Table of {counted(len(self._comparison.results), 'method')} saved to {path}",
+        )

@@ -2,78 +2,78 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QTimer
 
+from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.convergence.file import write_convergence
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.features.save.feature import Saving
 from hexmend_app.state.convergence import Columns, Curve, beginning, free_slot
 from hexmend_app.state.history import Record
 from hexmend_app.state.run import Phase
-from hexmend_app.state.session import Session
+from hexmend_app.widgets.questions import ask_convergence
 
 #: Milliseconds between two drawings while a run goes on.
 _PERIOD = 100
 
 
-class Converging:
-    """Brings the figures of all runs to the charts, and the user's clicks there to the timeline.
+class FeatureConvergence(Feature):
+    """Brings the figures of all runs to the charts, and the user's clicks there to the timeline."""
 
-    Parameters
-    ----------
-    session : Session
-        The window's state.
-    panel : ConvergencePanel
-    saving : Saving
-        Asks where to, and says what has become of it.
-    """
+    order = 56
 
-    def __init__(self, session: Session, panel: ConvergencePanel, saving: Saving):
+    def __init__(self, host: Host):
+        super().__init__(host)
+        session = self.session
         self._document, self._smoothing = session.document, session.smoothing
         timeline = self._timeline = session.timeline
         self._history = session.history
-        self._panel = panel
         self._columns: dict[Record, Columns] = {}
         self._slots: dict[Record, int] = {}
         self._hidden: set[Record] = set()
+        self._seen = Seen()
+        panel = self.panel = ConvergencePanel()
         self._soon = QTimer(panel, singleShot=True, interval=_PERIOD)
         self._soon.timeout.connect(self._show)
-        timeline.grown.connect(self._on_grown)
-        timeline.moved.connect(self._on_moved)
-        panel.came_into_view.connect(self._show)
         panel.choice_changed.connect(self._show)
         panel.toggled.connect(self._on_toggled)
         panel.forget_requested.connect(timeline.forget)
         panel.picked.connect(timeline.go_soon)
-        panel.save_requested.connect(lambda: saving.ask_convergence(self.write))
+        panel.save_requested.connect(self.ask)
 
-    def write(self, path: Path) -> None:
-        """Write the charts as a figure, or the figures of all runs as CSV, by the suffix."""
-        write_convergence(path, self._panel, self._document.name)
+    def panels(self) -> Sequence[Panel]:
+        """The charts."""
+        return (
+            Panel(
+                id="convergence",
+                title="Convergence",
+                widget=self.panel,
+                place=Place.DRAWER,
+                order=10,
+                help="How the figures of each run went, iteration by iteration.",
+            ),
+        )
 
-    @property
-    def _live(self) -> bool:
-        return self._smoothing.phase is Phase.RUNNING
-
-    def _on_grown(self) -> None:
-        if not self._live:
-            self._show()
-        elif not self._soon.isActive():
-            self._soon.start()
-
-    def _on_moved(self) -> None:
-        if not self._timeline.live:  # or it is drawn with the curves
+    def refresh(self) -> None:
+        """Plot what there is: while a run goes on, ten times a second."""
+        if not self.panel.isVisible():
+            return
+        known = [(record, record.newest, record.result) for record in self._history.records]
+        if self._smoothing.phase is not Phase.RUNNING:
+            if self._seen.another("curves", known, self._timeline.record, self._timeline.moment, self._smoothing.phase):
+                self._show()
+        elif not self._timeline.live:
             self._mark()
+        if self._smoothing.phase is Phase.RUNNING and not self._soon.isActive():
+            self._soon.start()
 
     def _on_toggled(self, record: Record, on: bool) -> None:
         (self._hidden.discard if on else self._hidden.add)(record)
         self._show()
 
     def _show(self) -> None:
-        if not self._panel.isVisible():
-            return  # it tells when it comes into view
         records = self._history.records
         self._columns = {record: self._columns.get(record) or Columns(record) for record in records}
         self._hidden &= set(records)
@@ -81,14 +81,14 @@ class Converging:
         for record in records:
             self._slots.setdefault(record, free_slot(self._slots.values()))
             self._columns[record].grow()
-        self._panel.set_curves([self._curve(record) for record in records if len(self._columns[record])])
+        self.panel.set_curves([self._curve(record) for record in records if len(self._columns[record])])
         self._mark()
 
     def _curve(self, record: Record) -> Curve:
         return Curve(
             self._columns[record],
             self._slots[record],
-            (0.0, 0.0) if self._panel.from_zero.isChecked() else beginning(record),
+            (0.0, 0.0) if self.panel.from_zero.isChecked() else beginning(record),
             shown=record not in self._hidden,
             current=record is self._timeline.record,
             going=self._smoothing.busy and record is self._smoothing.record,
@@ -98,6 +98,22 @@ class Converging:
     def _mark(self) -> None:
         moment = self._timeline.moment
         if moment is None:
-            self._panel.set_shown(None)
+            self.panel.set_shown(None)
         else:
-            self._panel.set_shown(moment.record, moment.number)
+            self.panel.set_shown(moment.record, moment.number)
+
+    # Files
+
+    def ask(self) -> None:
+        """Ask where the charts go and write them."""
+        path = ask_convergence(self.host.window, self.host.stem)
+        if path:
+            self.save(path)
+
+    def save(self, path: str | Path) -> bool:
+        """Write the charts as a figure, or the figures of all runs as CSV, by the suffix; whether it was done."""
+        return self.host.said(
+            "The charts were not saved",
+            lambda: write_convergence(Path(path), self.panel, self._document.name),
+            f"Convergence saved to {path}",
+        )

@@ -9,13 +9,12 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 
-from hexmend_app.features.histogram.legend import KEPT_COLOURS
-from hexmend_app.scene.palette import Role
+from hexmend_app.scene.palette import KEPT, Role
 from hexmend_app.state.convergence import Curve
 from hexmend_app.widgets.style import BLUE
 
 #: Colours of runs, by slot; after the last, the first again.
-RUN_COLOURS = (BLUE, *KEPT_COLOURS)
+RUN_COLOURS = (BLUE, *KEPT)
 
 #: Points of which a curve is drawn at most: a thick line of a thousand takes longer to paint than all else.
 MOST = 400

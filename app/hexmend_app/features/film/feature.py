@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QTimer
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QTimer
 
 from hexmend.errors import HexmendError
-from hexmend_app.state.session import Session
+from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.state.shots import chosen, shots
-from hexmend_app.widgets.busy import Busy
-from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.questions import ask_film
 
 if TYPE_CHECKING:
@@ -25,39 +22,44 @@ if TYPE_CHECKING:
 FRAMES, WIDTH = 60, 960
 
 
-class Filming(QObject):
-    """Draws the run that is gone through, as it is looked at, and writes the frames as one animated file.
+class FeatureFilm(Feature):
+    """Draws the run that is gone through, as it is looked at, and writes the frames as one animated file."""
 
-    Parameters
-    ----------
-    parent : QWidget
-        The dialog stands before it.
-    session : Session
-    busy : Busy
-        Says how far it is, and has a way out.
-    messages : MessageBar
-    """
+    order = 59
 
-    def __init__(self, parent: QWidget, session: Session, busy: Busy, messages: MessageBar):
-        super().__init__(parent)
-        self._parent, self._session = parent, session
-        self._busy, self._messages = busy, messages
-        self.canvas: Canvas | None = None
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._canvas: Canvas | None = None
         self._path = Path()
         self._count = 0
         self._frames: list[Image.Image] = []
         self._coming: Iterator[Image.Image] | None = None
         self._next = QTimer(self, interval=0)
         self._next.timeout.connect(self._draw_one)
-        session.document.mesh_replaced.connect(self.cancel)
+        self.session.document.mesh_replaced.connect(self.cancel)
 
-    def handlers(self) -> dict[str, Callable]:
-        """What its actions do, by id."""
-        return {"film": self.ask}
+    def actions(self) -> Sequence[Action]:
+        """Save a film."""
+        return (
+            Action(
+                id="film",
+                text="Save a fil&m…",
+                menu="Timeline",
+                part=2,
+                icon="movie-open-outline",
+                help="Save the run as an animation: its iterations one after another, as the view shows them.",
+                handle=self.ask,
+                enabled=lambda: self._canvas is not None and self.session.timeline.record is not None,
+            ),
+        )
 
-    def offered(self) -> dict[str, bool]:
-        """Which of its actions can be done now."""
-        return {"film": self._session.timeline.record is not None}
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Take the 3D view, as which the film looks."""
+        self._canvas = canvas
+
+    def close(self) -> None:
+        """Give up what is being made."""
+        self.cancel()
 
     @property
     def going_on(self) -> bool:
@@ -66,7 +68,7 @@ class Filming(QObject):
 
     def ask(self) -> None:
         """Ask where the film goes, and make it."""
-        path = ask_film(self._parent, self._session.document.name.partition(".")[0] or "mesh")
+        path = ask_film(self.host.window, self.host.stem)
         if path:
             self.film(Path(path))
 
@@ -75,16 +77,16 @@ class Filming(QObject):
         from hexmend_app.scene.export.film import format_of, pictures
 
         self.cancel()
-        record, history = self._session.timeline.record, self._session.history
+        record, history = self.session.timeline.record, self.session.history
         try:
             format_of(path)
         except HexmendError as error:
-            self._messages.show_error("The film was not made", str(error))
+            self.host.messages.show_error("The film was not made", str(error))
             return
         numbers = chosen(history, record, FRAMES)
-        view = self.canvas.viewport
-        size = (WIDTH, round(WIDTH * self.canvas.height() / self.canvas.width() / 2) * 2)
-        taken = shots(history, record, self._session.document.now.mesh, numbers)
+        view = self._canvas.viewport
+        size = (WIDTH, round(WIDTH * self._canvas.height() / self._canvas.width() / 2) * 2)
+        taken = shots(history, record, self.session.document.now.mesh, numbers)
         self._path, self._count, self._frames = path, len(numbers), []
         self._coming = pictures(taken, view.frame.look, size, camera=view.camera, movement=view.frame.movement)
         self._next.start()
@@ -96,7 +98,7 @@ class Filming(QObject):
             self._next.stop()
             self._coming.close()
             self._coming, self._frames = None, []
-            self._busy.done()
+            self.host.busy.done()
 
     def _draw_one(self) -> None:
         frame = next(self._coming, None)
@@ -112,12 +114,12 @@ class Filming(QObject):
         from hexmend_app.scene.export.film import write_film
 
         try:
-            write_film(path, frames, self._session.timeline.speed)
+            write_film(path, frames, self.session.timeline.speed)
         except HexmendError as error:
-            self._messages.show_error("The film was not saved", str(error))
+            self.host.messages.show_error("The film was not saved", str(error))
         else:
-            self._messages.show_info(f"Film of {len(frames)} frames saved to {path}")
+            self.host.messages.show_info(f"Film of {len(frames)} frames saved to {path}")
 
     def _say(self) -> None:
-        word, help = "Cancel", "Give the film up; no file is written."
-        self._busy.show_work(f"Drawing frame {len(self._frames) + 1} of {self._count}…", word, help, self.cancel)
+        at, help = min(len(self._frames) + 1, self._count), "Give the film up; no file is written."
+        self.host.busy.show_work(f"Drawing frame {at} of {self._count}…", "Cancel", help, self.cancel)

@@ -2,45 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
+
 import numpy as np
 
 from hexmend.quality import measure
+from hexmend_app.feature import Feature, Host, Panel, Place, Seen
+from hexmend_app.features.histogram.file import write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.state.document import State
-from hexmend_app.state.kept import Kept, KeptMoments
+from hexmend_app.state.kept import Kept
 from hexmend_app.state.measured import values
 from hexmend_app.state.movement import MOVEMENTS
-from hexmend_app.state.session import Session
+from hexmend_app.widgets.questions import ask_histogram
 
 
-class Counting:
+class FeatureHistogram(Feature):
     """Brings the values of one metric to the histogram, and the range brushed there to the view.
 
     The histogram counts what the colours show, so that the picture and the plot tell of the same thing, until the user
     chooses a metric there. A brushed range holds its metric: then other colours can be laid over what it leaves.
-
-    Parameters
-    ----------
-    session : Session
-        The window's state.
-    histogram : QualityHistogram
     """
 
-    def __init__(self, session: Session, histogram: QualityHistogram):
-        view = self._view = session.view
-        self._document, self._smoothing, self._history = session.document, session.smoothing, session.history
-        self._histogram = histogram
+    order = 40
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        view = self._view = self.session.view
+        self._document, self._kept = self.session.document, self.session.kept
         self._own: str | None = None  # chosen here, not by the colours
-        self._counted: tuple[str, State] | None = None  # what the axis was made for
-        self.kept = KeptMoments()
+        self._seen = Seen()
         self._kept_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
-        view.look_changed.connect(self._on_look_changed)
-        self.kept.changed.connect(self._show_kept)
-        histogram.metric_chosen.connect(self._on_metric)
-        histogram.range_changed.connect(lambda chosen: view.change(quality_range=chosen))
-        histogram.keep_requested.connect(self._keep)
-        histogram.renamed.connect(self.kept.rename)
-        histogram.removed.connect(self.kept.remove)
+        panel = self.panel = QualityHistogram()
+        panel.metric_chosen.connect(self._on_metric)
+        panel.range_changed.connect(lambda chosen: view.change(quality_range=chosen))
+        panel.keep_requested.connect(self._keep)
+        panel.renamed.connect(self._kept.rename)
+        panel.removed.connect(self._kept.remove)
+        panel.save_requested.connect(self.ask)
+
+    def panels(self) -> Sequence[Panel]:
+        """The histogram."""
+        return (
+            Panel(
+                id="histogram",
+                title="Histogram",
+                widget=self.panel,
+                place=Place.FACTS,
+                order=10,
+                help="How many hexes have which quality; drag over it to show those alone.",
+            ),
+        )
 
     @property
     def metric(self) -> str:
@@ -48,25 +61,27 @@ class Counting:
         shown = self._view.look.scale.metric
         return self._own or ("q" if shown in MOVEMENTS else shown)
 
-    @property
-    def _follows(self) -> bool:
-        return self._own is None and self.metric == self._view.look.scale.metric
-
-    def show_another(self) -> None:
-        """Take another mesh, of which nothing is kept."""
-        self.kept.clear()
-
     def refresh(self) -> None:
-        """Count the elements as they are now."""
-        if not self._document.is_open:
-            return
+        """Count the hexes as they are now."""
+        self.panel.setEnabled(self._document.is_open)
+        look = self._view.look
+        if self._own is None and look.quality_range is not None and look.quality_range.metric != look.scale.metric:
+            self._own = look.quality_range.metric
+        self.session.smoothing.want({look.scale.metric, self.metric} - MOVEMENTS.keys())
+        self.panel.set_metric(self.metric, self._own is None and self.metric == look.scale.metric)
+        if self._document.is_open and self.panel.isVisible():
+            self._count()
+        self.panel.set_range(look.quality_range)
+
+    def _count(self) -> None:
         start, now = self._document.start, self._document.now
-        if self._counted != (self.metric, start):
-            self._counted = (self.metric, start)
-            self._histogram.set_metric(self.metric, self._follows)
-            self._histogram.set_initial(self._values(start), start.figures.inverted)
+        if self._seen.another("start", self.metric, start):
+            self.panel.set_initial(self._values(start), start.figures.inverted)
+            self._seen.another("now")
+        if self._seen.another("kept", self.metric, self._kept.all, start):
             self._show_kept()
-        self._histogram.set_current(self._values(now), now.figures.inverted)
+        if self._seen.another("now", self.metric, now):
+            self.panel.set_current(self._values(now), now.figures.inverted)
 
     def _values(self, state: State) -> np.ndarray:
         return values(self.metric, state.mesh.points, state.mesh.hexes, state.figures)
@@ -76,33 +91,19 @@ class Counting:
         chosen = self._view.look.quality_range
         if chosen is not None and chosen.metric != self.metric:
             self._view.change(quality_range=None)  # what it hides could no longer be told from the plot
-        self._show_metric()
-
-    def _on_look_changed(self) -> None:
-        look = self._view.look
-        if self._own is None and look.quality_range is not None and look.quality_range.metric != look.scale.metric:
-            self._own = look.quality_range.metric
-        self._show_metric()
-
-    def _show_metric(self) -> None:
-        look = self._view.look
-        self._smoothing.want({look.scale.metric, self.metric} - MOVEMENTS.keys())
-        if self._counted is not None and self._counted[0] != self.metric:
-            self.refresh()
-        self._histogram.set_metric(self.metric, self._follows)
-        self._histogram.set_range(look.quality_range)
+        self.host.refresh_soon()
 
     # What is kept
 
     def _keep(self) -> None:
         now = self._document.now
-        moment = self._history.moment_of(now)
-        self.kept.keep("kept" if moment is None else moment.name, now)
+        moment = self.session.history.moment_of(now)
+        self._kept.keep("kept" if moment is None else moment.name, now)
 
     def _show_kept(self) -> None:
-        kept = self.kept.all
+        kept = self._kept.all
         self._kept_values = {one.slot: self._values_of(one) for one in kept}
-        self._histogram.set_kept([(one.slot, one.name, self._kept_values[one.slot][2], one.inverted) for one in kept])
+        self.panel.set_kept([(one.slot, one.name, self._kept_values[one.slot][2], one.inverted) for one in kept])
 
     def _values_of(self, one: Kept) -> tuple[str, np.ndarray, np.ndarray]:
         """The metric, the points and the values of what is kept: worked out when one of the first two is another."""
@@ -112,3 +113,19 @@ class Counting:
         hexes = self._document.now.mesh.hexes
         found = values(self.metric, one.points, hexes, measure(one.points, hexes))
         return self.metric, one.points, found
+
+    # Files
+
+    def ask(self) -> None:
+        """Ask where the histogram goes and write it."""
+        path = ask_histogram(self.host.window, self.host.stem)
+        if path:
+            self.save(path)
+
+    def save(self, path: str | Path) -> bool:
+        """Write the histogram as figure, or its counts as CSV, by the suffix; whether it was."""
+        return self.host.said(
+            "The histogram was not saved",
+            lambda: write_histogram(Path(path), self.panel, self._document.name),
+            f"Histogram saved to {path}",
+        )

@@ -9,20 +9,9 @@ from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 from superqt import QFlowLayout
 
-from hexmend_app.scene.palette import HOVER, Role
+from hexmend_app.scene.palette import HOVER, KEPT
 from hexmend_app.widgets.legend import Swatch, legend_entry
 from hexmend_app.widgets.style import BLUE, FIELD, GREY, LINE, MUTED, dress, explain, icon, smaller
-
-#: Colours of what is kept, by slot: Okabe and Ito's without the blue of what is now, and without their yellow, which is
-#: too pale for a line.
-KEPT_COLOURS = (
-    Role("#d55e00", "#d55e00"),
-    Role("#009e73", "#009e73"),
-    Role("#e69f00", "#e69f00"),
-    Role("#56b4e9", "#56b4e9"),
-    Role("#000000", "#ffffff"),
-    Role("#cc79a7", "#cc79a7"),
-)
 
 _WIDEST, _HEIGHT = 150, 18
 
@@ -97,7 +86,7 @@ class KeptEntry(QWidget):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 4, 0)
         layout.setSpacing(2)
-        for part in (Swatch(KEPT_COLOURS[slot]), self.name, self.cross):
+        for part in (Swatch(KEPT[slot]), self.name, self.cross):
             layout.addWidget(part)
 
 

@@ -13,10 +13,11 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import Distribution, distribute
 from hexmend_app.features.histogram.head import HistogramHead
-from hexmend_app.features.histogram.legend import KEPT_COLOURS, HistogramLegend
+from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.plot import HistogramPlot, Series
 from hexmend_app.features.histogram.range import RangeRow
 from hexmend_app.features.histogram.words import describe, sentence
+from hexmend_app.scene.palette import KEPT
 from hexmend_app.state.look import ValueRange
 from hexmend_app.widgets.style import BLUE, GREY, note, tabular
 
@@ -158,7 +159,7 @@ class QualityHistogram(QWidget):
             drawn.append(Series("start", "at the start", GREY, self._initial, filled=True))
         if self._current is not None:
             drawn.append(Series("now", "now", BLUE, self._current, filled=True, current=True))
-        return drawn + [Series(str(slot), name, KEPT_COLOURS[slot], part) for slot, name, part in self._kept]
+        return drawn + [Series(str(slot), name, KEPT[slot], part) for slot, name, part in self._kept]
 
     @property
     def log(self) -> bool:
@@ -233,7 +234,7 @@ class QualityHistogram(QWidget):
         self._refresh()
 
     def _refresh(self) -> None:
-        self.head.set_offered(self._current is not None, len(self._kept) == len(KEPT_COLOURS))
+        self.head.set_offered(self._current is not None, len(self._kept) == len(KEPT))
         self._plot.draw(self.series())
         self._say()
 

@@ -1,130 +1,153 @@
-"""Looking at elements one by one: the lines between what is chosen, the lists that choose, and the view."""
+"""Looking at hexes one by one: the list of the worst, and what there is to know of the one that is chosen."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QDockWidget
-
 from hexmend.quality import element, node
+from hexmend.report.documents import write_text
+from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.inspect.element_panel import ElementPanel
 from hexmend_app.features.inspect.worst_list import WorstList
-from hexmend_app.state.commands import Commands
-from hexmend_app.state.session import Session
+from hexmend_app.widgets.questions import ask_list
+from hexmend_app.widgets.wording import counted
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
 
-class Inspecting:
-    """Chooses elements and nodes, shows what there is to know of them, isolates and digs.
+class FeatureInspect(Feature):
+    """Chooses hexes and nodes, and shows what there is to know of them."""
 
-    Parameters
-    ----------
-    session : Session
-        The window's state.
-    commands : Commands
-    worst_list, element_panel
-        Its widgets.
-    element_dock : QDockWidget
-        Comes to the front when an element is chosen in the view.
-    node_dock : QDockWidget
-        Stays in front then, if it is: it shows what is chosen too.
-    """
+    order = 42
 
-    def __init__(
-        self,
-        session: Session,
-        commands: Commands,
-        worst_list: WorstList,
-        element_panel: ElementPanel,
-        element_dock: QDockWidget,
-        node_dock: QDockWidget,
-    ):
+    def __init__(self, host: Host):
+        super().__init__(host)
+        session = self.session
         selection = self._selection = session.selection
-        self._session, self._document, self._view = session, session.document, session.view
-        self._worst_list = worst_list
-        self._element_panel = element_panel
-        self._element_dock, self._node_dock = element_dock, node_dock
+        self._document, self._view = session.document, session.view
         self._canvas: Canvas | None = None
-        selection.changed.connect(self._show_selected)
-        worst_list.chosen.connect(self._go_to_worst)
-        element_panel.chosen.connect(self.go_to)
-        element_panel.fly_requested.connect(lambda: self.go_to(selection.hex))
-        element_panel.corners_toggled.connect(self._show_selected)
-        element_panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
-        element_panel.pin_toggled.connect(lambda node, on: (commands.pin(node, on), self._show_element()))
+        self._seen = Seen()
+        self.worst_list = WorstList()
+        self.worst_list.chosen.connect(self._go_to_worst)
+        self.worst_list.save_requested.connect(self.ask)
+        selection.listing = lambda: self.worst_list.elements
+        panel = self.panel = ElementPanel()
+        panel.chosen.connect(selection.visit)
+        panel.fly_requested.connect(lambda: selection.visit(selection.hex))
+        panel.corners_toggled.connect(host.refresh_soon)
+        panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
+        panel.pin_toggled.connect(session.commands.pin)
 
-    def set_canvas(self, canvas: Canvas) -> None:
-        """Take the 3D view, which comes later than the rest."""
+    def actions(self) -> Sequence[Action]:
+        """Through the list, and back."""
+        return (
+            Action(
+                id="next_worst",
+                text="&Next worst hex",
+                menu="Hex",
+                keys="N",
+                icon="chevron-down",
+                help="Go to the next hex of the list of the worst, from the worst on.",
+                tool="Worst",
+                handle=self.worst_list.next,
+            ),
+            Action(
+                id="previous_worst",
+                text="&Previous worst hex",
+                menu="Hex",
+                keys="Shift+N",
+                icon="chevron-up",
+                help="Go back in the list.",
+                handle=self.worst_list.previous,
+            ),
+            Action(
+                id="visit",
+                text="&Fly to the hex",
+                menu="Hex",
+                keys="Shift+F",
+                help="Bring the chosen hex before the camera.",
+                handle=lambda: self._selection.visit(self._selection.hex),
+                enabled=lambda: self._selection.hex is not None,
+                in_view=True,
+            ),
+            Action(
+                id="back",
+                text="Step &back",
+                menu="Hex",
+                part=3,
+                keys="Esc",
+                help="Show again what is hidden beside an isolated hex; then look at none.",
+                handle=self._back,
+                enabled=lambda: (
+                    self.host.messages.isHidden()
+                    and not self.session.opener.busy
+                    and (self._selection.hex is not None or self._view.look.isolation is not None)
+                ),
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """The list, and the one hex."""
+        return (
+            Panel(
+                id="worst",
+                title="Worst",
+                widget=self.worst_list,
+                place=Place.FACTS,
+                order=30,
+                help="The worst hexes by any metric.",
+            ),
+            Panel(
+                id="hex",
+                title="Hex",
+                widget=self.panel,
+                place=Place.FACTS,
+                order=40,
+                help="All there is to know of the chosen hex and its nodes.",
+            ),
+        )
+
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Take what is clicked in the view."""
         self._canvas = canvas
         canvas.clicked.connect(self._on_clicked)
-        canvas.dug.connect(self._dig)
-
-    def handlers(self) -> dict[str, Callable]:
-        """What its actions do, by id."""
-        return {
-            "next_worst": self._worst_list.next,
-            "previous_worst": self._worst_list.previous,
-            "isolate": lambda: self._view.isolate((self._selection.hex,)),
-            "dig": lambda: self._dig(self._selection.hex),
-            "undig": self._view.undig_last,
-            "back": self._back,
-        }
-
-    def offered(self) -> dict[str, bool]:
-        """Which of its actions can be done now."""
-        chosen, look = self._selection.hex is not None, self._view.look
-        return {
-            "isolate": chosen,
-            "dig": chosen,
-            "undig": bool(look.dug),
-            "back": chosen or look.isolation is not None,
-        }
 
     def refresh(self) -> None:
         """Show what is chosen, and the list of the worst, as they are now."""
-        now = self._document.now
-        self._worst_list.set_figures(now.mesh, now.figures)
-        self._show_element()
-
-    def _show_selected(self) -> None:
-        self._worst_list.set_selected(self._selection.hex)
-        self._show_element()
+        if not self._document.is_open:
+            return
+        now, chosen = self._document.now, self._selection
+        if self._seen.another("figures", now):
+            self.worst_list.set_figures(now.mesh, now.figures)
+        self.worst_list.set_selected(chosen.hex)
+        corners, editable = self.panel.corners_in_view, self.session.editable
+        if self._seen.another("chosen", now, chosen.hex, chosen.node, corners, editable, self._canvas):
+            self._show_element()
 
     def _show_element(self) -> None:
         chosen, mesh = self._selection, self._document.now.mesh
         if chosen.hex is None:
-            self._element_panel.show_element(None)
+            self.panel.show_element(None)
         else:
             tags = [name for name, members in mesh.hex_sets.items() if (members == chosen.hex).any()]
-            self._element_panel.show_element(element(mesh, chosen.hex), tags)
+            self.panel.show_element(element(mesh, chosen.hex), tags)
         at = None if chosen.node is None else node(mesh, chosen.node)
-        self._element_panel.show_node(at, not self._session.editable)
+        self.panel.show_node(at, not self.session.editable)
         if self._canvas is not None:
-            self._canvas.select(chosen.hex, self._element_panel.corners_in_view, at)
+            self._canvas.select(chosen.hex, self.panel.corners_in_view, at)
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))
-        if hit is not None and not self._node_dock.widget().isVisible():
-            self._element_dock.raise_()
-
-    def go_to(self, h: int) -> None:
-        """Choose an element and bring it before the camera."""
-        self._selection.choose(h)
-        if self._canvas is not None:
-            self._canvas.fly_to(h)
+        if hit is not None and not self.host.in_front("node"):
+            self.host.show_panel("hex")
 
     def _go_to_worst(self, h: int) -> None:
-        if self._worst_list.isolates:
+        if self.worst_list.isolates:
             self._view.isolate((h,))
-        self.go_to(h)
-
-    def _dig(self, h: int) -> None:
-        if h == self._selection.hex:
-            self._selection.choose(None)
-        self._view.dig(h)
+        self._selection.visit(h)
 
     def _back(self) -> None:
         """First show the rest again, then look at none."""
@@ -132,3 +155,19 @@ class Inspecting:
             self._view.end_isolation()
         else:
             self._selection.choose(None)
+
+    # Files
+
+    def ask(self) -> None:
+        """Ask where the list of the worst goes and write it."""
+        path = ask_list(self.host.window, self.host.stem)
+        if path:
+            self.save(path)
+
+    def save(self, path: str | Path) -> bool:
+        """Write the list of the worst hexes as CSV; whether it was."""
+        return self.host.said(
+            "The list was not saved",
+            lambda: write_text(Path(path), self.worst_list.text()),
+            f"{counted(len(self.worst_list.elements), 'hex', 'hexes')} saved to {path}",
+        )

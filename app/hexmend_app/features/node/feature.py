@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QDockWidget
 
-from hexmend.errors import ParameterError
 from hexmend.node_step import NodeStep
-from hexmend.smoothers import METHODS, Smoother
-from hexmend_app.features.inspect.worst_list import WorstList
+from hexmend.smoothers import METHODS
+from hexmend_app.feature import Action, Feature, Host, Panel, Place
 from hexmend_app.features.node.panel import NodePanel
 from hexmend_app.features.node.reasons import why_no_step, why_no_sweep, worst_free_node
-from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.look import Isolation
-from hexmend_app.state.session import Session
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -26,89 +22,113 @@ if TYPE_CHECKING:
 _PATIENCE = 200
 
 
-class Debugging:
+class FeatureNode(Feature):
     """Asks for the step of the chosen node, shows it, and goes through sweeps.
 
-    Parameters
-    ----------
-    session : Session
-        The window's state.
-    panel : NodePanel
-    dock : QDockWidget
-        The panel's; a step is worked out and drawn only while it is in front.
-    smoothing_panel, worst_list
-        Where the method is chosen, and the worst element is found.
+    A step is worked out and drawn only while the panel is in front.
     """
 
-    def __init__(
-        self,
-        session: Session,
-        panel: NodePanel,
-        dock: QDockWidget,
-        smoothing_panel: SmoothingPanel,
-        worst_list: WorstList,
-    ):
-        self._session, self._document, self._selection = session, session.document, session.selection
+    order = 43
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        session = self.session
+        self._document, self._selection = session.document, session.selection
         self._explainer, self._stepping, self._view = session.explainer, session.stepping, session.view
-        self._panel, self._dock = panel, dock
-        self._smoothing_panel, self._worst_list = smoothing_panel, worst_list
         self._canvas: Canvas | None = None
         self._asked: tuple | None = None
         self._shown: NodeStep | None = None
         self._isolation: Isolation | None = None
-        self._soon, self._patience = QTimer(panel), QTimer(panel)
-        for timer, wait, act in ((self._soon, 0, self._refresh), (self._patience, _PATIENCE, self._say_it_takes_time)):
-            timer.setSingleShot(True)
-            timer.setInterval(wait)
-            timer.timeout.connect(act)
-        for told in (
-            session.selection.changed,
-            session.stepping.changed,
-            session.smoothing.phase_changed,
-            smoothing_panel.method_changed,
-            smoothing_panel.form.changed,
-            dock.visibilityChanged,
-        ):
-            told.connect(self.refresh)
-        session.explainer.answered.connect(self._on_answered)
-        session.view.look_changed.connect(self._on_look_changed)
+        panel = self.panel = NodePanel()
+        self._patience = QTimer(panel, singleShot=True, interval=_PATIENCE)
+        self._patience.timeout.connect(self._say_it_takes_time)
+        session.explainer.answered.connect(self._patience.stop)
         panel.node_chosen.connect(lambda node: self._selection.choose(self._selection.hex, node))
         panel.patch_toggled.connect(self._on_patch)
         panel.requested.connect(self._go)
 
-    def set_canvas(self, canvas: Canvas) -> None:
-        """Take the 3D view, which comes later than the rest."""
+    def actions(self) -> Sequence[Action]:
+        """Explain a node, and step through a sweep."""
+        return (
+            Action(
+                id="explain_node",
+                text="&Explain a node's step",
+                menu="Hex",
+                part=2,
+                keys="D",
+                help="Show what the chosen method does to the chosen node, or to one of the worst hex, and why.",
+                handle=self._explain_one,
+                in_view=True,
+            ),
+            *(
+                Action(
+                    id=id,
+                    text=text,
+                    menu="Smooth",
+                    part=3,
+                    keys=keys,
+                    help=help,
+                    handle=lambda what=what: self._go(what),
+                    enabled=lambda: not self._why_no_sweep(),
+                )
+                for id, what, text, keys, help in (
+                    (
+                        "next_node",
+                        "next",
+                        "Next &node of a sweep",
+                        "F11",
+                        "Let a local method move one node, and look at its step.",
+                    ),
+                    (
+                        "ten_nodes",
+                        "ten",
+                        "Ten nodes of a s&weep",
+                        "Shift+F11",
+                        "Let a local method move ten nodes.",
+                    ),
+                    (
+                        "finish_sweep",
+                        "finish",
+                        "&Finish the sweep",
+                        "Ctrl+F11",
+                        "Let a local method move all nodes that are left.",
+                    ),
+                )
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """The node's step."""
+        return (
+            Panel(
+                id="node",
+                title="Node",
+                widget=self.panel,
+                place=Place.DRAWER,
+                order=40,
+                help="What the chosen method does to the chosen node, and why.",
+            ),
+        )
+
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Take the 3D view."""
         self._canvas = canvas
-
-    def handlers(self) -> dict[str, Callable]:
-        """What its actions do, by id."""
-        return {
-            "explain_node": self._explain_one,
-            "next_node": lambda: self._go("next"),
-            "ten_nodes": lambda: self._go("ten"),
-            "finish_sweep": lambda: self._go("finish"),
-        }
-
-    def offered(self) -> dict[str, bool]:
-        """Which of its actions can be done now."""
-        can = not self._why_no_sweep()
-        return {"explain_node": True, "next_node": can, "ten_nodes": can, "finish_sweep": can}
-
-    def refresh(self, *_: object) -> None:
-        """Show the step of what is chosen as it is now, once all that happens at this moment has happened."""
-        self._soon.start()
 
     # What is shown
 
-    def _refresh(self) -> None:
+    def refresh(self) -> None:
+        """Show the step of what is chosen as it is now."""
         sweep = self._stepping.sweep
-        self._panel.set_stepping(self._why_no_sweep(), *((sweep.done, sweep.nodes.size) if sweep else ()))
-        if not self._panel.isVisible():
+        self.panel.set_stepping(self._why_no_sweep(), *((sweep.done, sweep.nodes.size) if sweep else ()))
+        if self._view.look.isolation != self._isolation:
+            self._isolation = None
+            self.panel.set_patch(False)
+        if not self.panel.isVisible():
             self._draw(None)
             return
         self._list_nodes()
-        smoother, node = self._smoother(), self._selection.node
-        reason = why_no_step(self._session, smoother)
+        smoother, node = self.session.order.smoother, self._selection.node
+        reason = why_no_step(self.session, smoother)
         made = self._stepping.made_by(smoother)
         if reason:
             self._say(reason)
@@ -124,15 +144,10 @@ class Debugging:
             self._asked = question
             self._explainer.ask(*question)
             self._patience.start()
+        elif self._explainer.error is not None:
+            self._draw_message(f"This could not be worked out: {self._explainer.error}.")
         elif self._explainer.step is not None:
             self._show(self._explainer.step, made=False)
-
-    def _on_answered(self) -> None:
-        self._patience.stop()
-        if self._explainer.error is not None:
-            self._say(f"This could not be worked out: {self._explainer.error}.")
-            return
-        self._refresh()
 
     def _say_it_takes_time(self) -> None:
         self._draw_message("Working it out… A global method takes some seconds for it on a large mesh.")
@@ -144,15 +159,15 @@ class Debugging:
 
     def _draw_message(self, sentence: str) -> None:
         node = self._selection.node
-        self._panel.show_message(sentence, "" if node is None else f"Node {node:,}")
+        self.panel.show_message(sentence, "" if node is None else f"Node {node:,}")
         self._draw(None)
 
     def _show(self, step: NodeStep, made: bool) -> None:
         if self._stepping.sweep is not None or made:
             self._await_nothing()
-        self._panel.show_step(step, METHODS[step.method].title, made)
+        self.panel.show_step(step, METHODS[step.method].title, made)
         self._draw(step)
-        if self._panel.patch_alone and self._isolation != _isolation(step):
+        if self.panel.patch_alone and self._isolation != _isolation(step):
             self._isolate(step)
 
     def _await_nothing(self) -> None:
@@ -169,33 +184,25 @@ class Debugging:
     def _list_nodes(self) -> None:
         chosen = self._selection
         if chosen.hex is None or not self._document.is_open:
-            self._panel.set_nodes(None)
+            self.panel.set_nodes(None)
         else:
             mesh = self._document.now.mesh
             nodes = mesh.hexes[chosen.hex]
-            self._panel.set_nodes(nodes[mesh.free[nodes]].tolist(), chosen.node)
-
-    def _smoother(self) -> Smoother | None:
-        """The method at hand with its values; None while one of them is wrong."""
-        if self._smoothing_panel.form.problems():
-            return None
-        try:
-            return METHODS[self._smoothing_panel.method()](**self._smoothing_panel.form.values())
-        except ParameterError:
-            return None
+            self.panel.set_nodes(nodes[mesh.free[nodes]].tolist(), chosen.node)
 
     # One node
 
     def _explain_one(self) -> None:
         """Come to the front with a node that has a step: that which is chosen, or the worst of the worst element."""
-        self._dock.raise_()
+        self.host.show_panel("node")
         chosen, free = self._selection, self._document.now.mesh.free
         if chosen.node is not None and free[chosen.node]:
             return
-        hexes = self._worst_list.elements if chosen.hex is None else np.array([chosen.hex])
+        hexes = self._selection.listing() if chosen.hex is None else np.array([chosen.hex])
         found = worst_free_node(self._document.now, hexes)
         if found is not None:
             chosen.choose(*found)
+            chosen.visit(found[0])
 
     def _on_patch(self, on: bool) -> None:
         if not on:
@@ -206,22 +213,16 @@ class Debugging:
     def _isolate(self, step: NodeStep) -> None:
         self._isolation = _isolation(step)
         self._view.change(isolation=self._isolation)
-        if self._canvas is not None:
-            self._canvas.fly_to(*step.hexes.tolist())
-
-    def _on_look_changed(self) -> None:
-        if self._view.look.isolation != self._isolation:
-            self._isolation = None
-            self._panel.set_patch(False)
+        self._selection.visit(*step.hexes.tolist())
 
     # A sweep
 
     def _go(self, what: str) -> None:
         """Visit the next node of the sweep, ten of them, or all that are left."""
-        self._dock.raise_()
+        self.host.show_panel("node")
         if self._why_no_sweep():
             return
-        smoother = self._smoother()
+        smoother = self.session.order.smoother
         if what == "finish":
             self._stepping.finish(smoother)
         else:
@@ -232,7 +233,7 @@ class Debugging:
         self._selection.choose(h, step.node)
 
     def _why_no_sweep(self) -> str:
-        return why_no_sweep(self._session, self._smoother())
+        return why_no_sweep(self.session, self.session.order.smoother)
 
 
 def _isolation(step: NodeStep) -> Isolation:

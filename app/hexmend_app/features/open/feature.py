@@ -1,63 +1,131 @@
-"""Opening meshes: what is being read, a way to call it off, how it ended, and the files to open next time."""
+"""Opening meshes: asked for, dropped, named before or shown as a demo; what is being read, and how it ended."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
+from PySide6.QtCore import QEvent, QObject, QTimer
+from PySide6.QtGui import QDropEvent
+
 from hexmend.errors import FileError
+from hexmend_app.feature import Action, Feature, Host, Panel, Place
+from hexmend_app.features.open.recent_menu import RecentMenu
+from hexmend_app.features.open.welcome import Welcome
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state.document import Document
-from hexmend_app.state.opener import Opener
 from hexmend_app.state.recent import Recent
-from hexmend_app.widgets.busy import Busy
-from hexmend_app.widgets.message_bar import MessageBar
-from hexmend_app.widgets.questions import remember_folder
+from hexmend_app.widgets.questions import ask_mesh, remember_folder
 
 
-class Opening:
-    """Tells of what the opener does, and remembers what was opened.
+class FeatureOpen(Feature):
+    """Opens meshes, tells of what the opener does, and remembers what was opened."""
 
-    Parameters
-    ----------
-    document, opener, recent
-        The window's state.
-    busy : Busy
-        Where it is said while it lasts.
-    messages : MessageBar
-        Where it is said how it ended.
-    """
+    order = 10
 
-    def __init__(self, document: Document, opener: Opener, recent: Recent, busy: Busy, messages: MessageBar):
-        self._document = document
-        self._opener = opener
-        self._recent = recent
-        self._busy = busy
-        self._messages = messages
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._document, self._opener = host.session.document, host.session.opener
+        self.recent = Recent(self)
+        self._menu = RecentMenu(self.recent, host.window)
+        self._menu.chosen.connect(self.open)
+        self.welcome = Welcome(self.recent)
+        self.welcome.open_requested.connect(self.ask)
+        self.welcome.demo_requested.connect(self.open_demo)
+        self.welcome.recent_requested.connect(self.open)
+        opener = self._opener
         opener.began.connect(lambda path: self._tell(f"Reading {path.name}…"))
         opener.told.connect(self._tell)
         opener.ended.connect(self._on_ended)
         opener.cancelled.connect(self._on_cancelled)
         opener.failed.connect(self._on_failed)
+        host.window.setAcceptDrops(True)
+        host.window.installEventFilter(self)
+
+    def actions(self) -> Sequence[Action]:
+        """Open, the demo, and what was opened before."""
+        return (
+            Action(
+                id="open",
+                text="&Open…",
+                menu="File",
+                keys="Ctrl+O",
+                icon="folder-open-outline",
+                help="Open a mesh file.",
+                tool="Open",
+                needs_mesh=False,
+                handle=self.ask,
+                submenu=self._menu,
+            ),
+            Action(
+                id="open_demo",
+                text="Open the &demo mesh",
+                menu="File",
+                help="Open the mesh that comes with Hexmend.",
+                needs_mesh=False,
+                handle=self.open_demo,
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """What stands in the view's place while no mesh is open."""
+        return (Panel(id="welcome", title="Welcome", widget=self.welcome, place=Place.EMPTY),)
+
+    def refresh(self) -> None:
+        """Leave the view's place to the view once there is one."""
+        self.welcome.setVisible(not self._document.is_open or self.host.canvas is None)
+
+    def open(self, path: str | Path) -> None:
+        """Open a mesh, after what is unsaved was kept or given up."""
+        if self.host.may_leave():
+            self.session.commands.open(path)
+
+    def ask(self) -> None:
+        """Ask which mesh, and open it."""
+        path = ask_mesh(self.host.window)
+        if path:
+            self.open(path)
+
+    def open_demo(self) -> None:
+        """Open the mesh that comes with Hexmend."""
+        self.open(demo_mesh())
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Open the one file that is dragged onto the window."""
+        kind = event.type()
+        if kind == QEvent.Type.DragEnter and _dropped(event):
+            event.acceptProposedAction()
+            return True
+        if kind == QEvent.Type.Drop and (path := _dropped(event)):
+            event.acceptProposedAction()
+            QTimer.singleShot(0, self, lambda: self.open(path))
+            return True
+        return super().eventFilter(watched, event)
 
     def _tell(self, what: str) -> None:
         if self._opener.busy:
-            self._busy.show_work(what, "Cancel", "Do not open this mesh (Esc).", self._opener.cancel)
+            self.host.busy.show_work(what, "Cancel", "Do not open this mesh (Esc).", self._opener.cancel)
 
     def _on_ended(self, path: Path) -> None:
-        self._busy.done()
-        self._messages.clear()
+        self.host.busy.done()
+        self.host.messages.clear()
         if path.resolve() != demo_mesh().resolve():
             remember_folder(path)
-            self._recent.add(path)
+            self.recent.add(path)
 
     def _on_cancelled(self, path: Path) -> None:
-        self._busy.done()
-        self._messages.show_info(f"Opening {path.name} was cancelled.{self._what_stays()}")
+        self.host.busy.done()
+        self.host.messages.show_info(f"Opening {path.name} was cancelled.{self._what_stays()}")
 
     def _on_failed(self, path: Path, error: Exception) -> None:
-        self._busy.done()
+        self.host.busy.done()
         detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
-        self._messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._what_stays()}")
+        self.host.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._what_stays()}")
 
     def _what_stays(self) -> str:
         return f" {self._document.name} stays open." if self._document.is_open else ""
+
+
+def _dropped(event: QDropEvent) -> str:
+    """The one local file of a drag, or ""."""
+    urls = event.mimeData().urls()
+    return urls[0].toLocalFile() if len(urls) == 1 else ""

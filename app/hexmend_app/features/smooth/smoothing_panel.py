@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from html import escape
 from typing import Any
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -19,10 +19,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.parameters import Parameter
-from hexmend_app.features.recipe.recipe_panel import RecipePanel
+from hexmend.errors import ParameterError
+from hexmend.parameters import declared
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
+from hexmend_app.state.order import Order
 from hexmend_app.widgets.parameter_form import ParameterForm
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.style import MUTED, WORSE, explain, note, tabular, tint
@@ -37,31 +41,31 @@ class SmoothingPanel(QWidget):
 
     Signals
     -------
-    run_requested(name, values, stop_values), step_requested(name, values, stop_values, iterations)
-        str, dict, dict, int; not sent while a value is wrong.
-    change_requested(name, values, stop_values)
+    run_requested(Stage), step_requested(Stage, iterations)
+        Not sent while a value is wrong.
+    change_requested(Stage)
         Before a paused run goes on: the rest of it is to be done with what was set meanwhile.
     pause_requested, resume_requested, stop_requested, reset_requested
-    method_changed(name)
-        The user chose another method.
+
+    Parameters
+    ----------
+    order : Order
+        What is set here, and by others.
     """
 
-    run_requested = Signal(str, dict, dict)
-    step_requested = Signal(str, dict, dict, int)
-    change_requested = Signal(str, dict, dict)
+    run_requested = Signal(object)
+    step_requested = Signal(object, int)
+    change_requested = Signal(object)
     pause_requested = Signal()
     resume_requested = Signal()
     stop_requested = Signal()
     reset_requested = Signal()
-    method_changed = Signal(str)
 
-    def __init__(self, stop_conditions: Iterable[Parameter] = (), parent: QWidget | None = None):
+    def __init__(self, order: Order, parent: QWidget | None = None):
         super().__init__(parent)
-        self._methods: dict[str, tuple] = {}
-        self._edited: dict[str, dict[str, Any]] = {}  # what was set for each method, to find it again on return
+        self._order = order
         self._name = ""
         self._state = "idle"
-        self._begun: tuple | None = None  # what the run has been begun with
         self._placed = False
 
         self._method = QComboBox()
@@ -75,13 +79,11 @@ class SmoothingPanel(QWidget):
         self._help = note()
 
         self.form = ParameterForm()
-        self.stop_form = ParameterForm(stop_conditions)
+        self.stop_form = ParameterForm(declared(Stop))
         self.breakpoint_form = BreakpointForm()
-        self.recipe_panel = RecipePanel()
         self._sections = (
             Section("Parameters", self.form, "How the method goes about it; the defaults suit most meshes."),
             Section("Stop when", self.stop_form, "When a run ends by itself."),
-            Section("Recipe", self.recipe_panel, "Methods that are run one after another, as one run."),
             Section("Pause when", self.breakpoint_form, "Break-points: what a run pauses at, to be looked at."),
         )
         self.buttons = RunButtons()
@@ -112,49 +114,34 @@ class SmoothingPanel(QWidget):
         for section in self._sections:
             layout.addWidget(section)
         layout.addStretch()
+        for at, method in enumerate(METHODS.values()):
+            self._method.addItem(method.title, method.name)
+            about = f"<b>{escape(method.title)}</b> ({escape(method.name)})<br>{escape(method.help)}"
+            tip = f"<qt>{about}<br><i>{escape(method.source)}</i></qt>"
+            self._method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
         self.set_state("idle")
         self.set_status()
+        self._on_chosen()
+        for form in (self.form, self.stop_form):
+            form.changed.connect(self._on_edited)
+        order.chosen.connect(self._on_chosen)
+        order.refused.connect(self._show_problem)
 
-    def set_methods(self, methods: Iterable[tuple[str, str, str, str, Iterable[Parameter]]]) -> None:
-        """Offer methods, each (name, title, help, source, declared parameters), and choose the first."""
-        self._methods = {method[0]: method for method in methods}
-        self._method.clear()
-        for at, (name, title, help, source, _) in enumerate(self._methods.values()):
-            self._method.addItem(title, name)
-            tip = f"<qt><b>{escape(title)}</b> ({escape(name)})<br>{escape(help)}<br><i>{escape(source)}</i></qt>"
-            self._method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
-        self._edited.clear()
-        self._name = ""
-        if self._methods:
-            self.set_method(next(iter(self._methods)))
-        self.set_state(self._state)
-
-    def set_method(self, name: str, values: Mapping[str, Any] | None = None) -> None:
-        """Show a method, with what was last set for it or with `values`; without a signal.
-
-        Raises
-        ------
-        KeyError
-            Where the method is not offered.
-        """
-        _, _, help, source, declarations = self._methods[name]
-        if self._name:
-            self._edited[self._name] = self.form.values()
+    def _show_method(self, name: str, values: Mapping[str, Any] | None = None) -> None:
+        """Show a method with what was last set for it, or with `values`."""
+        method = METHODS[name]
         self._name = name
         self._method.setCurrentIndex(self._method.findData(name))
-        self._help.setText(f"{help}\nSource: {source}" if source else help)
-        self.form.set_declarations(declarations)
-        self.form.set_values(self._edited.get(name, {}) | dict(values or {}))
+        self._help.setText(f"{method.help}\nSource: {method.source}" if method.source else method.help)
+        with QSignalBlocker(self.form):
+            self.form.set_declarations(declared(method))
+            self.form.set_values(self._order.values_of(name) | dict(values or {}))
 
-    def choose(self, name: str, values: Mapping[str, Any], stop_values: Mapping[str, Any]) -> None:
-        """Show a method, its values and the stop conditions; without a signal."""
-        self.set_method(name, values)
-        self.stop_form.set_values(stop_values)
-
-    def show_at_work(self, name: str, values: Mapping[str, Any], stop_values: Mapping[str, Any]) -> None:
-        """Show what the run is at: only what is set otherwise from now on is a change of it."""
-        self.choose(name, values, stop_values)
-        self._begun = self._order()
+    def _on_chosen(self) -> None:
+        stage = self._order.stage
+        self._show_method(stage.smoother.name, stage.smoother.values())
+        with QSignalBlocker(self.stop_form):
+            self.stop_form.set_values(stage.stop.values())
 
     def tell(self, sentence: str) -> None:
         """Say something below the buttons, beside how far the run is."""
@@ -162,23 +149,12 @@ class SmoothingPanel(QWidget):
         self._sentence.setText(sentence)
         self._sentence.setVisible(bool(sentence))
 
-    def method(self) -> str:
-        """Name of the method shown, "" where none is."""
-        return self._name
-
-    def values_of(self, method: str) -> dict[str, Any]:
-        """What was last set for a method; empty where nothing was."""
-        return self.form.values() if method == self._name else dict(self._edited.get(method, {}))
-
     def set_state(self, state: str) -> None:
         """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
-        if state == "preparing" and state != self._state:
-            self._begun = self._order()
         self._state = state
-        some = bool(self._methods)
-        self.buttons.set_state(state, some)
+        self.buttons.set_state(state, True)
         for part in (self._method, self.form, self.stop_form):
-            part.setEnabled(some and STATES[state].edit)
+            part.setEnabled(STATES[state].edit)
 
     def set_shortcuts(self, shortcuts: Mapping[str, str]) -> None:
         """Name the keys of "run", "step", "stop" and "reset" in the tooltips; whoever owns the actions binds them."""
@@ -201,32 +177,29 @@ class SmoothingPanel(QWidget):
         if self._state == "running":
             self.pause_requested.emit()
         elif self._state == "paused":
-            self.request(self._resume)
+            self._order.use(self._resume)
         elif STATES[self._state].run:
-            self.request(self.run_requested.emit)
+            self._order.use(self.run_requested.emit)
 
     def step(self) -> None:
         """Ask for one iteration, where the state allows it."""
         if STATES[self._state].step:
-            self.request(self._step)
+            self._order.use(self._step)
 
-    def _resume(self, *order: object) -> None:
-        self._change(order)
+    def _resume(self, stage: Stage) -> None:
+        self._change(stage)
         self.resume_requested.emit()
 
-    def _step(self, *order: object) -> None:
+    def _step(self, stage: Stage) -> None:
         if self._state == "paused":
-            self._change(order)
-        self.step_requested.emit(*order, self._steps.value())
+            self._change(stage)
+        self.step_requested.emit(stage, self._steps.value())
 
-    def _change(self, order: tuple) -> None:
+    def _change(self, stage: Stage) -> None:
         """Tell what the rest of the run is to be done with, if that is something else."""
-        if order != self._begun:
-            self._begun = order
-            self.change_requested.emit(*order)
-
-    def _order(self) -> tuple:
-        return self._name, self.form.values(), self.stop_form.values()
+        if stage != self._order.begun:
+            self._order.begun = stage
+            self.change_requested.emit(stage)
 
     def _on_button(self, name: str) -> None:
         {
@@ -236,10 +209,8 @@ class SmoothingPanel(QWidget):
             "reset": self.reset_requested.emit,
         }[name]()
 
-    def request(self, ask: Callable[[str, dict, dict], object]) -> None:
-        """Call `ask` with the method, its values and the stop conditions, unless a value is wrong: then say which."""
-        if not self._methods:
-            return
+    def _show_problem(self) -> None:
+        """Say which value is wrong."""
         for form, section in zip((self.form, self.stop_form), self._sections, strict=False):
             if form.problems():
                 section.expand()
@@ -248,13 +219,23 @@ class SmoothingPanel(QWidget):
                 self._sentence.setText("Correct the marked value first.")
                 self._sentence.setVisible(True)
                 return
-        ask(*self._order())
 
     def _on_method(self) -> None:
-        name = self._method.currentData()
-        if name != self._name:
-            self.set_method(name)
-            self.method_changed.emit(name)
+        if self._method.currentData() != self._name:
+            self._show_method(self._method.currentData())
+            self._on_edited()
+
+    def _on_edited(self, *_: object) -> None:
+        self._order.set(self._name, self.form.values(), self._stage())
+
+    def _stage(self) -> Stage | None:
+        """What the forms show; None while a value is wrong."""
+        if self.form.problems() or self.stop_form.problems():
+            return None
+        try:
+            return Stage(METHODS[self._name](**self.form.values()), Stop(**self.stop_form.values()))
+        except ParameterError:
+            return None
 
     def showEvent(self, event: QShowEvent) -> None:
         """Unfold the parameters at first sight where there is room for them."""

@@ -1,85 +1,96 @@
-"""Tagging elements: the lines between the mesh's groups of elements and the panel that shows them."""
+"""Tagging hexes: the lines between the mesh's groups of hexes and the panel that shows them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend_app.features.inspect.worst_list import WorstList
+from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
-from hexmend_app.state.commands import Commands
-from hexmend_app.state.session import Session
+
+if TYPE_CHECKING:
+    from hexmend_app.canvas.canvas import Canvas
 
 
-class Tagging:
-    """Gives elements tags, takes them away, and shows who has them.
+class FeatureTags(Feature):
+    """Gives hexes tags, takes them away, and shows who has them."""
 
-    Parameters
-    ----------
-    session : Session
-        The window's state.
-    commands : Commands
-    panel : TagPanel
-    worst_list : WorstList
-    shown : callable
-        The elements that are shown in the view, (m,) bool; None for all.
-    """
+    order = 54
 
-    def __init__(
-        self,
-        session: Session,
-        commands: Commands,
-        panel: TagPanel,
-        worst_list: WorstList,
-        shown: Callable[[], np.ndarray | None],
-    ):
-        document = self._document = session.document
-        self._session, self._selection = session, session.selection
-        self._commands = commands
-        self._panel = panel
-        self._shown = shown
+    def __init__(self, host: Host):
+        super().__init__(host)
+        session, commands = self.session, self.session.commands
+        self._canvas: Canvas | None = None
+        self._seen = Seen()
+        panel = self.panel = TagPanel()
         panel.toggle_requested.connect(self._toggle)
         panel.shown_requested.connect(lambda name: commands.tag(name, self._all_shown()))
-        panel.listed_requested.connect(lambda name: commands.tag(name, worst_list.elements))
-        panel.isolate_requested.connect(lambda name: session.view.isolate(document.now.mesh.hex_sets[name]))
+        panel.listed_requested.connect(lambda name: commands.tag(name, session.selection.listing()))
+        panel.isolate_requested.connect(lambda name: session.view.isolate(session.document.now.mesh.hex_sets[name]))
         panel.remove_requested.connect(commands.remove_tag)
         panel.renamed.connect(commands.rename_tag)
-        session.selection.changed.connect(self._enable)
-        session.smoothing.phase_changed.connect(self._enable)
-        for told in (session.opener.began, session.opener.cancelled, session.opener.failed):
-            told.connect(self._enable)
+        panel.offer_changed.connect(host.refresh_soon)
 
-    def handlers(self) -> dict[str, Callable]:
-        """What its actions do, by id."""
-        return {"tag": self._panel.toggle}
+    def actions(self) -> Sequence[Action]:
+        """Tag what is chosen."""
+        return (
+            Action(
+                id="tag",
+                text="&Tag the hex",
+                menu="Hex",
+                part=2,
+                keys="T",
+                icon="tag-outline",
+                help="Give the chosen hex the tag that the panel Tags names, or take it away; "
+                "tags are saved with the mesh.",
+                handle=self.panel.toggle,
+                enabled=lambda: self.panel.can_toggle,
+                in_view=True,
+            ),
+        )
 
-    def offered(self) -> dict[str, bool]:
-        """Which of its actions can be done now."""
-        return {"tag": self._panel.can_toggle}
+    def panels(self) -> Sequence[Panel]:
+        """The tags."""
+        return (
+            Panel(
+                id="tags",
+                title="Tags",
+                widget=self.panel,
+                place=Place.DRAWER,
+                order=60,
+                help="Named groups of hexes, saved with the mesh.",
+            ),
+        )
+
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Take the 3D view, which knows what is shown."""
+        self._canvas = canvas
 
     def refresh(self) -> None:
         """Show the tags as they are now."""
-        now = self._document.now
-        self._panel.set_tags([
-            TagRow(
-                name,
-                len(members),
-                int(np.count_nonzero(now.figures.inverted[members])),
-                float(now.figures.q[members].min()) if len(members) else None,
-            )
-            for name, members in now.mesh.hex_sets.items()
-        ])  # fmt: skip
-        self._enable()
-
-    def _enable(self) -> None:
-        self._panel.set_state(self._selection.hex is not None, not self._session.editable)
+        self.panel.setEnabled(self.session.document.is_open)
+        self.panel.set_state(self.session.selection.hex is not None, not self.session.editable)
+        if not self.session.document.is_open:
+            return
+        now = self.session.document.now
+        if self._seen.another("tags", now):
+            self.panel.set_tags([
+                TagRow(
+                    name,
+                    len(members),
+                    int(np.count_nonzero(now.figures.inverted[members])),
+                    float(now.figures.q[members].min()) if len(members) else None,
+                )
+                for name, members in now.mesh.hex_sets.items()
+            ])  # fmt: skip
 
     def _toggle(self, name: str) -> None:
-        chosen = self._selection.hex
-        members = self._document.now.mesh.hex_sets.get(name, ())
-        self._commands.tag(name, [chosen], on=chosen not in members)
+        chosen = self.session.selection.hex
+        members = self.session.document.now.mesh.hex_sets.get(name, ())
+        self.session.commands.tag(name, [chosen], on=chosen not in members)
 
     def _all_shown(self) -> np.ndarray:
-        shown = self._shown()
-        return np.arange(self._document.now.mesh.n_hexes) if shown is None else np.flatnonzero(shown)
+        shown = None if self._canvas is None else self._canvas.viewport.left()
+        return np.arange(self.session.document.now.mesh.n_hexes) if shown is None else np.flatnonzero(shown)

@@ -2,47 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QSettings
 
-from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
+from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
-from hexmend_app.state.commands import Commands
 from hexmend_app.state.history import LIMIT, Record
-from hexmend_app.state.run import Frame
-from hexmend_app.state.session import Session
 from hexmend_app.state.timeline import SPEED
 
+_STEPS = (
+    ("first", "Be&fore the run", "Alt+Home", "skip-backward", "Show the mesh as it was before the run."),
+    ("back", "Iteration &back", ",", "step-backward", "Show the iteration before."),
+    ("play", "&Play or hold", "K", "play", "Show the iterations one after another."),
+    ("on", "Iteration &on", ".", "step-forward", "Show the next iteration."),
+    ("newest", "&Newest iteration", "Alt+End", "skip-forward", "Show the newest iteration, and those that come."),
+    (
+        "branch",
+        "&Run from here",
+        "Ctrl+F5",
+        "source-branch",
+        "Run the chosen method from the iteration shown, beside the run that it belongs to.",
+    ),
+)
 
-class Watching:
-    """Goes through the iterations of runs, begins branches, and says where a run paused.
 
-    Parameters
-    ----------
-    session : Session
-        The window's state.
-    commands : Commands
-    bar : TimelineBar
-    panel : SmoothingPanel
-        Holds the method of a branch, and what a run pauses at.
-    """
+class FeatureTimeline(Feature):
+    """Goes through the iterations of runs, and begins branches."""
 
-    def __init__(self, session: Session, commands: Commands, bar: TimelineBar, panel: SmoothingPanel):
-        self._session, self._commands = session, commands
-        self._document, self._smoothing = session.document, session.smoothing
+    order = 26
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        session = self.session
+        self._smoothing = session.smoothing
         timeline = self._timeline = session.timeline
-        self._bar, self._panel = bar, panel
-        timeline.runs_changed.connect(self._show_runs)
-        timeline.grown.connect(self._show_track)
-        timeline.moved.connect(self._show_number)
-        timeline.playing_changed.connect(lambda: bar.set_playing(timeline.playing))
-        session.smoothing.hit.connect(self._on_hit)
-        session.document.mesh_replaced.connect(self._on_another)
-        session.selection.changed.connect(
-            lambda: panel.breakpoint_form.set_chosen(session.selection.hex, session.selection.node)
-        )
-        panel.breakpoint_form.changed.connect(session.smoothing.break_at)
+        self._seen = Seen()
+        bar = self.panel = TimelineBar()
         bar.run_chosen.connect(lambda at: timeline.choose(session.history.records[at]))
         bar.number_chosen.connect(lambda number: timeline.go_soon(timeline.record, number))
         bar.pressed.connect(lambda name: self._on_pressed()[name]())
@@ -53,14 +49,49 @@ class Watching:
         timeline.speed = int(settings.value("iterations_played", SPEED))
         self._show_settings()
 
-    def handlers(self) -> dict[str, Callable]:
-        """What its actions do, by id."""
-        return {f"iteration_{name}": act for name, act in self._on_pressed().items() if name != "forget"}
+    def actions(self) -> Sequence[Action]:
+        """Through the iterations, and on from one."""
+        return [
+            Action(
+                id=f"iteration_{name}",
+                text=text,
+                menu="Timeline",
+                part=int(name == "branch"),
+                keys=keys,
+                icon=icon,
+                help=help,
+                handle=lambda name=name: self._on_pressed()[name](),
+                enabled=lambda name=name: (
+                    self._timeline.record is not None and not (name == "branch" and self.session.opener.busy)
+                ),
+            )
+            for name, text, keys, icon, help in _STEPS
+        ]
 
-    def offered(self) -> dict[str, bool]:
-        """Which of its actions can be done now."""
-        some = self._timeline.record is not None
-        return {id: some and not (id == "iteration_branch" and self._session.opener.busy) for id in self.handlers()}
+    def panels(self) -> Sequence[Panel]:
+        """The bar below the view."""
+        return (Panel(id="timeline", title="Timeline", widget=self.panel, place=Place.BELOW),)
+
+    def refresh(self) -> None:
+        """Show where one is."""
+        timeline, history = self._timeline, self.session.history
+        if self._seen.another("keys", True):
+            keys = {name: self.host.action(f"iteration_{name}").shortcut().toString() for name, *_ in _STEPS}
+            self.panel.set_shortcuts(keys)
+        self.panel.setVisible(self.session.document.is_open)
+        if self._seen.another("runs", tuple(history.records)):
+            self.panel.set_runs([_said(record) for record in history.records])
+        record = timeline.record
+        if record is not None:
+            self.panel.set_run(history.records.index(record))
+            going = self._smoothing.busy and record is self._smoothing.record
+            if self._seen.another("track", record, record.newest, history.bytes, going, len(record.pauses)):
+                self.panel.set_track(record.newest, history.kept(record), record.pauses, history.bytes)
+                self.panel.set_forgettable(not going)
+        moment = timeline.moment
+        here = moment is not None and moment.record is record
+        self.panel.set_number(moment.number if here else None, timeline.live)
+        self.panel.set_playing(timeline.playing)
 
     def _on_pressed(self) -> dict[str, Callable]:
         timeline = self._timeline
@@ -70,45 +101,16 @@ class Watching:
             "play": lambda: timeline.hold() if timeline.playing else timeline.play(),
             "on": lambda: timeline.step(1),
             "newest": timeline.go_to_newest,
-            "branch": lambda: self._panel.request(self._commands.branch),
+            "branch": lambda: self.session.order.use(self.session.commands.branch),
             "forget": lambda: timeline.forget(timeline.record),
         }
 
-    def _show_runs(self) -> None:
-        self._bar.set_runs([_said(record) for record in self._session.history.records])
-        self._show_track()
-
-    def _show_track(self) -> None:
-        record, history = self._timeline.record, self._session.history
-        if record is not None:
-            self._bar.set_run(history.records.index(record))
-            self._bar.set_track(record.newest, history.kept(record), record.pauses, history.bytes)
-            self._bar.set_forgettable(not (self._smoothing.busy and record is self._smoothing.record))
-        self._show_number()
-
-    def _show_number(self) -> None:
-        moment, record = self._timeline.moment, self._timeline.record
-        here = moment is not None and moment.record is record
-        self._bar.set_number(moment.number if here else None, self._timeline.live)
-
-    def _on_hit(self, frame: Frame) -> None:
-        iteration, hit = frame.iteration, frame.hit
-        self._panel.set_status(iteration.number, iteration.seconds, f"Paused at a break-point: {hit.sentence}.")
-        if hit.hexes:
-            self._session.selection.choose(hit.hexes[0])
-        elif hit.nodes:
-            around = (self._document.now.mesh.hexes == hit.nodes[0]).any(axis=1)
-            self._session.selection.choose(int(around.argmax()), hit.nodes[0])
-
-    def _on_another(self) -> None:
-        mesh = self._document.now.mesh
-        self._panel.breakpoint_form.set_mesh(mesh.n_hexes, mesh.n_nodes)
-
     def _set_limit(self, megabytes: int) -> None:
-        self._session.history.limit = megabytes << 20
+        self.session.history.limit = megabytes << 20
         QSettings().setValue("history_megabytes", megabytes)
         self._show_settings()
-        self._show_track()
+        self._seen.forget()
+        self.host.refresh_soon()
 
     def _set_speed(self, speed: int) -> None:
         self._timeline.set_speed(speed)
@@ -116,7 +118,7 @@ class Watching:
         self._show_settings()
 
     def _show_settings(self) -> None:
-        self._bar.set_settings(self._session.history.limit >> 20, self._timeline.speed)
+        self.panel.set_settings(self.session.history.limit >> 20, self._timeline.speed)
 
 
 def _said(record: Record) -> tuple[str, str]:

@@ -28,7 +28,7 @@ COLUMN = {figure.key: at for at, figure in enumerate(FIGURES, 2)}
 
 
 def model(window):
-    return window.compare_panel._model
+    return window.features["compare"].panel._model
 
 
 def row(window, name):
@@ -37,7 +37,7 @@ def row(window, name):
 
 def tick(window, name, column):
     """Click on the check of a row."""
-    table = window.compare_panel._table
+    table = window.features["compare"].panel._table
     index = model(window).index(row(window, name), column)
     table.scrollTo(index)
     rect = table.visualRect(index)
@@ -45,7 +45,7 @@ def tick(window, name, column):
 
 
 def press(window, name):
-    button = next(b for b in window.compare_panel.findChildren(QPushButton) if b.accessibleName() == name)
+    button = next(b for b in window.features["compare"].panel.findChildren(QPushButton) if b.accessibleName() == name)
     assert button.isEnabled()
     QTest.mouseClick(button, LEFT)
 
@@ -59,9 +59,9 @@ def choose_methods(window, *names):
 @pytest.fixture
 def comparing(window, qtbot):
     """The window with the panel in front and short runs asked for."""
-    window.docks["compare"].raise_()
-    window.smoothing_panel.stop_form.set_values({"max_iterations": 4})
-    qtbot.waitUntil(window.compare_panel.isVisible)
+    window.show_panel("compare")
+    window.features["smooth"].panel.stop_form.set_values({"max_iterations": 4})
+    qtbot.waitUntil(window.features["compare"].panel.isVisible)
     return window
 
 

@@ -16,18 +16,18 @@ from tests.patience import PATIENCE
 
 @pytest.fixture
 def panel(window, qtbot):
-    window.docks["convergence"].raise_()
-    qtbot.waitUntil(window.convergence_panel.isVisible)
-    return window.convergence_panel
+    window.show_panel("convergence")
+    qtbot.waitUntil(window.features["convergence"].panel.isVisible)
+    return window.features["convergence"].panel
 
 
 def run(window, qtbot, method="local-sd", iterations=8):
-    window.smoothing_panel.set_method(method)
-    window.smoothing_panel.stop_form.set_values({"max_iterations": iterations, "tolerance": 0})
-    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
+    window.features["smooth"].panel.set_method(method)
+    window.features["smooth"].panel.stop_form.set_values({"max_iterations": iterations, "tolerance": 0})
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     qtbot.wait(150)
-    return window.smoothing.record
+    return window.session.smoothing.record
 
 
 def press(panel, key, x):
@@ -42,7 +42,7 @@ def test_a_click_in_a_chart_goes_there_and_the_line_follows(window, qtbot, panel
     assert len(panel.curves[0].columns) == 9
     press(panel, "inverted", 3)
     assert window.session.timeline.moment.number == 3
-    assert window.document.previews
+    assert window.session.document.previews
     assert panel.plots["inverted"]._mark.value() == 3
     window.session.timeline.go(record, 6)
     assert panel.plots["objective"]._mark.value() == 6
@@ -71,8 +71,8 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
     drawn = []
     original = panel.set_curves
     panel.set_curves = lambda curves: (drawn.append(len(curves[0].columns) if curves else 0), original(curves))
-    window.smoothing_panel.stop_form.set_values({"max_iterations": 100_000, "tolerance": 0})
-    window.smoothing_panel.set_method("local-sd")
+    window.features["smooth"].panel.stop_form.set_values({"max_iterations": 100_000, "tolerance": 0})
+    window.features["smooth"].panel.set_method("local-sd")
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     drawn.clear()
@@ -81,20 +81,20 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
     assert perf_counter() - began > 0.45
     assert drawn == sorted(drawn)
     assert drawn[-1] > drawn[0]
-    window.smoothing.end_now()
-    qtbot.waitUntil(lambda: drawn[-1] == window.smoothing.record.newest + 1, timeout=3000)
+    window.session.smoothing.end_now()
+    qtbot.waitUntil(lambda: drawn[-1] == window.session.smoothing.record.newest + 1, timeout=3000)
 
 
 def test_what_is_behind_other_docks_is_drawn_as_it_comes_to_the_front(window, qtbot):
     run(window, qtbot)
-    assert len(window.convergence_panel.curves) == 0
-    window.docks["convergence"].raise_()
-    qtbot.waitUntil(lambda: len(window.convergence_panel.curves) == 1, timeout=3000)
+    assert len(window.features["convergence"].panel.curves) == 0
+    window.show_panel("convergence")
+    qtbot.waitUntil(lambda: len(window.features["convergence"].panel.curves) == 1, timeout=3000)
 
 
 def test_another_mesh_has_no_curves(window, qtbot, panel, mesh_file):
     run(window, qtbot)
-    window.document.replace(window.document.start, mesh_file)
+    window.session.document.replace(window.session.document.start, mesh_file)
     assert panel.curves == []
 
 
@@ -105,14 +105,14 @@ def test_the_charts_are_saved_as_figures_and_all_figures_of_all_runs_as_a_table(
     panel.toggled.emit(second, False)
     for kind, start in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):
         path = tmp_path / f"charts.{kind}"
-        assert window.saving.convergence(path, window.converging.write)
+        assert window.features["convergence"].save(path, window.features["convergence"].write)
         assert path.read_bytes().startswith(start)
-    assert window.saving.convergence(tmp_path / "charts.csv", window.converging.write)
+    assert window.features["convergence"].save(tmp_path / "charts.csv", window.features["convergence"].write)
     rows = list(csv.DictReader((tmp_path / "charts.csv").read_text().splitlines()))
     assert len(rows) == len(first.rows) + len(second.rows)
     assert float(rows[1]["gradient_norm"]) == first.rows[1]["gradient_norm"]
     assert rows[-1]["run"] == second.name
     assert rows[-1]["branch_of"] == f"{first.name} 2"
     assert rows[-1]["gradient_norm"] == ""
-    assert not window.saving.convergence(tmp_path / "charts.xls", window.converging.write)
+    assert not window.features["convergence"].save(tmp_path / "charts.xls", window.features["convergence"].write)
     assert "ends in one of .svg" in window.messages.messages()[-1][2]

@@ -13,20 +13,20 @@ from tests.app.driving import LEFT, drag, pixels, seen_at
 
 
 def press(window, text):
-    QTest.mouseClick(next(b for b in window.clip_panel.findChildren(QPushButton) if b.text() == text), LEFT)
+    QTest.mouseClick(next(b for b in window.features["cut"].panel.findChildren(QPushButton) if b.text() == text), LEFT)
 
 
 @pytest.mark.parametrize("cut", ["crinkle", "smooth"])
 def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
     whole = pixels(window)
-    panel = window.clip_panel
+    panel = window.features["cut"].panel
     box = next(b for b in panel.findChildren(QCheckBox) if b.text() == "Clip")
     QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
-    assert window.view.look.clip is not None
-    assert window.actions_by_id["clip"].isChecked()
+    assert window.session.view.look.clip is not None
+    assert window.actions["cut"].isChecked()
     for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole elements"):
         QTest.mouseClick(next(b for b in panel.findChildren(QPushButton) if b.text() == text), LEFT)
-    clip = window.view.look.clip
+    clip = window.session.view.look.clip
     assert np.abs(clip.planes[0].normal).tolist() == [0, 1, 0]
     assert clip.crinkle == (cut == "crinkle")
     halved = pixels(window)
@@ -34,9 +34,9 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
     panel._plane_page._slider.setFocus()
     for _ in range(3):
         QTest.keyClick(panel._plane_page._slider, Qt.Key.Key_PageDown)
-    assert window.view.look.clip.planes[0].origin[1] != pytest.approx(clip.planes[0].origin[1])
+    assert window.session.view.look.clip.planes[0].origin[1] != pytest.approx(clip.planes[0].origin[1])
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
-    assert window.view.look.clip is None
+    assert window.session.view.look.clip is None
     qtbot.wait(50)
     assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
@@ -45,33 +45,33 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     press(window, "Z")
     qtbot.wait(200)
-    before = window.view.look.clip
+    before = window.session.view.look.clip
     x, y, z = before.planes[0].origin
     place = seen_at(window, (x + 0.3, y - 0.3, z))  # on the plane, beside its arrow
     drag(window.canvas.interactor, place, place + QPoint(0, -60))
-    after = window.view.look.clip
+    after = window.session.view.look.clip
     assert after.planes[0].origin[2] > z
-    assert window.clip_panel.clip() == after
+    assert window.features["cut"].panel.clip() == after
 
 
 def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window, qtbot):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     press(window, "X")
     qtbot.wait(200)
-    view, straight = window.canvas.interactor, window.view.look.clip
+    view, straight = window.canvas.interactor, window.session.view.look.clip
     arrow = seen_at(window, np.array(straight.planes[0].origin) + (0.1, 0, 0))
     drag(view, arrow, arrow + QPoint(10, 2))
-    assert window.view.look.clip == straight
+    assert window.session.view.look.clip == straight
     drag(view, arrow, arrow + QPoint(60, 30))
-    turned = window.view.look.clip.planes[0].normal
+    turned = window.session.view.look.clip.planes[0].normal
     assert 0.1 < np.degrees(np.arccos(turned[0])) < 80
     assert np.degrees(np.arccos(turned[0])) > 8
     press(window, "X")
-    snap = next(b for b in window.clip_panel.findChildren(QCheckBox) if b.text() == "Snap")
+    snap = next(b for b in window.features["cut"].panel.findChildren(QCheckBox) if b.text() == "Snap")
     QTest.mouseClick(snap, LEFT, pos=QPoint(8, snap.height() // 2))
     qtbot.wait(100)
     drag(view, arrow, arrow + QPoint(10, 2))
-    assert window.view.look.clip != straight
+    assert window.session.view.look.clip != straight
 
 
 def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
@@ -79,21 +79,21 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     press(window, "Box")
     qtbot.wait(200)
-    before = window.view.look.clip
+    before = window.session.view.look.clip
     assert isinstance(before, BoxClip)
     (x0, y0, _), (x1, y1, z1) = before.low, before.high
     top = seen_at(window, ((x0 + x1) / 2, (y0 + y1) / 2, z1))
     drag(window.canvas.interactor, top, top + QPoint(0, -30))
-    after = window.view.look.clip
+    after = window.session.view.look.clip
     assert after.high[2] > z1
     assert after.low == pytest.approx(before.low)
-    assert window.clip_panel.clip() == after
+    assert window.features["cut"].panel.clip() == after
     inside = pixels(window)
     press(window, "Inside")
-    assert window.view.look.clip.notch
+    assert window.session.view.look.clip.notch
     assert (np.abs(pixels(window) - inside).sum(axis=2) > 60).mean() > 0.1
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
-    assert window.view.look.clip is None
+    assert window.session.view.look.clip is None
     qtbot.wait(50)
     assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
@@ -101,12 +101,12 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
 def test_two_planes_cut_a_corner_out(window, qtbot):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     one = window.canvas.viewport.shown
-    QTest.mouseClick(window.clip_panel._row._add, LEFT)
-    assert len(window.view.look.clip.planes) == 2
+    QTest.mouseClick(window.features["cut"].panel._row._add, LEFT)
+    assert len(window.session.view.look.clip.planes) == 2
     both = window.canvas.viewport.shown
     press(window, "Beyond all")
     corner = window.canvas.viewport.shown
-    assert 0 < both < one < corner < window.document.now.mesh.n_hexes
-    QTest.mouseClick(window.clip_panel._row._remove, LEFT)
-    assert isinstance(window.view.look.clip, PlaneClip)
+    assert 0 < both < one < corner < window.session.document.now.mesh.n_hexes
+    QTest.mouseClick(window.features["cut"].panel._row._remove, LEFT)
+    assert isinstance(window.session.view.look.clip, PlaneClip)
     assert window.canvas.viewport.shown == one

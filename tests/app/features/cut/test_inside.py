@@ -48,7 +48,7 @@ def faces(window):
 
 
 def shown(window):
-    return window.inside_panel._shown.text()
+    return window.features["cut"].inside._shown.text()
 
 
 def type_into(box, text):
@@ -136,15 +136,15 @@ def test_it_says_how_many_are_shown(panel, numbers, text):
 
 
 def test_peeling_hides_layer_after_layer(window):
-    type_into(window.inside_panel._peel._box, "2")
-    assert window.view.look.peel == 2
-    assert set(faces(window)) == set(np.flatnonzero(window.document.now.mesh.topology.layers == 2))
+    type_into(window.features["cut"].inside._peel._box, "2")
+    assert window.session.view.look.peel == 2
+    assert set(faces(window)) == set(np.flatnonzero(window.session.document.now.mesh.topology.layers == 2))
     assert shown(window) == "216 of 1,000 elements shown"
-    assert window.inside_panel._peel._box.maximum() == 4
+    assert window.features["cut"].inside._peel._box.maximum() == 4
 
 
 def test_isolating_with_rings_and_back(window):
-    view, panel = window.view, window.inside_panel
+    view, panel = window.session.view, window.features["cut"].inside
     view.isolate([555], 0)
     assert set(faces(window)) == {555}
     type_into(panel._rings, "1")
@@ -157,7 +157,7 @@ def test_isolating_with_rings_and_back(window):
 
 
 def test_digging_undoing_and_putting_back(window):
-    view, panel = window.view, window.inside_panel
+    view, panel = window.session.view, window.features["cut"].inside
     for h in (0, 1, 1, 2):
         view.dig(h)
     assert panel._dug.text() == "3 elements dug away"
@@ -173,8 +173,8 @@ def test_digging_undoing_and_putting_back(window):
 
 
 def test_everything_combines(window):
-    view = window.view
-    mesh, figures = window.document.now.mesh, window.document.now.figures
+    view = window.session.view
+    mesh, figures = window.session.document.now.mesh, window.session.document.now.figures
     clip = PlaneClip.at((1, 0, 0), tuple(mesh.points.mean(axis=0)))
     view.change(clip=clip, peel=1, quality_range=ValueRange("q", 0.2, 0.9))
     view.isolate([444], 3)
@@ -193,75 +193,75 @@ def test_everything_combines(window):
 
 
 def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtbot):
-    window.inside_panel._shrink._slider.setFocus()
+    window.features["cut"].inside._shrink._slider.setFocus()
     for _ in range(5):
-        QTest.keyClick(window.inside_panel._shrink._slider, Qt.Key.Key_PageUp)
-    assert window.view.look.shrink == 0.3
-    window.view.change(peel=3)
-    chosen = np.flatnonzero(window.document.now.mesh.topology.layers >= 3)
+        QTest.keyClick(window.features["cut"].inside._shrink._slider, Qt.Key.Key_PageUp)
+    assert window.session.view.look.shrink == 0.3
+    window.session.view.change(peel=3)
+    chosen = np.flatnonzero(window.session.document.now.mesh.topology.layers >= 3)
     before = window.canvas.viewport.body.faces
-    window.smoothing_panel.set_method("laplacian")
-    window.smoothing_panel.step()
-    qtbot.waitUntil(lambda: window.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
+    window.features["smooth"].panel.set_method("laplacian")
+    window.features["smooth"].panel.step()
+    qtbot.waitUntil(lambda: window.session.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     drawn = window.canvas.viewport
     assert drawn.body.faces is before  # nothing depends on quality, so no face is looked for anew
     corners = drawn._points[drawn.mesh.hexes[chosen]]
-    assert not np.array_equal(drawn._points, window.document.start.mesh.points)
+    assert not np.array_equal(drawn._points, window.session.document.start.mesh.points)
     expected = corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)
     np.testing.assert_allclose(drawn.body.whole.points, expected.reshape(-1, 3), atol=1e-12)
 
 
 def test_of_many_elements_those_in_sight_are_shrunk(window, qtbot, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.skin.WHOLE", 500)
-    window.view.change(shrink=0.3)
-    layers = window.document.now.mesh.topology.layers
+    window.session.view.change(shrink=0.3)
+    layers = window.session.document.now.mesh.topology.layers
     assert set(faces(window)) == set(np.flatnonzero(layers == 0))
-    boundary = np.count_nonzero(window.document.now.mesh.topology.face_neighbours < 0)
+    boundary = np.count_nonzero(window.session.document.now.mesh.topology.face_neighbours < 0)
     assert len(faces(window)) == boundary  # without their sides, until the view rests
     qtbot.waitUntil(lambda: len(faces(window)) == 6 * np.count_nonzero(layers == 0), timeout=5000)
-    window.view.change(peel=2)
+    window.session.view.change(peel=2)
     assert set(faces(window)) <= set(np.flatnonzero(layers >= 2))
 
 
 def test_a_smooth_cut_is_not_shrunk(window):
-    window.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
+    window.session.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
     assert window.canvas.viewport.body.faces.shrink == 0
     assert shown(window) == "1,000 of 1,000 elements shown, then cut"
 
 
 def test_the_outline_is_drawn_while_something_is_hidden_and_wanted(window):
-    actor, panel = window.canvas.viewport._outline._actor, window.inside_panel
+    actor, panel = window.canvas.viewport._outline._actor, window.features["cut"].inside
     assert not actor.GetVisibility()
-    window.view.change(peel=1)
+    window.session.view.change(peel=1)
     assert actor.GetVisibility()
     QTest.mouseClick(panel._outline, LEFT, pos=BOX)
-    assert not window.view.look.outline
+    assert not window.session.view.look.outline
     assert not actor.GetVisibility()
     QTest.mouseClick(panel._outline, LEFT, pos=BOX)
-    window.view.change(peel=0)
+    window.session.view.change(peel=0)
     assert not actor.GetVisibility()
 
 
 def test_another_mesh_is_shown_whole(window, qtbot, tmp_path):
-    window.view.isolate([999], 1)
-    window.view.dig(998)
-    window.view.change(peel=4)
+    window.session.view.isolate([999], 1)
+    window.session.view.dig(998)
+    window.session.view.change(peel=4)
     io.write(tmp_path / "small.vtu", gallery.make("cube", size=8))
-    with qtbot.waitSignals([window.opener.ended], timeout=20000):
-        window.open(tmp_path / "small.vtu")
-    assert window.view.look == Look()
+    with qtbot.waitSignals([window.session.opener.ended], timeout=20000):
+        window.features["open"].open(tmp_path / "small.vtu")
+    assert window.session.view.look == Look()
     assert shown(window) == "8 of 8 elements shown"
-    assert not window.inside_panel._peel.isEnabled()
+    assert not window.features["cut"].inside._peel.isEnabled()
 
 
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
 def test_nothing_is_cut_off(window, qtbot, size):
     window.resize(*size)
-    window.view.isolate(range(500), 12)
+    window.session.view.isolate(range(500), 12)
     for h in range(12):
-        window.view.dig(h)
+        window.session.view.dig(h)
     qtbot.wait(50)
-    panel = window.inside_panel
+    panel = window.features["cut"].inside
     parts = (panel._isolated, panel._dug, panel._shown, panel._all, panel._undo, panel._put_back, panel._outline)
     for part in parts:
         assert part.width() >= part.sizeHint().width(), part.text()

@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLineEdit
 
 from hexmend.quality import METRICS
-from hexmend_app.features.histogram.legend import KEPT_COLOURS
+from hexmend_app.scene.palette import KEPT
 from hexmend_app.shell.palette import CommandPalette
 from tests.app.driving import LEFT, click, drag
 from tests.patience import PATIENCE
@@ -23,85 +23,85 @@ def centre(window):
 
 def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtbot):
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=centre(window))
-    chosen = window.selection.hex
+    chosen = window.session.selection.hex
     assert chosen is not None
-    neighbours = window.document.now.mesh.topology.face_neighbours[chosen]
+    neighbours = window.session.document.now.mesh.topology.face_neighbours[chosen]
     assert (neighbours < 0).any()  # what is seen lies at the surface
-    assert window.docks["element"].isVisible()
+    assert window.in_front("hex")
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=QPoint(3, 3))
-    assert window.selection.hex is None
+    assert window.session.selection.hex is None
     drag(window.canvas.interactor, centre(window), centre(window) + QPoint(40, 0))
-    assert window.selection.hex is None
+    assert window.session.selection.hex is None
 
 
 def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
     camera = window.canvas.viewport.camera
     before = np.array(camera.GetFocalPoint())
     QTest.keyClick(window, Qt.Key.Key_N)
-    worst = window.selection.hex
-    assert worst == window.worst_list.elements[0]
-    middle = window.document.now.mesh.points[window.document.now.mesh.hexes[worst]].mean(axis=0)
+    worst = window.session.selection.hex
+    assert worst == window.features["inspect"].worst_list.elements[0]
+    middle = window.session.document.now.mesh.points[window.session.document.now.mesh.hexes[worst]].mean(axis=0)
     qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=5000)
     assert not np.allclose(before, middle)
     QTest.keyClick(window, Qt.Key.Key_N)
     QTest.keyClick(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
-    assert window.selection.hex == worst
-    assert window.view.look.isolation.hexes == (worst,)
+    assert window.session.selection.hex == worst
+    assert window.session.view.look.isolation.hexes == (worst,)
     QTest.keyClick(window, Qt.Key.Key_Escape)
-    assert window.view.look.isolation is None
-    assert window.selection.hex == worst
+    assert window.session.view.look.isolation is None
+    assert window.session.selection.hex == worst
     QTest.keyClick(window, Qt.Key.Key_Escape)
-    assert window.selection.hex is None
+    assert window.session.selection.hex is None
 
 
 def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
     QTest.keyClick(window, Qt.Key.Key_N)
-    worst = window.selection.hex
-    window.smoothing_panel.stop_form.set_values({"tolerance": 1e-2})
-    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
+    worst = window.session.selection.hex
+    window.features["smooth"].panel.stop_form.set_values({"tolerance": 1e-2})
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
-    assert window.selection.hex == worst
-    assert not window.document.now.figures.inverted[worst]
-    assert window.worst_list.elements[0] == window.document.now.figures.q.argmin()
+    assert window.session.selection.hex == worst
+    assert not window.session.document.now.figures.inverted[worst]
+    assert window.features["inspect"].worst_list.elements[0] == window.session.document.now.figures.q.argmin()
 
 
 def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
-    assert window.saving.worst(tmp_path / "worst.csv")
+    assert window.features["inspect"].save(tmp_path / "worst.csv")
     lines = (tmp_path / "worst.csv").read_text().splitlines()
-    assert len(lines) == 1 + len(window.worst_list.elements)
-    assert not window.saving.worst(tmp_path / "nowhere" / "worst.csv")
+    assert len(lines) == 1 + len(window.features["inspect"].worst_list.elements)
+    assert not window.features["inspect"].save(tmp_path / "nowhere" / "worst.csv")
     assert window.messages.messages()[-1][0] == "error"
 
 
 def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
-    mesh = window.document.now.mesh
+    mesh = window.session.document.now.mesh
     inner = int(np.flatnonzero(mesh.free)[50])
     h = int(np.flatnonzero((mesh.hexes == inner).any(axis=1))[0])
-    window.selection.choose(h)
-    window.element_panel.node_chosen.emit(inner)
-    assert window.selection.node == inner
-    window.docks["element"].raise_()
+    window.session.selection.choose(h)
+    window.features["inspect"].panel.node_chosen.emit(inner)
+    assert window.session.selection.node == inner
+    window.show_panel("hex")
     qtbot.wait(50)
-    pin = next(b for b in window.element_panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    pin = next(b for b in window.features["inspect"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
     assert not pin.isChecked()
     QTest.mouseClick(pin, LEFT, pos=QPoint(8, pin.height() // 2))
-    assert window.document.now.mesh.pinned[inner]
-    assert window.document.undo_title == "pin"
-    window.smoothing_panel.set_method("laplacian")
-    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
+    assert window.session.document.now.mesh.pinned[inner]
+    assert window.session.document.undo_title == "pin"
+    window.features["smooth"].panel.set_method("laplacian")
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
-    np.testing.assert_array_equal(window.document.now.mesh.points[inner], mesh.points[inner])
-    window.commands.undo()
+    np.testing.assert_array_equal(window.session.document.now.mesh.points[inner], mesh.points[inner])
+    window.session.commands.undo()
     assert pin.isChecked()
-    window.commands.undo()
-    assert window.document.now.mesh.free[inner]
+    window.session.commands.undo()
+    assert window.session.document.now.mesh.free[inner]
     assert not pin.isChecked()
 
 
 def test_a_node_of_the_boundary_cannot_be_let_go(window):
-    mesh = window.document.now.mesh
-    window.selection.choose(0, int(mesh.hexes[0, 0]))
-    pin = next(b for b in window.element_panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    mesh = window.session.document.now.mesh
+    window.session.selection.choose(0, int(mesh.hexes[0, 0]))
+    pin = next(b for b in window.features["inspect"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
     assert pin.isChecked()
     assert not pin.isEnabled()
 
@@ -113,23 +113,23 @@ def test_every_command_is_found_by_name(window, qtbot):
     assert any("Isometric" in text for text in palette.found())
     QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
     QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
-    assert window.selection.hex == window.worst_list.elements[0]
+    assert window.session.selection.hex == window.features["inspect"].worst_list.elements[0]
 
 
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
 def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix):
     path = tmp_path / f"histogram{suffix}"
-    assert window.saving.histogram(path)
+    assert window.features["histogram"].save(path)
     starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"q from,q to,at the start,now"}
     assert path.read_bytes().startswith(starts[suffix])
     if suffix == ".csv":
         rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
-        assert sum(int(row[3]) for row in rows) == window.document.now.mesh.n_hexes
-        assert int(rows[0][3]) == window.document.now.summary.inverted
+        assert sum(int(row[3]) for row in rows) == window.session.document.now.mesh.n_hexes
+        assert int(rows[0][3]) == window.session.document.now.summary.inverted
 
 
 def test_what_is_saved_is_what_is_drawn(window, tmp_path):
-    histogram, now = window.histogram, window.document.now
+    histogram, now = window.features["histogram"].panel, window.session.document.now
     histogram.metric_chosen.emit("condition")
     histogram.keep_requested.emit()
     histogram.renamed.emit(0, "as it was, before")
@@ -137,7 +137,7 @@ def test_what_is_saved_is_what_is_drawn(window, tmp_path):
     histogram.head.cumulative.setChecked(True)
     histogram.head.scale.button("log").click()
     for suffix in (".csv", ".svg"):
-        assert window.saving.histogram(tmp_path / f"drawn{suffix}")
+        assert window.features["histogram"].save(tmp_path / f"drawn{suffix}")
     with open(tmp_path / "drawn.csv", newline="") as file:
         head, inverted, *rows = csv.reader(file)
     assert head == ["condition from", "condition to"] + [
@@ -154,14 +154,14 @@ def test_what_is_saved_is_what_is_drawn(window, tmp_path):
     drawing = (tmp_path / "drawn.svg").read_text()
     for text in ("Condition number", "as it was, before (", "inverted", "% of hexes up to x, inverted first"):
         assert f"<!-- {text}" in drawing
-    assert all(colour in drawing for colour in (KEPT_COLOURS[0].of(dark=False), "#0072b2"))
+    assert all(colour in drawing for colour in (KEPT[0].of(dark=False), "#0072b2"))
     histogram.head.scale.button("linear").click()
-    assert window.saving.histogram(tmp_path / "linear.svg")
+    assert window.features["histogram"].save(tmp_path / "linear.svg")
     assert (tmp_path / "linear.svg").read_text() != drawing
 
 
 def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
-    assert not window.saving.histogram(tmp_path / "histogram.txt")
+    assert not window.features["histogram"].save(tmp_path / "histogram.txt")
     kind, title, text = window.messages.messages()[-1]
     assert (kind, title) == ("error", "The histogram was not saved")
     assert ".svg, .pdf, .png" in text
@@ -171,25 +171,25 @@ def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
 def test_a_click_with_ctrl_digs_and_a_key_brings_back(window, qtbot):
     view, ctrl = window.canvas.interactor, Qt.KeyboardModifier.ControlModifier
     QTest.mouseClick(view, LEFT, pos=centre(window))
-    first = window.selection.hex
+    first = window.session.selection.hex
     QTest.mouseClick(view, LEFT, ctrl, pos=centre(window))
-    assert window.view.look.dug == {first}
-    assert window.selection.hex is None
+    assert window.session.view.look.dug == {first}
+    assert window.session.selection.hex is None
     qtbot.wait(100)
     QTest.mouseClick(view, LEFT, pos=centre(window))
-    behind = window.selection.hex
+    behind = window.session.selection.hex
     assert behind not in (None, first)
     QTest.keyClick(window, Qt.Key.Key_Delete)
-    assert window.view.look.dug == {first, behind}
+    assert window.session.view.look.dug == {first, behind}
     QTest.keyClick(window, Qt.Key.Key_Backspace)
-    assert window.view.look.dug == {first}
+    assert window.session.view.look.dug == {first}
     QTest.keyClick(window, Qt.Key.Key_Backspace)
-    assert not window.view.look.dug
+    assert not window.session.view.look.dug
 
 
 def test_the_chosen_element_is_isolated_by_key(window):
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=centre(window))
     QTest.keyClick(window, Qt.Key.Key_I)
-    assert window.view.look.isolation.hexes == (window.selection.hex,)
+    assert window.session.view.look.isolation.hexes == (window.session.selection.hex,)
     QTest.keyClick(window, Qt.Key.Key_Escape)
-    assert window.view.look.isolation is None
+    assert window.session.view.look.isolation is None

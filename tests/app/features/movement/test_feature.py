@@ -20,16 +20,16 @@ from tests.patience import PATIENCE
 
 @pytest.fixture
 def panel(window, qtbot):
-    window.docks["movement"].raise_()
-    qtbot.waitUntil(window.movement_panel.isVisible)
-    return window.movement_panel
+    window.show_panel("movement")
+    qtbot.waitUntil(window.features["movement"].panel.isVisible)
+    return window.features["movement"].panel
 
 
 @pytest.fixture
 def record(window, qtbot):
-    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
-        window.smoothing.start(METHODS["laplacian"](), Stop(max_iterations=6, tolerance=0))
-    return window.smoothing.record
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        window.session.smoothing.start(METHODS["laplacian"](), Stop(max_iterations=6, tolerance=0))
+    return window.session.smoothing.record
 
 
 def press(segmented, key):
@@ -43,64 +43,69 @@ def figures(panel):
 def test_colours_follow_the_iterations_and_the_moment_they_are_compared_with(window, record, panel):
     viewport, timeline = window.canvas.viewport, window.session.timeline
     press(panel.colours, "q-change")
-    assert window.view.look.scale.mode is RangeMode.FITTED
+    assert window.session.view.look.scale.mode is RangeMode.FITTED
     assert viewport.colouring.title == "change of q(H) since opening"
     np.testing.assert_array_equal(
-        viewport.colours.values, window.document.now.figures.q - window.document.start.figures.q
+        viewport.colours.values, window.session.document.now.figures.q - window.session.document.start.figures.q
     )
     timeline.go(record, 3)
     press(panel.since, "iteration")
-    then = window.session.history.state(type(timeline.moment)(record, 2), window.document.now.mesh)
-    np.testing.assert_allclose(viewport.colours.values, window.document.now.figures.q - then.figures.q)
+    then = window.session.history.state(type(timeline.moment)(record, 2), window.session.document.now.mesh)
+    np.testing.assert_allclose(viewport.colours.values, window.session.document.now.figures.q - then.figures.q)
     assert window.canvas.colour_bar.accessibleDescription().endswith(viewport.colouring.label(viewport.colouring.high))
     timeline.step(1)
     assert viewport.colouring.title == f"change of q(H) since {record.name} 3"
     timeline.go(record, 0)
     assert not viewport.colours.values.any()
     press(panel.colours, "")
-    assert window.view.look.scale.metric == "q"
-    assert window.view.look.scale.mode is RangeMode.FULL
+    assert window.session.view.look.scale.metric == "q"
+    assert window.session.view.look.scale.mode is RangeMode.FULL
 
 
 def test_the_histogram_goes_on_counting_quality(window, record, panel):
     press(panel.colours, "moved-most")
-    assert window.counting.metric == "q"
-    assert window.histogram.head.metric.currentText() == "q(H)"
+    assert window.features["histogram"].metric == "q"
+    assert window.features["histogram"].panel.head.metric.currentText() == "q(H)"
     window.session.timeline.go(record, 2)
     press(panel.colours, "")
-    assert window.histogram.head.metric.currentText() == "q(H) (as colours)"
+    assert window.features["histogram"].panel.head.metric.currentText() == "q(H) (as colours)"
 
 
 def test_movements_are_offered_among_the_colours(window, record):
-    combo = window.colour_panel._metric
+    combo = window.features["look"].panel._metric
     combo.setFocus()
     while combo.currentData() != "moved-mean":
         QTest.keyClick(combo, Qt.Key.Key_Down)
-    assert window.view.look.scale.metric == "moved-mean"
-    assert window.movement_panel.colours.value() == "moved-most"
+    assert window.session.view.look.scale.metric == "moved-mean"
+    assert window.features["movement"].panel.colours.value() == "moved-most"
     QTest.keyClick(combo, Qt.Key.Key_Down)
-    assert window.view.look.scale.metric == "q-change"
-    assert window.colour_panel._map.currentText() == "brown – teal"
+    assert window.session.view.look.scale.metric == "q-change"
+    assert window.features["look"].panel._map.currentText() == "brown – teal"
     QTest.keyClick(combo, Qt.Key.Key_Home)
-    assert [window.colour_panel._map.itemText(k) for k in range(4)] == ["viridis", "cividis", "plasma", "inferno"]
-    assert window.view.look.scale.map == "viridis"
+    assert [window.features["look"].panel._map.itemText(k) for k in range(4)] == [
+        "viridis",
+        "cividis",
+        "plasma",
+        "inferno",
+    ]
+    assert window.session.view.look.scale.map == "viridis"
 
 
 def test_arrows_are_drawn_counted_and_made_longer(window, record, panel):
-    free = window.document.now.summary.free_nodes
+    free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
     assert window.canvas.viewport.arrows == (free, free)
     assert panel._drawn.text() == f"{free:,} arrows, of true length."
     press(panel.arrows, "sight")
     assert panel._drawn.text() == "Of the nodes in sight none has moved."
-    window.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.document.now.mesh.points.mean(axis=0))))
-    window.view.set_handles(False)
+    window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
+    window.session.view.set_handles(False)
     before = pixels(window)
     assert 0 < window.canvas.viewport.arrows[0] < free
     panel.factor.lineEdit().selectAll()
     QTest.keyClicks(panel.factor.lineEdit(), "4")
     QTest.keyClick(panel.factor, Qt.Key.Key_Return)
-    assert window.view.look.traces.factor == 4
+    assert window.session.view.look.traces.factor == 4
     assert panel._drawn.text().endswith("4 times true length.")
     assert (pixels(window) != before).any()
     window.session.timeline.go(record, 0)
@@ -108,10 +113,10 @@ def test_arrows_are_drawn_counted_and_made_longer(window, record, panel):
 
 
 def test_the_movement_is_told_in_figures(window, record, panel):
-    start, now = window.document.start, window.document.now
+    start, now = window.session.document.start, window.session.document.now
     change = now.figures.q - start.figures.q
     said = figures(panel)
-    free = window.document.now.summary.free_nodes
+    free = window.session.document.now.summary.free_nodes
     assert said["Nodes"] == f"{free:,} of {free:,} free moved since opening"
     assert said["Elements"] == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
     newly = np.count_nonzero(now.figures.inverted & ~start.figures.inverted)
@@ -134,15 +139,15 @@ def test_the_newly_inverted_are_isolated(window, record, panel, qtbot):
     else:
         pytest.fail("Laplacian smoothing of this mesh inverts no element in any iteration")
     QTest.mouseClick(panel.show_newly, LEFT)
-    isolated = window.view.look.isolation.hexes
-    assert window.document.now.figures.inverted[list(isolated)].all()
+    isolated = window.session.view.look.isolation.hexes
+    assert window.session.document.now.figures.inverted[list(isolated)].all()
     assert len(isolated) == movement.counts.newly_inverted
 
 
 def test_a_picture_shows_what_the_view_shows(window, record, panel, tmp_path):
     window.canvas.save_picture(tmp_path / "plain.png", (500, 320), False)
     press(panel.colours, "q-change")
-    window.view.change(traces=window.view.look.traces.__class__(arrows=Arrows.ALL))
+    window.session.view.change(traces=window.session.view.look.traces.__class__(arrows=Arrows.ALL))
     window.canvas.save_picture(tmp_path / "changed.png", (500, 320), False)
     plain, changed = (np.asarray(Image.open(tmp_path / f"{name}.png")) for name in ("plain", "changed"))
     assert (plain != changed).any(axis=2).mean() > 0.2
@@ -164,19 +169,19 @@ def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
     press(panel.colours, "moved-most")
     press(panel.since, "iteration")
     seen = set()
-    window.document.points_moved.connect(lambda: seen.add(window.canvas.viewport.colouring.title))
-    window.smoothing.start(METHODS["local-sd"](), Stop(max_iterations=100_000, tolerance=0))
+    window.session.document.points_moved.connect(lambda: seen.add(window.canvas.viewport.colouring.title))
+    window.session.smoothing.start(METHODS["local-sd"](), Stop(max_iterations=100_000, tolerance=0))
     qtbot.waitUntil(lambda: len(seen) > 3, timeout=PATIENCE)
-    window.smoothing.end_now()
+    window.session.smoothing.end_now()
     assert all(title.startswith("mean edge lengths moved since") for title in seen)
 
 
 def test_a_film_compares_each_picture_with_the_one_before(window, record, panel):
-    history, mesh = window.session.history, window.document.now.mesh
+    history, mesh = window.session.history, window.session.document.now.mesh
     press(panel.colours, "q-change")
     press(panel.since, "iteration")
     taken = list(shots(history, record, mesh, [0, 2, 5]))
-    look, movement = window.view.look, window.canvas.viewport.frame.movement
+    look, movement = window.session.view.look, window.canvas.viewport.frame.movement
     frames = [np.asarray(one) for one in pictures(taken, look, (400, 300), movement=movement)]
     assert len(frames) == 3
     assert (frames[0] != frames[1]).any()

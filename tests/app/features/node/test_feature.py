@@ -28,7 +28,7 @@ BOX = QPoint(8, 8)
 
 def choose(window, name):
     """Choose a method as a hand does."""
-    box = next(b for b in window.smoothing_panel.findChildren(QComboBox) if b.accessibleName() == "Method")
+    box = next(b for b in window.features["smooth"].panel.findChildren(QComboBox) if b.accessibleName() == "Method")
     box.setFocus()
     QTest.keyClick(box, Qt.Key.Key_Home)
     for _ in range(box.count()):
@@ -47,7 +47,7 @@ def wait_for_step(window, qtbot, method, node=None):
         lambda: (
             shown(window) is not None
             and shown(window).method == method
-            and shown(window).node == (window.selection.node if node is None else node)
+            and shown(window).node == (window.session.selection.node if node is None else node)
         ),
         timeout=PATIENCE,
     )
@@ -63,11 +63,11 @@ def key(window, key, *modifiers):
 
 
 def button(window, text):
-    return next(b for b in window.node_panel.findChildren(QPushButton) if b.text() == text)
+    return next(b for b in window.features["node"].panel.findChildren(QPushButton) if b.text() == text)
 
 
 def texts(window):
-    panel = window.node_panel
+    panel = window.features["node"].panel
     labels = " ".join(unescape(one.text()) for one in panel.findChildren(QLabel) if one.isVisible())
     return labels + (panel.figures.toPlainText().replace("\xa0", " ") if panel.figures.isVisible() else "")
 
@@ -90,22 +90,22 @@ def at_work(window, qtbot):
 
 def test_a_key_explains_a_free_node_of_the_worst_element(at_work):
     window, step = at_work, shown(at_work)
-    mesh = window.document.now.mesh
-    assert window.selection.hex == window.worst_list.elements[0]
-    assert window.selection.node in mesh.hexes[window.selection.hex]
+    mesh = window.session.document.now.mesh
+    assert window.session.selection.hex == window.features["inspect"].worst_list.elements[0]
+    assert window.session.selection.node in mesh.hexes[window.session.selection.hex]
     assert mesh.free[step.node]
     np.testing.assert_array_equal(step.after, explain(mesh, METHODS["local-sd"](), step.node).after)
-    assert window.docks["node"].widget().isVisible()
+    assert window.in_front("node")
     words = texts(window)
     assert f"Node {step.node:,}" in words
     assert "Local steepest descent. Will be moved." in words
     assert "Eigenvalues" in words
-    assert window.document.now is window.document.start  # nothing has moved
+    assert window.session.document.now is window.session.document.start  # nothing has moved
 
 
 def test_the_trials_are_numbered_in_the_plot(at_work):
     step = shown(at_work)
-    drawn = at_work.node_panel.plot.shown_trials()
+    drawn = at_work.features["node"].panel.plot.shown_trials()
     assert drawn
     for number, alpha, height in drawn:
         trial = step.trials[number - 1]
@@ -117,24 +117,26 @@ def test_the_trials_are_numbered_in_the_plot(at_work):
 
 def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once(at_work, qtbot):
     window = at_work
-    label = next(one for one in window.node_panel.findChildren(QLabel) if one.accessibleName() == "Free nodes")
-    mesh, before = window.document.now.mesh, window.selection.node
-    other = next(int(i) for i in mesh.hexes[window.selection.hex] if mesh.free[i] and i != before)
+    label = next(
+        one for one in window.features["node"].panel.findChildren(QLabel) if one.accessibleName() == "Free nodes"
+    )
+    mesh, before = window.session.document.now.mesh, window.session.selection.node
+    other = next(int(i) for i in mesh.hexes[window.session.selection.hex] if mesh.free[i] and i != before)
     assert f'href="{other}"' in label.text()
     label.setFocus()
     for _ in range(8):
-        if window.selection.node == other:
+        if window.session.selection.node == other:
             break
         QTest.keyClick(label, Qt.Key.Key_Tab)
         QTest.keyClick(label, Qt.Key.Key_Return)
         qtbot.wait(5)
-    assert window.selection.node != before
+    assert window.session.selection.node != before
     wait_for_step(window, qtbot, "local-sd")
     choose(window, "local-mnr")
     step = wait_for_step(window, qtbot, "local-mnr")
     assert "Shift" in texts(window)
-    window.smoothing_panel.form.set_values({"p": 3.0})
-    window.smoothing_panel.form.changed.emit()
+    window.features["smooth"].panel.form.set_values({"p": 3.0})
+    window.features["smooth"].panel.form.changed.emit()
     qtbot.waitUntil(lambda: shown(window).p == 3, timeout=PATIENCE)
     assert shown(window).energy != step.energy
 
@@ -143,7 +145,7 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
 def test_every_method_is_explained(at_work, qtbot, name):
     choose(at_work, name)
     wait_for_step(at_work, qtbot, "getme" if name == "general" else name)
-    assert at_work.node_panel.plot.isVisible() == bool(len(shown(at_work).curve))
+    assert at_work.features["node"].panel.plot.isVisible() == bool(len(shown(at_work).curve))
     words = texts(at_work)
     assert "Energy" in words
     assert ("Armijo" in words) == (name.split("-")[-1] in ("sd", "nr", "mnr"))
@@ -152,26 +154,26 @@ def test_every_method_is_explained(at_work, qtbot, name):
 
 def test_a_node_that_is_fixed_has_no_step_and_says_why(window, qtbot):
     choose(window, "local-sd")
-    window.docks["node"].raise_()
+    window.show_panel("node")
     said(window, qtbot, "Click an element in the view")
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=window.canvas.interactor.rect().center())
-    assert window.selection.hex is not None
-    assert window.docks["node"].widget().isVisible()  # a click does not bring another panel to the front
+    assert window.session.selection.hex is not None
+    assert window.in_front("node")  # a click does not bring another panel to the front
     said(window, qtbot, "lies on the boundary: no method moves it")
     assert shown(window) is None
-    mesh = window.document.now.mesh
+    mesh = window.session.document.now.mesh
     inner = int(np.flatnonzero(mesh.free)[50])
-    window.selection.choose(int(mesh.topology.node_corners[inner][0] // 8), inner)
+    window.session.selection.choose(int(mesh.topology.node_corners[inner][0] // 8), inner)
     wait_for_step(window, qtbot, "local-sd", inner)
-    window.commands.pin(inner, True)
+    window.session.commands.pin(inner, True)
     said(window, qtbot, "is pinned: no method moves it")
     assert shown(window) is None
 
 
 def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
     window = at_work
-    window.smoothing_panel._sections[0].expand()
-    editor = window.smoothing_panel.form.editor("p")
+    window.features["smooth"].panel._sections[0].expand()
+    editor = window.features["smooth"].panel.form.editor("p")
     target = editor.widget if hasattr(editor, "widget") else editor
     target.setFocus()
     line = target.lineEdit() if hasattr(target, "lineEdit") else target
@@ -180,15 +182,15 @@ def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
     said(window, qtbot, "Correct the marked value")
     assert shown(window) is None
     assert not button(window, "Next node").isEnabled()
-    assert not window.actions_by_id["next_node"].isEnabled()
+    assert not window.actions["next_node"].isEnabled()
 
 
 def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_made(at_work, qtbot):
     window = at_work
-    with qtbot.waitSignal(window.smoothing.phase_changed, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.smoothing.phase_changed, timeout=PATIENCE):
         click(window, "Run")
-    window.debugging._refresh()
-    if window.smoothing.phase in (Phase.RUNNING, Phase.PREPARING):
+    window.features["node"]._refresh()
+    if window.session.smoothing.phase in (Phase.RUNNING, Phase.PREPARING):
         assert "A run is under way" in texts(window)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     choose(window, "local-sd")
@@ -197,9 +199,9 @@ def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_mad
     wait_for_step(window, qtbot, "local-sd")
     assert not button(window, "Next node").isEnabled()
     assert "paused" in button(window, "Next node").toolTip()
-    now = window.document.now
+    now = window.session.document.now
     key(window, Qt.Key.Key_F11)
-    assert window.document.now is now
+    assert window.session.document.now is now
     click(window, "Stop")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     qtbot.waitUntil(button(window, "Next node").isEnabled, timeout=5000)
@@ -207,12 +209,12 @@ def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_mad
 
 def test_nothing_is_worked_out_while_another_panel_is_in_front(at_work, qtbot):
     window = at_work
-    window.docks["histogram"].raise_()
+    window.show_panel("histogram")
     qtbot.waitUntil(lambda: shown(window) is None, timeout=5000)
     choose(window, "getme")
     qtbot.wait(50)
     assert not window.session.explainer.busy
-    window.docks["node"].raise_()
+    window.show_panel("node")
     wait_for_step(window, qtbot, "getme")
 
 
@@ -221,10 +223,10 @@ def test_nothing_is_worked_out_while_another_panel_is_in_front(at_work, qtbot):
 
 def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictures(at_work, qtbot, tmp_path):
     window = at_work
-    box = window.node_panel._patch
+    box = window.features["node"].panel._patch
     QTest.mouseClick(box, LEFT, pos=BOX)
     step = shown(window)
-    assert window.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
+    assert window.session.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size
     qtbot.waitUntil(lambda: not window.canvas.flying, timeout=5000)
 
@@ -233,18 +235,18 @@ def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictu
         return int((np.abs(image - colour).max(axis=2) < 12).sum())
 
     assert min(seen(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
-    window.view.set_clip(PlaneClip.at((1, 0, 0), tuple(step.before - 100.0)))
-    window.view.set_handles(False)
+    window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(step.before - 100.0)))
+    window.session.view.set_handles(False)
     assert window.canvas.viewport.shown == 0
     assert seen(pixels(window), UPHILL) > 20
-    assert window.saving.picture(tmp_path / "step.png", (800, 600))
+    assert window.features["save"].picture(tmp_path / "step.png", (800, 600))
     assert seen(np.asarray(Image.open(tmp_path / "step.png").convert("RGB")).astype(int), UPHILL) > 20
     window.messages.clear()  # Esc is for a message first
-    qtbot.waitUntil(lambda: window.actions_by_id["back"].isEnabled(), timeout=5000)
+    qtbot.waitUntil(lambda: window.actions["back"].isEnabled(), timeout=5000)
     key(window, Qt.Key.Key_Escape)
-    assert window.view.look.isolation is None
+    assert window.session.view.look.isolation is None
     assert not box.isChecked()
-    window.selection.choose(None)
+    window.session.selection.choose(None)
     qtbot.waitUntil(lambda: shown(window) is None, timeout=5000)
     assert seen(pixels(window), UPHILL) == 0
 
@@ -256,7 +258,7 @@ def test_the_marks_and_the_plot_follow_the_theme(at_work, qtbot):
         arrow = at_work.canvas.viewport.chosen._node_step._arrows[UPHILL][1]
         wanted = [int(UPHILL.dark[k : k + 2], 16) / 255 for k in (1, 3, 5)]
         assert arrow.GetProperty().GetColor() == pytest.approx(wanted)
-        assert at_work.node_panel.plot._curve.opts["pen"].color().name() == SEARCH.dark
+        assert at_work.features["node"].panel.plot._curve.opts["pen"].color().name() == SEARCH.dark
     finally:
         theming.choose(Choice.LIGHT)
 
@@ -266,11 +268,11 @@ def test_the_marks_and_the_plot_follow_the_theme(at_work, qtbot):
 
 def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot):
     window = at_work
-    start = window.document.now
+    start = window.session.document.now
     QTest.mouseClick(button(window, "Next node"), LEFT)
     step = wait_for_step(window, qtbot, "local-sd")
     assert step.verdict is Verdict.MOVED
-    points = window.document.now.mesh.points
+    points = window.session.document.now.mesh.points
     np.testing.assert_array_equal(points[step.node], step.after)
     assert (points != start.mesh.points).any(axis=1).sum() == 1
     assert "Local steepest descent. Moved." in texts(window)
@@ -278,28 +280,28 @@ def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot)
     QTest.mouseClick(button(window, "10 nodes"), LEFT)
     key(window, Qt.Key.Key_F11)
     assert window.session.stepping.sweep.done == 12
-    assert window.document.undo_title is None
-    assert window.actions_by_id["undo"].text() == "&Undo sweep of local-sd, 12 nodes"
-    now = window.document.now
+    assert window.session.document.undo_title is None
+    assert window.actions["undo"].text() == "&Undo sweep of local-sd, 12 nodes"
+    now = window.session.document.now
     key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
-    assert window.document.now is start
+    assert window.session.document.now is start
     assert window.session.stepping.sweep is None
     key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
-    assert window.document.now is now
-    assert window.document.undo_title == "sweep of local-sd, 12 nodes"
+    assert window.session.document.now is now
+    assert window.session.document.undo_title == "sweep of local-sd, 12 nodes"
 
 
 def test_a_finished_sweep_is_the_methods_iteration(at_work, qtbot):
     window = at_work
-    mesh = window.document.now.mesh
+    mesh = window.session.document.now.mesh
     expected = next(itertools.islice(METHODS["local-sd"]().steps(mesh), 1, None)).points
     key(window, Qt.Key.Key_F11, Qt.KeyboardModifier.ShiftModifier)
     QTest.mouseClick(button(window, "Finish"), LEFT)
-    np.testing.assert_allclose(window.document.now.mesh.points, expected, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(window.session.document.now.mesh.points, expected, rtol=0, atol=1e-13)
     assert window.session.stepping.sweep is None
     free = int(mesh.free.sum())
-    assert window.document.undo_title == f"sweep of local-sd, {free:,} nodes"
-    qtbot.waitUntil(lambda: shown(window).node == window.selection.node, timeout=5000)
+    assert window.session.document.undo_title == f"sweep of local-sd, {free:,} nodes"
+    qtbot.waitUntil(lambda: shown(window).node == window.session.selection.node, timeout=5000)
     assert "Moved." in texts(window)
 
 
@@ -308,7 +310,7 @@ def test_a_node_looked_at_in_a_sweep_is_explained_as_the_sweep_would_treat_it(at
     key(window, Qt.Key.Key_F11)
     sweep = window.session.stepping.sweep
     coming = int(sweep.nodes[5])
-    window.selection.choose(int(window.document.now.mesh.topology.node_corners[coming][0] // 8), coming)
+    window.session.selection.choose(int(window.session.document.now.mesh.topology.node_corners[coming][0] // 8), coming)
     step = wait_for_step(window, qtbot, "local-sd", coming)
     assert "Will be moved" in texts(window)
     assert window.session.stepping.sweep is sweep
@@ -318,41 +320,41 @@ def test_a_node_looked_at_in_a_sweep_is_explained_as_the_sweep_would_treat_it(at
 @pytest.mark.parametrize("what", ["run", "method", "tag", "save", "reset"])
 def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, tmp_path, what):
     window = at_work
-    start = window.document.now
+    start = window.session.document.now
     key(window, Qt.Key.Key_F11)
     key(window, Qt.Key.Key_F11)
-    stepped = window.document.now
+    stepped = window.session.document.now
     if what == "run":
-        window.smoothing_panel.set_method("laplacian")
+        window.features["smooth"].panel.set_method("laplacian")
         click(window, "Step")
         qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
         click(window, "Stop")
         qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-        window.commands.undo()
+        window.session.commands.undo()
     elif what == "method":
         choose(window, "local-nr")
         wait_for_step(window, qtbot, "local-nr")
         key(window, Qt.Key.Key_F11)
         assert window.session.stepping.sweep.done == 1
-        window.commands.undo()
+        window.session.commands.undo()
     elif what == "tag":
-        window.commands.tag("bad", [7])
-        assert window.document.undo_title == "tag"
-        window.commands.undo()
+        window.session.commands.tag("bad", [7])
+        assert window.session.document.undo_title == "tag"
+        window.session.commands.undo()
     elif what == "save":
-        assert window.saving.mesh(tmp_path / "saved.vtu")
-        assert not window.document.modified
+        assert window.features["save"].mesh(tmp_path / "saved.vtu")
+        assert not window.session.document.modified
     else:
-        window.commands.reset()
-        np.testing.assert_array_equal(window.document.now.mesh.points, start.mesh.points)
-        window.commands.undo()
-    assert window.document.undo_title == "sweep of local-sd, 2 nodes"
-    np.testing.assert_array_equal(window.document.now.mesh.points, stepped.mesh.points)
+        window.session.commands.reset()
+        np.testing.assert_array_equal(window.session.document.now.mesh.points, start.mesh.points)
+        window.session.commands.undo()
+    assert window.session.document.undo_title == "sweep of local-sd, 2 nodes"
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, stepped.mesh.points)
 
 
 def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qtbot):
     window = at_work
-    window.smoothing_panel.set_method("laplacian")
+    window.features["smooth"].panel.set_method("laplacian")
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     click(window, "Stop")
@@ -360,17 +362,17 @@ def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qt
     choose(window, "local-sd")
     wait_for_step(window, qtbot, "local-sd")
     key(window, Qt.Key.Key_F11)
-    stepped = window.document.now
+    stepped = window.session.document.now
     timeline = window.session.timeline
     timeline.go(timeline.record, 0)
     assert window.session.stepping.sweep is None
-    np.testing.assert_array_equal(window.document.now.mesh.points, window.document.start.mesh.points)
-    assert window.document.undo_title == "sweep of local-sd, 1 node"
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
+    assert window.session.document.undo_title == "sweep of local-sd, 1 node"
     wait_for_step(window, qtbot, "local-sd")
-    np.testing.assert_array_equal(shown(window).before, window.document.now.mesh.points[shown(window).node])
-    window.commands.undo()
-    window.commands.redo()
-    assert window.document.now is stepped
+    np.testing.assert_array_equal(shown(window).before, window.session.document.now.mesh.points[shown(window).node])
+    window.session.commands.undo()
+    window.session.commands.redo()
+    assert window.session.document.now is stepped
 
 
 def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
@@ -378,11 +380,11 @@ def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
     choose(window, "mend")
     wait_for_step(window, qtbot, "mend")
     for id in ("next_node", "ten_nodes", "finish_sweep"):
-        assert not window.actions_by_id[id].isEnabled()
+        assert not window.actions[id].isEnabled()
     assert "Local steepest descent" in button(window, "10 nodes").toolTip()
-    now = window.document.now
+    now = window.session.document.now
     key(window, Qt.Key.Key_F11)
-    assert window.document.now is now
+    assert window.session.document.now is now
 
 
 def test_a_sweep_can_be_begun_before_anything_was_explained(window, qtbot):
@@ -391,7 +393,7 @@ def test_a_sweep_can_be_begun_before_anything_was_explained(window, qtbot):
     qtbot.waitUntil(lambda: window.session.stepping.sweep is not None, timeout=PATIENCE)
     step = wait_for_step(window, qtbot, "local-nr")
     assert step.node == window.session.stepping.sweep.nodes[0]
-    np.testing.assert_array_equal(window.document.now.mesh.points[step.node], step.after)
+    np.testing.assert_array_equal(window.session.document.now.mesh.points[step.node], step.after)
 
 
 def test_closing_while_a_step_is_worked_out_leaves_no_thread(window, qtbot):
@@ -408,7 +410,7 @@ def test_nothing_is_cut_off(at_work, qtbot, size):
     key(window, Qt.Key.Key_F11)
     window.resize(*size)
     qtbot.wait(50)
-    panel = window.node_panel
+    panel = window.features["node"].panel
     assert window.width() == size[0]
     for part in [*panel.findChildren(QPushButton), panel._patch, panel._title, panel._progress]:
         assert part.width() >= part.fontMetrics().horizontalAdvance(part.text()) + 12 * isinstance(part, QPushButton)

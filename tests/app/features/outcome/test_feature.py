@@ -17,17 +17,19 @@ from tests.patience import PATIENCE
 
 def run(window, qtbot, method, values=None, **stop):
     """Run a method from its button to its end."""
-    window.smoothing_panel.choose(method, values or {}, Stop(**stop).values())
+    window.features["smooth"].panel.choose(method, values or {}, Stop(**stop).values())
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
 
 
 def said(window):
-    return " ".join(label.text() for label in window.outcome_panel.findChildren(QLabel) if label.isVisible())
+    return " ".join(
+        label.text() for label in window.features["outcome"].panel.findChildren(QLabel) if label.isVisible()
+    )
 
 
 def button(window, name):
-    return next(b for b in window.outcome_panel.findChildren(QPushButton) if b.accessibleName() == name)
+    return next(b for b in window.features["outcome"].panel.findChildren(QPushButton) if b.accessibleName() == name)
 
 
 def press(window, name):
@@ -48,41 +50,43 @@ def locked(window, qtbot, tmp_path):
 
 
 def test_before_a_run_it_says_what_it_is_for(window, qtbot):
-    window.docks["outcome"].raise_()
+    window.show_panel("outcome")
     qtbot.wait(50)
     assert "No run has ended yet" in said(window)
 
 
 def test_a_run_that_ends_is_explained_before_everything_else(window, qtbot):
-    assert not window.outcome_panel.isVisible()
+    assert not window.features["outcome"].panel.isVisible()
     run(window, qtbot, "laplacian")
-    qtbot.waitUntil(window.outcome_panel.isVisible)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     assert "Why laplacian stopped" in said(window)
     assert "no node moved further than 0.0001 mean edge lengths" in said(window)
-    inverted = window.document.now.summary.inverted
-    assert f"{inverted} of {window.document.now.mesh.n_hexes:,} hexes are inverted" in said(window)
+    inverted = window.session.document.now.summary.inverted
+    assert f"{inverted} of {window.session.document.now.mesh.n_hexes:,} hexes are inverted" in said(window)
 
 
 def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
     run(window, qtbot, "laplacian", max_iterations=3)
-    left = window.document.now.summary.inverted
+    left = window.session.document.now.summary.inverted
     assert left > 0
-    qtbot.waitUntil(window.outcome_panel.isVisible)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     press(window, "Choose: Mend")
-    assert window.smoothing_panel.method() == "mend"
-    assert window.smoothing_panel.stop_form.values() == Stop().values()  # or three iterations would not help either
-    assert window.smoothing.phase is Phase.FINISHED
+    assert window.features["smooth"].panel.method() == "mend"
+    assert (
+        window.features["smooth"].panel.stop_form.values() == Stop().values()
+    )  # or three iterations would not help either
+    assert window.session.smoothing.phase is Phase.FINISHED
     click(window, "Run")
-    qtbot.waitUntil(lambda: window.smoothing.busy, timeout=5000)
+    qtbot.waitUntil(lambda: window.session.smoothing.busy, timeout=5000)
     assert not button(window, "Choose: Mend").isEnabled()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.document.now.summary.inverted == 0
+    assert window.session.document.now.summary.inverted == 0
     assert "Why mend stopped" in said(window)
 
 
 def test_while_a_run_goes_on_it_says_so(window, qtbot):
-    window.docks["outcome"].raise_()
-    window.smoothing_panel.choose("laplacian", {}, Stop(tolerance=0, max_iterations=1_000_000).values())
+    window.show_panel("outcome")
+    window.features["smooth"].panel.choose("laplacian", {}, Stop(tolerance=0, max_iterations=1_000_000).values())
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     assert "A run is under way" in said(window)
@@ -105,28 +109,28 @@ def test_the_run_that_is_gone_through_is_the_one_explained(window, qtbot):
 def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=500))
     open_and_wait(qtbot, window, tmp_path / "sound.vtu")
-    start = window.document.now.mesh.points
+    start = window.session.document.now.mesh.points
     run(window, qtbot, "laplacian")
-    assert window.document.now.summary.inverted > 0
+    assert window.session.document.now.summary.inverted > 0
     press(window, "Choose: Smart Laplacian from before the run")
-    np.testing.assert_array_equal(window.document.now.mesh.points, start)
-    assert window.smoothing_panel.method() == "smart-laplacian"
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
+    assert window.features["smooth"].panel.method() == "smart-laplacian"
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.document.now.summary.inverted == 0
+    assert window.session.document.now.summary.inverted == 0
 
 
 def test_locked_elements_are_listed_and_shown(window, qtbot, locked):
     run(window, qtbot, "mend")
     assert f'<a href="{locked}">{locked}</a>' in said(window)
     press(window, "Show the locked elements")
-    assert window.view.look.isolation.hexes == (locked,)
-    assert window.selection.hex == locked
+    assert window.session.view.look.isolation.hexes == (locked,)
+    assert window.session.selection.hex == locked
     QTest.keyClick(window, Qt.Key.Key_Escape)
-    assert window.view.look.isolation is None
+    assert window.session.view.look.isolation is None
     button(window, "Show the locked elements").setFocus()
     QTest.keyClick(button(window, "Show the locked elements"), Qt.Key.Key_Space)
-    assert window.view.look.isolation is not None
+    assert window.session.view.look.isolation is not None
 
 
 def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_path):
@@ -135,23 +139,23 @@ def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_pa
     mesh = pinned_tangle()
     io.write(tmp_path / "pinned.vtu", mesh.replace(pinned=None))
     open_and_wait(qtbot, window, tmp_path / "pinned.vtu")
-    window.commands.pin(int(np.flatnonzero(mesh.pinned)[0]), True)
+    window.session.commands.pin(int(np.flatnonzero(mesh.pinned)[0]), True)
     run(window, qtbot, "mend")
-    assert window.document.now.summary.inverted > 0
+    assert window.session.document.now.summary.inverted > 0
     press(window, "Choose: Unpin, then Mend")
-    assert window.document.undo_title == "unpin"
+    assert window.session.document.undo_title == "unpin"
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    assert window.document.now.summary.inverted == 0
+    assert window.session.document.now.summary.inverted == 0
 
 
 def test_a_run_with_nothing_to_do_is_explained_too(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian", max_iterations=1)
     io.write(tmp_path / "one.vtu", grid(1))
-    window.document.saved(tmp_path / "one.vtu")
+    window.session.document.saved(tmp_path / "one.vtu")
     open_and_wait(qtbot, window, tmp_path / "one.vtu")
     run(window, qtbot, "mend")
-    qtbot.waitUntil(window.outcome_panel.isVisible)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     assert "Why mend stopped Nothing to do: every node is fixed." in said(window)
     run(window, qtbot, "laplacian")
     assert "Why laplacian stopped" in said(window)
@@ -159,8 +163,8 @@ def test_a_run_with_nothing_to_do_is_explained_too(window, qtbot, tmp_path):
 
 def test_another_mesh_is_unexplained(window, qtbot, mesh_file):
     run(window, qtbot, "laplacian", max_iterations=1)
-    window.document.saved(mesh_file)
+    window.session.document.saved(mesh_file)
     open_and_wait(qtbot, window, mesh_file)
-    window.docks["outcome"].raise_()
+    window.show_panel("outcome")
     qtbot.wait(50)
     assert "No run has ended yet" in said(window)

@@ -22,11 +22,11 @@ SHORT = Stop(max_iterations=3, tolerance=0)
 
 @pytest.fixture
 def panel(window, qtbot):
-    for section in window.smoothing_panel._sections:
+    for section in window.features["smooth"].panel._sections:
         section.collapse()
-    window.smoothing_panel._sections[2].expand()
+    window.features["smooth"].panel._sections[2].expand()
     qtbot.wait(30)
-    return window.smoothing_panel.recipe_panel
+    return window.features["recipe"].panel
 
 
 def button(panel, name):
@@ -51,7 +51,7 @@ def choose(panel, at):
 
 
 def add(window, panel, method, values=None, stop=SHORT):
-    window.smoothing_panel.choose(method, values or {}, stop.values())
+    window.features["smooth"].panel.choose(method, values or {}, stop.values())
     press(panel, "Add")
 
 
@@ -73,8 +73,8 @@ def test_a_chain_is_stages_in_order():
 
 def test_an_empty_recipe_offers_nothing_to_run(window, panel):
     assert not any(button(panel, name).isEnabled() for name in ("Run recipe", "Save", "Move up", "Remove the stage"))
-    assert not window.actions_by_id["recipe_run"].isEnabled()
-    assert window.actions_by_id["recipe_load"].isEnabled()
+    assert not window.actions["recipe_run"].isEnabled()
+    assert window.actions["recipe_load"].isEnabled()
 
 
 def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
@@ -87,15 +87,15 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
         "3  Mend (Guard on)",
     ]
     press(panel, "Move up")  # the one added last is chosen
-    assert [stage.smoother.name for stage in window.chaining.chain.stages] == ["getme", "mend", "local-sd"]
+    assert [stage.smoother.name for stage in window.session.chain.stages] == ["getme", "mend", "local-sd"]
     choose(panel, 0)
     assert not button(panel, "Move up").isEnabled()
     press(panel, "Remove the stage")
-    assert [stage.smoother.name for stage in window.chaining.chain.stages] == ["mend", "local-sd"]
+    assert [stage.smoother.name for stage in window.session.chain.stages] == ["mend", "local-sd"]
     choose(panel, 1)
-    window.smoothing_panel.set_method("laplacian")
+    window.features["smooth"].panel.set_method("laplacian")
     press(panel, "Replace the stage")
-    assert window.chaining.chain.stages[1].smoother == METHODS["laplacian"]()
+    assert window.session.chain.stages[1].smoother == METHODS["laplacian"]()
 
 
 def test_enter_shows_a_stage_above(window, panel):
@@ -103,47 +103,47 @@ def test_enter_shows_a_stage_above(window, panel):
     add(window, panel, "mend", stop=Stop())
     choose(panel, 0)
     QTest.keyClick(panel.findChild(QListWidget), Qt.Key.Key_Return)
-    shown = window.smoothing_panel
+    shown = window.features["smooth"].panel
     assert (shown.method(), shown.form.values()["p"], shown.stop_form.values()) == ("local-sd", 4, SHORT.values())
 
 
 def test_a_wrong_value_becomes_no_stage(window, panel):
-    window.smoothing_panel.set_method("local-sd")
-    window.smoothing_panel._sections[0].expand()
-    editor = window.smoothing_panel.form.editor("p").lineEdit()
+    window.features["smooth"].panel.set_method("local-sd")
+    window.features["smooth"].panel._sections[0].expand()
+    editor = window.features["smooth"].panel.form.editor("p").lineEdit()
     editor.setFocus()
     editor.selectAll()
     QTest.keyClicks(editor, "99")
     press(panel, "Add")
     assert stages(panel) == []
-    assert "Correct the marked value" in window.smoothing_panel._sentence.text()
+    assert "Correct the marked value" in window.features["smooth"].panel._sentence.text()
 
 
 def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
-    mesh = window.document.now.mesh
+    mesh = window.session.document.now.mesh
     add(window, panel, "getme")
     add(window, panel, "local-sd")
-    recipe = window.chaining.chain.recipe
+    recipe = window.session.chain.recipe
     seen = set()
-    window.smoothing.iterated.connect(lambda frame: seen.add(window.smoothing_panel._sentence.text()))
+    window.session.smoothing.iterated.connect(lambda frame: seen.add(window.features["smooth"].panel._sentence.text()))
     press(panel, "Run recipe")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    np.testing.assert_array_equal(window.document.now.mesh.points, smooth(mesh, recipe).mesh.points)
-    assert [row["method"] for row in window.smoothing.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
-    assert window.document.undo_title == recipe.title
-    assert "Stage 1, GETMe" in window.smoothing_panel._sentence.text()
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, smooth(mesh, recipe).mesh.points)
+    assert [row["method"] for row in window.session.smoothing.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
+    assert window.session.document.undo_title == recipe.title
+    assert "Stage 1, GETMe" in window.features["smooth"].panel._sentence.text()
     QTest.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
-    assert window.document.now.mesh.points is mesh.points
+    assert window.session.document.now.mesh.points is mesh.points
 
 
 def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, qtbot):
     add(window, panel, "getme", stop=Stop(max_iterations=100_000, tolerance=0))
     add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
     QTest.keyClick(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
-    window.smoothing.pause()
+    window.session.smoothing.pause()
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     click(window, "Step")
-    qtbot.waitUntil(lambda: window.smoothing_panel._sentence.text() == "Stage 1 of 2: GETMe, simultaneous.")
+    qtbot.waitUntil(lambda: window.features["smooth"].panel._sentence.text() == "Stage 1 of 2: GETMe, simultaneous.")
     shown = panel.findChild(QListWidget)
     assert [shown.item(at).font().bold() for at in range(2)] == [True, False]
     assert not any(button(panel, name).isEnabled() for name in ("Add", "Run recipe", "Load"))
@@ -156,30 +156,30 @@ def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, q
 def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel, qtbot):
     add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
     add(window, panel, "local-sd", stop=Stop(max_iterations=3, tolerance=0))
-    window.smoothing_panel.set_method("laplacian")
-    window.smoothing.break_at(Breakpoints(node=free_node(window), move=0.0))
+    window.features["smooth"].panel.set_method("laplacian")
+    window.session.smoothing.break_at(Breakpoints(node=free_node(window), move=0.0))
     press(panel, "Run recipe")
     qtbot.waitUntil(lambda: paused_after(window, 1), timeout=PATIENCE)
-    assert window.smoothing_panel.method() == "local-sd"  # the stage at work, not what was shown before
+    assert window.features["smooth"].panel.method() == "local-sd"  # the stage at work, not what was shown before
     for number in (2, 3):
         click(window, "Resume")
         qtbot.waitUntil(lambda number=number: paused_after(window, number))
-    window.smoothing_panel.form.set_values({"p": 4.0})
-    with qtbot.waitSignal(window.smoothing.ended) as ended:
-        window.smoothing.break_at(Breakpoints())
+    window.features["smooth"].panel.form.set_values({"p": 4.0})
+    with qtbot.waitSignal(window.session.smoothing.ended) as ended:
+        window.session.smoothing.break_at(Breakpoints())
         click(window, "Resume")
     assert [(one.stage, one.parameters["p"], one.iterations) for one in ended.args[0].stages] == [
         (1, 2, 2), (2, 2, 1), (2, 4, 2),
     ]  # fmt: skip
-    assert [stage.smoother.p for stage in window.chaining.chain.stages] == [2, 2]  # the recipe itself is as it was
+    assert [stage.smoother.p for stage in window.session.chain.stages] == [2, 2]  # the recipe itself is as it was
 
 
 def free_node(window):
-    return int(np.flatnonzero(window.document.now.mesh.free)[0])
+    return int(np.flatnonzero(window.session.document.now.mesh.free)[0])
 
 
 def paused_after(window, number):
-    return window.smoothing.phase is Phase.PAUSED and window.smoothing.record.newest == number
+    return window.session.smoothing.phase is Phase.PAUSED and window.session.smoothing.record.newest == number
 
 
 def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatch):
@@ -196,25 +196,25 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     press(panel, "Save")
     assert window.messages.messages()[-1][1] == f"Recipe saved to {path}"
     saved = io.read_recipe(path)
-    assert saved == window.chaining.chain.recipe
+    assert saved == window.session.chain.recipe
     assert saved.title == "Mine"
-    window.chaining.chain.take(Recipe.of("laplacian"))
-    window.actions_by_id["recipe_load"].trigger()
-    assert window.chaining.chain.recipe == saved
+    window.session.chain.take(Recipe.of("laplacian"))
+    window.actions["recipe_load"].trigger()
+    assert window.session.chain.recipe == saved
     assert title.text() == "Mine"
 
 
 def test_a_file_that_is_no_recipe_is_said_and_the_recipe_stays(window, panel, tmp_path):
     add(window, panel, "getme")
-    before = window.chaining.chain.recipe
+    before = window.session.chain.recipe
     path = tmp_path / "wrong.toml"
     path.write_text('format = 1\n[[stage]]\nmethod = "mned"')
-    window.chaining.load(path)
+    window.features["recipe"].load(path)
     kind, title, text = window.messages.messages()[-1]
     assert (kind, title) == ("error", "The recipe was not loaded")
     assert "wrong.toml: stage 1: there is no method 'mned': did you mean mend?" in text
-    assert window.chaining.chain.recipe == before
-    window.chaining.save(tmp_path / "no" / "such.toml")
+    assert window.session.chain.recipe == before
+    window.features["recipe"].save(tmp_path / "no" / "such.toml")
     assert window.messages.messages()[-1][1] == "The recipe was not saved"
 
 
@@ -222,7 +222,7 @@ def test_recipes_of_hexmend_are_offered_by_title(window, panel):
     offered = {action.text(): action for action in button(panel, "Load").menu().actions() if action.text()}
     assert "GETMe, then mend" in offered
     offered["GETMe, then mend"].trigger()
-    assert [stage.smoother.name for stage in window.chaining.chain.stages] == ["getme", "mend"]
+    assert [stage.smoother.name for stage in window.session.chain.stages] == ["getme", "mend"]
 
 
 def test_the_recipe_outlives_the_mesh(window, panel, qtbot, mesh_file):

@@ -1,14 +1,16 @@
 """The smoothing panel's requests and states."""
 
-from dataclasses import dataclass
-
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QScrollArea
+from PySide6.QtWidgets import QComboBox, QLabel, QScrollArea
 
-from hexmend.parameters import Parametrised, declared, parameter
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
+from hexmend_app.state.order import Order
+from hexmend_app.widgets.section import Section
 
 _LEFT = Qt.MouseButton.LeftButton
 _STATES = ("idle", "preparing", "running", "paused", "finished")
@@ -19,40 +21,21 @@ _SIGNALS = (
     "resume_requested",
     "stop_requested",
     "reset_requested",
-    "method_changed",
 )
-
-
-@dataclass(frozen=True)
-class Blend(Parametrised):
-    """Parameters of a method."""
-
-    rho: float = parameter(0.5, low=0, high=1, help="Share of the new place.")
-
-
-@dataclass(frozen=True)
-class Limit(Parametrised):
-    """Stop conditions."""
-
-    max_iterations: int = parameter(300, low=0, high=1000, help="Most iterations.")
-
-
-@dataclass(frozen=True)
-class Plain(Parametrised):
-    """A method without parameters."""
-
-
-_METHODS = (
-    ("blend", "Blending", "Blends.", "Paper 1", declared(Blend)),
-    ("plain", "Plain method", "Does it plainly.", "Paper 2", declared(Plain)),
-)
+_STAGE = Stage(METHODS["getme"](scaling=0.25), Stop(max_iterations=7))
 
 
 @pytest.fixture
-def panel(shown):
-    widget = SmoothingPanel(declared(Limit))
-    widget.set_methods(_METHODS)
-    return shown(widget, 360, 700)
+def order(qapp):
+    """What the panel sets: the method GETMe, scaling 0.25."""
+    order = Order()
+    order.choose(_STAGE)
+    return order
+
+
+@pytest.fixture
+def panel(shown, order):
+    return shown(SmoothingPanel(order), 360, 700)
 
 
 @pytest.fixture
@@ -63,17 +46,23 @@ def heard(panel):
     return calls
 
 
+def named(panel, kind, name):
+    """A part of the panel by its accessible name."""
+    return next(one for one in panel.findChildren(kind) if one.accessibleName() == name)
+
+
+def sections(panel):
+    return panel.findChildren(Section)
+
+
 def click(panel, name):
     QTest.mouseClick(panel.buttons.button(name), _LEFT)
 
 
 def test_run_asks_with_what_is_set(panel, heard):
-    panel.form.set_values({"rho": 0.25})
-    panel.stop_form.set_values({"max_iterations": 7})
     click(panel, "run")
     click(panel, "step")
-    expected = ("blend", {"rho": 0.25}, {"max_iterations": 7})
-    assert heard == [("run_requested", *expected), ("step_requested", *expected, 1)]
+    assert heard == [("run_requested", _STAGE), ("step_requested", _STAGE, 1)]
 
 
 def test_the_main_button_runs_pauses_and_resumes(panel, heard):
@@ -92,7 +81,8 @@ def test_a_run_can_be_stopped_exactly_while_there_is_one_and_nothing_is_edited_a
     under_way = state in ("preparing", "running", "paused")
     click(panel, "stop")
     assert heard == ([("stop_requested",)] if under_way else [])
-    assert panel.form.isEnabled() is panel.stop_form.isEnabled() is panel._method.isEnabled()
+    method = named(panel, QComboBox, "Method")
+    assert panel.form.isEnabled() is panel.stop_form.isEnabled() is method.isEnabled()
     assert panel.form.isEnabled() is (state == "paused" or not under_way)
 
 
@@ -103,58 +93,67 @@ def test_reset_is_offered_once_there_is_something_to_reset(panel, heard):
     assert heard == [("reset_requested",)] * 2
 
 
-def test_keys_choose_a_method_and_each_keeps_its_values(panel, heard):
-    panel.form.set_values({"rho": 0.25})
-    panel._method.setFocus()
-    QTest.keyClick(panel._method, Qt.Key.Key_Down)
-    assert heard == [("method_changed", "plain")]
-    assert panel.method() == "plain"
-    assert panel._help.text().startswith("Does it plainly.")
-    assert panel.form.values() == {}
-    QTest.keyClick(panel._method, Qt.Key.Key_Up)
-    assert panel.form.values() == {"rho": 0.25}
+def test_keys_choose_a_method_and_each_keeps_its_values(panel, order):
+    method = named(panel, QComboBox, "Method")
+    method.setFocus()
+    QTest.keyClick(method, Qt.Key.Key_Down)
+    assert order.method == "getme-sequential"
+    assert order.stage.smoother == METHODS["getme-sequential"]()
+    assert METHODS["getme-sequential"].help in "".join(label.text() for label in panel.findChildren(QLabel))
+    QTest.keyClick(method, Qt.Key.Key_Up)
+    assert panel.form.values()["scaling"] == 0.25
+    assert order.stage == _STAGE
 
 
-def test_setting_a_method_is_silent(panel, heard):
-    panel.set_method("plain")
-    panel.set_method("blend", {"rho": 0.75})
+def test_what_somebody_else_chooses_is_shown(panel, order, heard):
+    order.choose(Stage(METHODS["laplacian"](), Stop(max_iterations=3)))
+    assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
+    assert panel.stop_form.values()["max_iterations"] == 3
     assert heard == []
-    assert panel.form.values() == {"rho": 0.75}
-    with pytest.raises(KeyError):
-        panel.set_method("unknown")
-    assert panel.method() == "blend"
+    click(panel, "run")
+    assert heard == [("run_requested", order.stage)]
 
 
-def test_a_wrong_value_is_led_to_instead_of_run_with(panel, heard):
-    panel._sections[0].expand()
-    editor = panel.form.editor("rho")
+def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, order):
+    changes = []
+    panel.change_requested.connect(changes.append)
+    order.begun = order.stage
+    panel.set_state("paused")
+    click(panel, "run")
+    assert changes == []
+    panel.form.editor("scaling").setFocus()
+    panel.form.editor("scaling").stepUp()
+    click(panel, "run")
+    assert changes == [order.stage]
+    assert order.stage.smoother.scaling > 0.25
+
+
+def test_a_wrong_value_is_led_to_instead_of_run_with(panel, order, heard):
+    parameters = sections(panel)[0]
+    parameters.expand()
+    editor = panel.form.editor("scaling")
     editor.lineEdit().setFocus()
     editor.lineEdit().selectAll()
-    QTest.keyClicks(editor.lineEdit(), "7")
-    panel._sections[0].collapse()
+    QTest.keyClicks(editor.lineEdit(), "-7")
+    assert order.stage is None
+    assert order.smoother is None
+    parameters.collapse()
     panel.buttons.button("run").setFocus()
     click(panel, "run")
     click(panel, "step")
     assert heard == []
-    assert "Correct" in panel._sentence.text()
+    assert "Correct" in named(panel, QLabel, "Outcome").text()
     assert editor.isVisible()
     assert editor.hasFocus()
 
 
-def test_without_methods_nothing_can_be_asked_for(shown):
-    panel = shown(SmoothingPanel(declared(Limit)))
-    assert not any(panel.buttons.button(name).isEnabled() for name in ("run", "step", "stop", "reset"))
-    panel.run_or_pause()
-    panel.step()
-
-
-def test_status_says_how_far_it_is_and_wraps_the_outcome(panel):
+def test_status_says_how_far_it_is_and_wraps_the_outcome(panel, qtbot):
     panel.set_status(12, 1.839, "Converged: no node moved further than the tolerance. " * 3)
-    assert panel._progress.text().split("·")[0].strip() == "12 iterations"
-    assert "1.84 s" in panel._progress.text()
-    QTest.qWait(10)
-    assert panel._sentence.height() > 2 * panel._sentence.fontMetrics().height()
-    assert panel._sentence.width() <= panel.width()
+    progress, sentence = named(panel, QLabel, "Progress"), named(panel, QLabel, "Outcome")
+    assert progress.text().split("·")[0].strip() == "12 iterations"
+    assert "1.84 s" in progress.text()
+    qtbot.waitUntil(lambda: sentence.height() > 2 * sentence.fontMetrics().height())
+    assert sentence.width() <= panel.width()
 
 
 def test_shortcuts_are_told_in_the_tooltips_in_every_state(panel):
@@ -165,23 +164,22 @@ def test_shortcuts_are_told_in_the_tooltips_in_every_state(panel):
         assert "(Ctrl+R)" in panel.buttons.button("reset").toolTip()
 
 
-@pytest.mark.parametrize(("height", "opened"), [(900, True), (220, False)])
-def test_parameters_are_unfolded_where_there_is_room(shown, height, opened):
-    panel = SmoothingPanel(declared(Limit))
-    panel.set_methods(_METHODS)
+@pytest.mark.parametrize(("height", "opened"), [(1200, True), (220, False)])
+def test_parameters_are_unfolded_where_there_is_room(shown, order, height, opened):
+    panel = SmoothingPanel(order)
     area = QScrollArea()
     area.setWidget(panel)
     area.setWidgetResizable(True)
     shown(area, 380, height)
-    assert panel._sections[0].isExpanded() is opened
-    assert panel.form.editor("rho").isVisible() is opened
+    assert sections(panel)[0].isExpanded() is opened
+    assert panel.form.editor("scaling").isVisible() is opened
 
 
 def test_a_folded_section_is_not_walked_through_and_opens_by_key(panel):
-    section = panel._sections[0]
+    section = sections(panel)[0]
     section.collapse()
     assert not panel.form.isVisible()
     section.toggleButton().setFocus()
     QTest.keyClick(section.toggleButton(), Qt.Key.Key_Space)
     assert panel.form.isVisible()
-    assert panel.form.editor("rho").height() > 15
+    assert panel.form.editor("scaling").height() > 15

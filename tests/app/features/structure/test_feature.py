@@ -42,7 +42,7 @@ def panel(qtbot):
 def five(window, qtbot, tmp_path):
     """The window with a mesh of five blocks in it."""
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500))
-    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "five.vtu")
     return window
 
@@ -172,18 +172,18 @@ def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five,
 
 def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
-    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "five.vtu")
-    press(window.structure_panel._layers["irregular"].box)
+    press(window.features["structure"].panel._layers["irregular"].box)
     marks = window.canvas.viewport._structure._irregular_inside
     before = np.array(marks._poly.points)
-    start = window.document.now
-    window.smoothing_panel.set_method("laplacian")
+    start = window.session.document.now
+    window.features["smooth"].panel.set_method("laplacian")
     click(window, "Step")
-    qtbot.waitUntil(lambda: window.document.now is not start, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
     now = np.array(marks._poly.points)
     assert not np.array_equal(now, before)
-    np.testing.assert_array_equal(now, window.document.now.mesh.points[marks._nodes])
+    np.testing.assert_array_equal(now, window.session.document.now.mesh.points[marks._nodes])
 
 
 def test_a_pinned_node_changes_its_colour(five, qtbot):
@@ -208,13 +208,13 @@ def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
     points = mesh.points.copy()
     points[15] += [-1.5, 0, 0]
     io.write(tmp_path / "locked.vtu", Mesh(points, mesh.hexes))
-    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "locked.vtu")
     QTest.keyClick(window.windowHandle(), KEYS["locked"])
     assert count(pixels(window), LOCKED) > 20
     from PIL import Image
 
-    assert window.saving.picture(tmp_path / "locked.png", (640, 480))
+    assert window.features["save"].picture(tmp_path / "locked.png", (640, 480))
     image = np.asarray(Image.open(tmp_path / "locked.png").convert("RGB")).astype(int)
     assert count(image, LOCKED) > 20
 
@@ -239,29 +239,29 @@ def test_nothing_is_cut_off(five, qtbot, size):
 
 def begin_searching(window):
     """Not waited for: a small mesh's search may be over between two looks at it."""
-    window.finder._soon.stop()
-    window.finder._begin()
-    assert window.finder._finding is not None
+    window.session.finder._soon.stop()
+    window.session.finder._begin()
+    assert window.session.finder._finding is not None
 
 
 @pytest.mark.parametrize("searching", [False, True])
 def test_closing_before_it_is_found_leaves_no_thread(window, qtbot, mesh_file, searching):
-    if window.finder.structure is None:
-        qtbot.waitSignal(window.finder.found, timeout=PATIENCE).wait()
-    window.document.replace(window.document.start, mesh_file)
+    if window.session.finder.structure is None:
+        qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE).wait()
+    window.session.document.replace(window.session.document.start, mesh_file)
     if searching:
         begin_searching(window)
     window.close()
     qtbot.wait(150)
-    assert window.finder._finding is None
-    assert window.finder.structure is None
+    assert window.session.finder._finding is None
+    assert window.session.finder.structure is None
 
 
 def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(window, qtbot):
     first, last = State.of(gallery.make("five-side", size=30_000)), State.of(grid(2))
-    window.document.replace(first, None)
+    window.session.document.replace(first, None)
     begin_searching(window)
-    window.document.replace(last, None)
-    with qtbot.waitSignal(window.finder.found, timeout=PATIENCE):
+    window.session.document.replace(last, None)
+    with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
         pass
-    assert len(window.finder.structure.sharp) == 24
+    assert len(window.session.finder.structure.sharp) == 24

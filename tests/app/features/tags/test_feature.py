@@ -15,9 +15,9 @@ from tests.patience import PATIENCE
 
 @pytest.fixture
 def panel(window, qtbot):
-    window.docks["tags"].raise_()
+    window.show_panel("tags")
     qtbot.wait(50)
-    return window.tag_panel
+    return window.features["tags"].panel
 
 
 def press(panel, text):
@@ -32,32 +32,34 @@ def listed(panel):
 
 
 def seen(window):
-    return [label.text() for label in window.element_panel.findChildren(QLabel)]
+    return [label.text() for label in window.features["inspect"].panel.findChildren(QLabel)]
 
 
 def tags(window):
-    return {name: members.tolist() for name, members in window.document.now.mesh.hex_sets.items()}
+    return {name: members.tolist() for name, members in window.session.document.now.mesh.hex_sets.items()}
 
 
 def test_an_element_is_tagged_by_key_and_the_tag_taken_away_undone_and_saved(window, panel, tmp_path):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
     assert tags(window) == {}
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_N)
-    first = window.selection.hex
+    first = window.session.selection.hex
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_N)
-    second = window.selection.hex
+    second = window.session.selection.hex
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
     assert tags(window) == {"tagged": sorted([first, second])}
-    assert listed(panel) == [["tagged", "2", "2", f"{window.document.now.figures.q[[first, second]].min():.4f}"]]
+    assert listed(panel) == [
+        ["tagged", "2", "2", f"{window.session.document.now.figures.q[[first, second]].min():.4f}"]
+    ]
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
     assert tags(window) == {"tagged": [first]}
     assert f"Element {second:,}" in seen(window)
-    window.commands.undo()
+    window.session.commands.undo()
     assert tags(window) == {"tagged": sorted([first, second])}
     assert f"Element {second:,}: tagged" in seen(window)
-    assert window.document.redo_title == "untag"
-    assert window.saving.mesh(tmp_path / "tagged.vtk")
+    assert window.session.document.redo_title == "untag"
+    assert window.features["save"].mesh(tmp_path / "tagged.vtk")
     kept = io.read(tmp_path / "tagged.vtk")
     assert kept.hex_sets["tagged"].tolist() == sorted([first, second])
 
@@ -66,24 +68,24 @@ def test_what_is_shown_or_listed_is_tagged_under_a_name_and_isolated(window, pan
     name = panel.findChild(QComboBox)
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "bad ones")
-    window.view.change(peel=2)
+    window.session.view.change(peel=2)
     press(panel, "Shown")
-    layers = window.document.now.mesh.topology.layers
+    layers = window.session.document.now.mesh.topology.layers
     assert tags(window) == {"bad ones": np.flatnonzero(layers >= 2).tolist()}
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "worst")
     press(panel, "Worst")
-    assert tags(window)["worst"] == sorted(window.worst_list.elements.tolist())
+    assert tags(window)["worst"] == sorted(window.features["inspect"].worst_list.elements.tolist())
     table = panel.findChild(QTableWidget)
     QTest.mouseClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(1, 0)).center())
     press(panel, "Isolate")
-    assert sorted(window.view.look.isolation.hexes) == tags(window)["worst"]
+    assert sorted(window.session.view.look.isolation.hexes) == tags(window)["worst"]
     press(panel, "Remove")
     assert list(tags(window)) == ["bad ones"]
 
 
 def test_a_name_that_is_typed_stays_as_it_is_and_is_no_tag_yet(window, panel):
-    window.commands.tag("Tagged", [1])
+    window.session.commands.tag("Tagged", [1])
     name = panel.findChild(QComboBox)
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "tagged")
@@ -93,8 +95,8 @@ def test_a_name_that_is_typed_stays_as_it_is_and_is_no_tag_yet(window, panel):
 
 
 def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, panel, qtbot):
-    window.commands.tag("one", [1, 2])
-    window.commands.tag("two", [3])
+    window.session.commands.tag("one", [1, 2])
+    window.session.commands.tag("two", [3])
     table = panel.findChild(QTableWidget)
 
     def write(row, text):
@@ -114,20 +116,20 @@ def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, pan
 
 
 def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot):
-    window.commands.tag("kept", [5])
-    window.smoothing_panel.set_method("laplacian")
-    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):
+    window.session.commands.tag("kept", [5])
+    window.features["smooth"].panel.set_method("laplacian")
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     assert tags(window) == {"kept": [5]}
-    window.commands.tag("later", [6])
-    window.commands.reset()
+    window.session.commands.tag("later", [6])
+    window.session.commands.reset()
     assert tags(window) == {"kept": [5], "later": [6]}
-    np.testing.assert_array_equal(window.document.now.mesh.points, window.document.start.mesh.points)
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
 
 
 def test_a_format_that_cannot_hold_tags_is_said(window, panel, tmp_path):
-    window.commands.tag("lost", [5])
-    assert window.saving.mesh(tmp_path / "mesh.mesh")
+    window.session.commands.tag("lost", [5])
+    assert window.features["save"].mesh(tmp_path / "mesh.mesh")
     kind, title, text = window.messages.messages()[-1]
     assert (kind, title) == ("warning", "The tags are not in it")
     assert "lost" in text

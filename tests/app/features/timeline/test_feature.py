@@ -24,7 +24,7 @@ def key(window, key, modifier=Qt.KeyboardModifier.NoModifier):
 
 def stepped(window, qtbot, iterations=12, method="local-sd"):
     """Make so many iterations by the Step button, and hold."""
-    panel = window.smoothing_panel
+    panel = window.features["smooth"].panel
     panel.set_method(method)
     panel.stop_form.set_values(ENDLESS)
     box = next(b for b in panel.findChildren(QSpinBox) if b.accessibleName() == "Iterations of a step")
@@ -33,18 +33,18 @@ def stepped(window, qtbot, iterations=12, method="local-sd"):
     QTest.keyClicks(box, str(iterations))
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    return window.smoothing.record
+    return window.session.smoothing.record
 
 
 def press(window, name):
-    button = window.timeline_bar.button(name)
+    button = window.features["timeline"].panel.button(name)
     assert button.isEnabled()
     QTest.mouseClick(button, LEFT)
 
 
 def slider_place(window, number):
     """Where a number stands on the slider."""
-    slider = window.timeline_bar._slider
+    slider = window.features["timeline"].panel._slider
     return QPoint(slider._x(number, slider._groove()), slider.height() // 2)
 
 
@@ -53,30 +53,30 @@ def at(window, number):
 
 
 def check(window, text):
-    box = next(b for b in window.smoothing_panel.breakpoint_form.findChildren(QCheckBox) if b.text() == text)
+    box = next(b for b in window.features["smooth"].panel.breakpoint_form.findChildren(QCheckBox) if b.text() == text)
     QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
     assert box.isChecked()
 
 
 def test_the_bar_waits_for_a_run(window):
-    bar = window.timeline_bar
+    bar = window.features["timeline"].panel
     assert bar.isVisible()
     assert not any(bar.button(name).isEnabled() for name in ("first", "back", "play", "on", "newest", "branch"))
-    assert not window.actions_by_id["iteration_play"].isEnabled()
+    assert not window.actions["iteration_play"].isEnabled()
 
 
 def test_everything_follows_the_slider(window, qtbot):
     record = stepped(window, qtbot)
-    slider = window.timeline_bar._slider
-    newest, picture = window.document.now, pixels(window)
+    slider = window.features["timeline"].panel._slider
+    newest, picture = window.session.document.now, pixels(window)
     drag(slider, slider_place(window, 12), slider_place(window, 3))
     qtbot.waitUntil(at(window, 3), timeout=2000)
-    state = window.document.now
+    state = window.session.document.now
     assert state.summary.q_mean == pytest.approx(record.rows[3]["q_mean"], abs=1e-6)
     assert state.summary.inverted == record.rows[3]["inverted"]
     assert np.abs(pixels(window) - picture).max() > 50
     assert window.counts.text().endswith(f"{state.summary.inverted:,} inverted")
-    assert state.figures.inverted[window.worst_list.elements[0]]
+    assert state.figures.inverted[window.features["inspect"].worst_list.elements[0]]
     assert state is not newest
 
 
@@ -91,7 +91,7 @@ def test_keys_go_back_and_on_and_to_the_ends(window, qtbot):
         assert at(window, number)()
     key(window, Qt.Key.Key_Home, Qt.KeyboardModifier.AltModifier)
     assert at(window, 0)()
-    assert not window.timeline_bar.button("back").isEnabled()
+    assert not window.features["timeline"].panel.button("back").isEnabled()
     key(window, Qt.Key.Key_End, Qt.KeyboardModifier.AltModifier)
     assert at(window, 12)()
     assert window.session.timeline.live
@@ -103,7 +103,7 @@ def test_buttons_and_playing(window, qtbot):
     press(window, "first")
     assert at(window, 0)()
     press(window, "play")
-    assert window.timeline_bar.button("play").accessibleName() == "Hold"
+    assert window.features["timeline"].panel.button("play").accessibleName() == "Hold"
     qtbot.waitUntil(lambda: not window.session.timeline.playing, timeout=10_000)
     assert at(window, 12)()
     press(window, "back")
@@ -117,16 +117,16 @@ def test_buttons_and_playing(window, qtbot):
 
 def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
     first = stepped(window, qtbot)
-    QTest.mouseClick(window.timeline_bar._slider, LEFT, pos=slider_place(window, 4))
+    QTest.mouseClick(window.features["timeline"].panel._slider, LEFT, pos=slider_place(window, 4))
     qtbot.waitUntil(at(window, 4), timeout=2000)
-    window.smoothing_panel.stop_form.set_values({"max_iterations": 3})
-    window.smoothing_panel.set_method("laplacian")
-    with qtbot.waitSignal(window.smoothing.ended, timeout=PATIENCE):  # of the run that is left
+    window.features["smooth"].panel.stop_form.set_values({"max_iterations": 3})
+    window.features["smooth"].panel.set_method("laplacian")
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):  # of the run that is left
         key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    second = window.smoothing.record
+    second = window.session.smoothing.record
     assert (second.name, second.parent.record, second.parent.number, second.newest) == ("laplacian", first, 4, 3)
-    runs = window.timeline_bar._runs
+    runs = window.features["timeline"].panel._runs
     assert [runs.itemText(i) for i in range(runs.count())] == ["local-sd", "laplacian"]
     assert runs.currentText() == "laplacian"
     runs.setFocus()
@@ -134,61 +134,61 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
     assert window.session.timeline.record is first
     assert at(window, 12)()
     for title in ("Laplacian", "Local steepest descent"):
-        assert window.document.undo_title == title
+        assert window.session.document.undo_title == title
         key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
-    assert window.document.now is window.document.start
+    assert window.session.document.now is window.session.document.start
 
 
 def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
-    window.smoothing_panel.show_break_points()
+    window.features["smooth"].panel.show_break_points()
     check(window, "An element inverts")
-    window.smoothing_panel.set_method("laplacian")
-    window.smoothing_panel.stop_form.set_values(ENDLESS)
-    with qtbot.waitSignal(window.smoothing.hit, timeout=PATIENCE) as hit:
+    window.features["smooth"].panel.set_method("laplacian")
+    window.features["smooth"].panel.stop_form.set_values(ENDLESS)
+    with qtbot.waitSignal(window.session.smoothing.hit, timeout=PATIENCE) as hit:
         click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
     frame = hit.args[0]
-    assert window.selection.hex == frame.hit.hexes[0]
-    assert window.smoothing_panel._sentence.text() == f"Paused at a break-point: {frame.hit.sentence}."
+    assert window.session.selection.hex == frame.hit.hexes[0]
+    assert window.features["smooth"].panel._sentence.text() == f"Paused at a break-point: {frame.hit.sentence}."
     assert at(window, frame.iteration.number)()
-    assert frame.hit.sentence in window.timeline_bar._slider.toolTip()
+    assert frame.hit.sentence in window.features["timeline"].panel._slider.toolTip()
 
 
 @pytest.mark.parametrize(
     ("text", "method", "chooses"), [("Node", "laplacian", True), ("Line search cuts more than", "global-sd", False)]
 )
 def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
-    window.smoothing_panel.show_break_points()
-    mesh = window.document.now.mesh
+    window.features["smooth"].panel.show_break_points()
+    mesh = window.session.document.now.mesh
     node = int(np.flatnonzero(mesh.free)[100])
-    window.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
+    window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
     check(window, text)  # a node is taken from the selection
-    form = window.smoothing_panel.breakpoint_form
+    form = window.features["smooth"].panel.breakpoint_form
     form._move.setValue(0.001)
     form._cuts.setValue(0)
-    window.selection.choose(None)
-    window.smoothing_panel.set_method(method)
-    with qtbot.waitSignal(window.smoothing.hit, timeout=PATIENCE) as hit:
+    window.session.selection.choose(None)
+    window.features["smooth"].panel.set_method(method)
+    with qtbot.waitSignal(window.session.smoothing.hit, timeout=PATIENCE) as hit:
         click(window, "Run")
-    assert hit.args[0].hit.sentence in window.smoothing_panel._sentence.text()
-    assert window.selection.node == (node if chooses else None)
+    assert hit.args[0].hit.sentence in window.features["smooth"].panel._sentence.text()
+    assert window.session.selection.node == (node if chooses else None)
 
 
 def test_what_is_saved_is_the_iteration_shown(window, qtbot, tmp_path):
     from hexmend import io
 
     record = stepped(window, qtbot)
-    with qtbot.waitSignal(window.smoothing.ended, timeout=5000):
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=5000):
         click(window, "Stop")
-    QTest.mouseClick(window.timeline_bar._slider, LEFT, pos=slider_place(window, 5))
+    QTest.mouseClick(window.features["timeline"].panel._slider, LEFT, pos=slider_place(window, 5))
     qtbot.waitUntil(at(window, 5), timeout=2000)
     path = Path(tmp_path) / "five.vtu"
-    assert window.saving.mesh(path)
-    np.testing.assert_array_equal(io.read(path).points, window.document.now.mesh.points)
-    assert not window.document.modified
-    assert window.document.undo_title == f"go to {record.name} 5"
-    window.document.undo()
-    assert window.document.modified
+    assert window.features["save"].mesh(path)
+    np.testing.assert_array_equal(io.read(path).points, window.session.document.now.mesh.points)
+    assert not window.session.document.modified
+    assert window.session.document.undo_title == f"go to {record.name} 5"
+    window.session.document.undo()
+    assert window.session.document.modified
     assert at(window, 12)()
 
 
@@ -196,32 +196,32 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     record = stepped(window, qtbot)
     each = (window.session.history.bytes) // 12
     window.session.history.limit = 4 * each
-    menu = window.timeline_bar._more.menu()
+    menu = window.features["timeline"].panel._more.menu()
     choices = {action.text(): action for action in menu.actions()}
     choices["128 MB"].trigger()
     choices["30 iterations"].trigger()
     assert window.session.history.limit == 128 << 20
     assert window.session.timeline.speed == 30
     assert (QSettings().value("history_megabytes"), QSettings().value("iterations_played")) == (128, 30)
-    assert "Positions are kept of 5 of them" in window.timeline_bar._slider.toolTip()
+    assert "Positions are kept of 5 of them" in window.features["timeline"].panel._slider.toolTip()
     assert not choices["Forget this run"].isEnabled()  # it is under way
-    with qtbot.waitSignal(window.smoothing.ended, timeout=5000):
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=5000):
         click(window, "Stop")
     choices["Forget this run"].trigger()
     assert record not in window.session.history.records
-    assert not window.actions_by_id["iteration_play"].isEnabled()
+    assert not window.actions["iteration_play"].isEnabled()
 
 
 def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
     stepped(window, qtbot)
     open_and_wait(qtbot, window, mesh_file)
-    assert window.timeline_bar._runs.count() == 0
-    assert not window.timeline_bar.button("play").isEnabled()
+    assert window.features["timeline"].panel._runs.count() == 0
+    assert not window.features["timeline"].panel.button("play").isEnabled()
 
 
 def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbot):
     record = stepped(window, qtbot, 4)
-    panel = window.smoothing_panel
+    panel = window.features["smooth"].panel
     click(window, "Step")
     qtbot.waitUntil(at(window, 8), timeout=5000)
     method = panel._method
@@ -234,19 +234,19 @@ def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbo
     assert [row["method"] for row in record.rows[1:]] == ["local-sd"] * 8 + ["laplacian"] * 4
     panel.stop_form.set_values({"max_iterations": 15})
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
-    with qtbot.waitSignal(window.smoothing.ended, timeout=5000) as ended:
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=5000) as ended:
         click(window, "Resume")
     assert ended.args[0].iterations == 15
     assert "After iteration 8" in panel._sentence.text()
     assert "After iteration 12" in panel._sentence.text()
-    assert window.document.undo_title == "Local steepest descent"
-    window.document.undo()
-    assert window.document.now is window.document.start
+    assert window.session.document.undo_title == "Local steepest descent"
+    window.session.document.undo()
+    assert window.session.document.now is window.session.document.start
 
 
 def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot):
     record = stepped(window, qtbot, 3, "local-nr")
-    with qtbot.assertNotEmitted(window.smoothing_panel.change_requested):
+    with qtbot.assertNotEmitted(window.features["smooth"].panel.change_requested):
         click(window, "Step")
         qtbot.waitUntil(at(window, 6), timeout=5000)
     assert {row["method"] for row in record.rows} == {"local-nr"}
@@ -259,9 +259,9 @@ def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkey
     path = tmp_path / f"run{suffix}"
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
     shown = window.session.timeline.moment
-    window.actions_by_id["film"].trigger()
+    window.actions["film"].trigger()
     assert "Drawing frame 1 of 6" in window.busy.text()
-    qtbot.waitUntil(lambda: not window.filming.going_on, timeout=60_000)
+    qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=60_000)
     assert "6 frames" in " ".join(window.messages.messages()[-1])
     with Image.open(path) as film:
         assert (film.n_frames, film.width) == (record.newest + 1, WIDTH)
@@ -279,32 +279,32 @@ def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path
     stepped(window, qtbot, 5)
     path = tmp_path / "run.gif"
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
-    window.actions_by_id["film"].trigger()
+    window.actions["film"].trigger()
     cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
     QTest.mouseClick(cancel, LEFT)
-    assert not window.filming.going_on
+    assert not window.features["film"].going_on
     qtbot.wait(100)
     assert list(tmp_path.glob("*.gif")) == []
     path = tmp_path / "run.avi"
-    window.actions_by_id["film"].trigger()
-    assert not window.filming.going_on
+    window.actions["film"].trigger()
+    assert not window.features["film"].going_on
     assert ".gif, .png, .webp" in " ".join(window.messages.messages()[-1])
 
 
 def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(window, qtbot):
     stepped(window, qtbot, 6)
-    QTest.mouseClick(window.timeline_bar._slider, LEFT, pos=slider_place(window, 2))
+    QTest.mouseClick(window.features["timeline"].panel._slider, LEFT, pos=slider_place(window, 2))
     qtbot.waitUntil(at(window, 2), timeout=2000)
-    kept = window.document.now
+    kept = window.session.document.now
     key(window, Qt.Key.Key_V)
     key(window, Qt.Key.Key_V)
     key(window, Qt.Key.Key_Period)
     (shown,) = window.session.views.all
     assert (shown.name, shown.state) == ("local-sd 2", kept)
-    assert window.document.now is not kept
+    assert window.session.document.now is not kept
     for _ in range(2):
-        assert window.actions_by_id["iteration_beside"].isEnabled()
+        assert window.actions["beside"].isEnabled()
         key(window, Qt.Key.Key_V)
         key(window, Qt.Key.Key_Period)
     assert [one.name for one in window.session.views.all] == ["local-sd 2", "local-sd 3", "local-sd 4"]
-    assert not window.actions_by_id["iteration_beside"].isEnabled()
+    assert not window.actions["beside"].isEnabled()

@@ -1,0 +1,151 @@
+"""Cutting the mesh open: planes, a box, layers peeled off, hexes isolated or dug away."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.features.cut.clip_panel import ClipPanel
+from hexmend_app.features.cut.inside_panel import InsidePanel
+
+if TYPE_CHECKING:
+    from hexmend_app.canvas.canvas import Canvas
+
+
+class FeatureCut(Feature):
+    """Carries cuts from panels and from the view's handles to the look, and back."""
+
+    order = 52
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        view = self._view = self.session.view
+        self._canvas: Canvas | None = None
+        self._seen = Seen()
+        self.panel = ClipPanel()
+        self.panel.clip_changed.connect(view.set_clip)
+        self.panel.plane_chosen.connect(view.choose_plane)
+        self.panel.handles_changed.connect(view.set_handles)
+        self.panel.snap_changed.connect(view.set_snap)
+        self.inside = InsidePanel()
+        self.inside.peel_changed.connect(lambda layers: view.change(peel=layers))
+        self.inside.shrink_changed.connect(lambda share: view.change(shrink=share))
+        self.inside.outline_changed.connect(lambda on: view.change(outline=on))
+        self.inside.rings_changed.connect(view.set_rings)
+        self.inside.all_requested.connect(view.end_isolation)
+        self.inside.undo_requested.connect(view.undig_last)
+        self.inside.put_back_requested.connect(view.undig_all)
+
+    def actions(self) -> Sequence[Action]:
+        """Cut, isolate, dig."""
+        view, selection = self._view, self.session.selection
+        return (
+            Action(
+                id="cut",
+                text="&Cut",
+                menu="View",
+                part=1,
+                keys="C",
+                icon="box-cutter",
+                help="Cut the mesh open along planes or a box.",
+                tool="Cut",
+                handle=self._switch,
+                checked=lambda: view.look.clip is not None,
+                in_view=True,
+            ),
+            Action(
+                id="isolate",
+                text="&Isolate the hex",
+                menu="Hex",
+                part=1,
+                keys="I",
+                help="Show nothing but the chosen hex and its neighbours.",
+                handle=lambda: view.isolate((selection.hex,)),
+                enabled=lambda: selection.hex is not None,
+                in_view=True,
+            ),
+            Action(
+                id="dig",
+                text="&Dig the hex away",
+                menu="Hex",
+                part=1,
+                keys="Delete",
+                help="Hide the chosen hex and look behind it; Ctrl and a click in the view does the same.",
+                handle=lambda: self._dig(selection.hex),
+                enabled=lambda: selection.hex is not None,
+                in_view=True,
+            ),
+            Action(
+                id="undig",
+                text="&Undo digging",
+                menu="Hex",
+                part=1,
+                keys="Backspace",
+                help="Show the hex again that was dug away last.",
+                handle=view.undig_last,
+                enabled=lambda: bool(view.look.dug),
+                in_view=True,
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """The cut, and below it what else opens the mesh."""
+        return (
+            Panel(
+                id="cut",
+                title="Cut",
+                widget=self.panel,
+                place=Place.TOOLS,
+                tab="Cut",
+                order=30,
+                help="Planes or a box that cut the mesh open.",
+            ),
+            Panel(
+                id="inside",
+                title="Inside",
+                widget=self.inside,
+                place=Place.TOOLS,
+                tab="Cut",
+                order=31,
+                help="Layers peeled off, hexes shrunk, isolated or dug away.",
+            ),
+        )
+
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Take what is dragged and dug in the view."""
+        self._canvas = canvas
+        canvas.plane_dragged.connect(self._view.drag_plane)
+        canvas.box_dragged.connect(self._view.drag_box)
+        canvas.dug.connect(self._dig)
+
+    def refresh(self) -> None:
+        """Show the cut as it is now."""
+        document, view = self.session.document, self._view
+        for panel in (self.panel, self.inside):
+            panel.setEnabled(document.is_open)
+        if not document.is_open:
+            return
+        if self._seen.another("mesh", document.start):
+            mesh = document.now.mesh
+            self.inside.set_layers(int(mesh.topology.layers.max()))
+            points = mesh.points[mesh.topology.used]
+            low, high = points.min(axis=0), points.max(axis=0)
+            self.panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
+        if self._seen.another("clip", document.start, view.look.clip, view.plane_at, view.handles):
+            self.panel.set_clip(view.look.clip, view.plane_at)
+            self.panel.set_handles(view.handles)
+        self.inside.set_look(view.look, view.rings)
+        if self._canvas is not None:
+            self.inside.set_shown(self._canvas.viewport.shown, document.now.mesh.n_hexes)
+
+    def _switch(self, on: bool) -> None:
+        if on != (self._view.look.clip is not None):
+            self._view.set_clip(self.panel.proposal() if on else None)
+            if on:
+                self.host.show_panel("cut")
+
+    def _dig(self, h: int) -> None:
+        if h == self.session.selection.hex:
+            self.session.selection.choose(None)
+        self._view.dig(h)

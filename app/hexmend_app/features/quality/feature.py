@@ -1,0 +1,38 @@
+"""The mesh's quality in figures, now beside what it was when it was opened."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hexmend_app.feature import Feature, Host, Panel, Place, Seen
+from hexmend_app.features.quality.statistics import StatisticsTable
+
+
+class FeatureQuality(Feature):
+    """Shows the summary of the mesh as it is, beside that of the mesh as it was opened."""
+
+    order = 41
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._seen = Seen()
+        self.panel = StatisticsTable()
+
+    def panels(self) -> Sequence[Panel]:
+        """The table."""
+        return (
+            Panel(
+                id="quality",
+                title="Quality",
+                widget=self.panel,
+                place=Place.FACTS,
+                order=20,
+                help="The mesh's quality in figures, now and as it was opened.",
+            ),
+        )
+
+    def refresh(self) -> None:
+        """Show the figures as they are now."""
+        document = self.session.document
+        if document.is_open and self._seen.another("figures", document.start, document.now):
+            self.panel.set_summaries(document.start.summary, document.now.summary)

@@ -1,0 +1,168 @@
+"""Smoothing: the method that is chosen, and the run that goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hexmend.recipe import Recipe
+from hexmend.smoothers import METHODS
+from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
+from hexmend_app.state.run import Frame, Phase
+
+#: Actions whose keys the panel's buttons name.
+_BUTTONS = ("run", "step", "stop", "reset")
+
+
+class FeatureSmooth(Feature):
+    """Starts runs, holds them, and says how far they are."""
+
+    order = 25
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        session = self.session
+        commands, smoothing = session.commands, session.smoothing
+        self._smoothing = smoothing
+        self._seen = Seen()
+        self._hit: Frame | None = None  # the break-point that the run has paused at
+        panel = self.panel = SmoothingPanel(session.order)
+        panel.run_requested.connect(commands.run)
+        panel.step_requested.connect(commands.step)
+        panel.change_requested.connect(smoothing.change)
+        panel.pause_requested.connect(smoothing.pause)
+        panel.resume_requested.connect(smoothing.resume)
+        panel.stop_requested.connect(smoothing.stop)
+        panel.reset_requested.connect(commands.reset)
+        panel.breakpoint_form.changed.connect(smoothing.break_at)
+        smoothing.failed.connect(self._on_failed)
+        smoothing.hit.connect(self._on_hit)
+
+    def actions(self) -> Sequence[Action]:
+        """What the panel's buttons do."""
+        ready = self._ready
+        return (
+            Action(
+                id="run",
+                text="&Run or pause",
+                menu="Smooth",
+                keys="F5",
+                icon="play",
+                help="Run the chosen method, pause it, or go on.",
+                handle=self.panel.run_or_pause,
+                enabled=ready,
+            ),
+            Action(
+                id="step",
+                text="One &step",
+                menu="Smooth",
+                keys="F10",
+                icon="step-forward",
+                help="Make one iteration and hold.",
+                handle=self.panel.step,
+                enabled=ready,
+            ),
+            Action(
+                id="stop",
+                text="S&top",
+                menu="Smooth",
+                keys="Shift+F5",
+                icon="stop",
+                help="End the run and keep what has been reached.",
+                handle=self._smoothing.stop,
+                enabled=lambda: self._smoothing.busy and self._smoothing.phase is not Phase.STOPPING,
+            ),
+            Action(
+                id="reset",
+                text="R&eset",
+                menu="Smooth",
+                keys="Ctrl+R",
+                icon="restore",
+                help="Put all nodes back to where they were when the mesh was opened.",
+                handle=self.session.commands.reset,
+                enabled=ready,
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """The method and its values."""
+        return (
+            Panel(
+                id="run",
+                title="Run",
+                widget=self.panel,
+                place=Place.TOOLS,
+                tab="Run",
+                order=10,
+                help="The method that smooths the mesh, its values and its limits.",
+            ),
+        )
+
+    def refresh(self) -> None:
+        """Say how far the run is, or what the mesh that is shown came of."""
+        session, phase = self.session, self._smoothing.phase
+        if self._seen.another("actions", True):
+            self.panel.set_shortcuts({id: self.host.action(id).shortcut().toString() for id in _BUTTONS})
+        self.panel.setEnabled(self._ready())
+        chosen, form = session.selection, self.panel.breakpoint_form
+        if self._seen.another("chosen", chosen.hex, chosen.node):
+            form.set_chosen(chosen.hex, chosen.node)
+        if session.document.is_open and self._seen.another("mesh", session.document.start):
+            form.set_mesh(session.document.now.mesh.n_hexes, session.document.now.mesh.n_nodes)
+        if phase is not Phase.PAUSED:
+            self._hit = None
+        moved = session.document.is_open and session.document.now is not session.document.start
+        self.panel.set_state("finished" if phase is Phase.IDLE and moved else phase.value)
+        self._show_busy()
+        self.panel.set_status(*self._status())
+
+    def _ready(self) -> bool:
+        return self.session.document.is_open and not self.session.opener.busy
+
+    def _status(self) -> tuple[int | None, float | None, str]:
+        """Iterations, seconds and a sentence on the run that goes on, or on the one that led to what is shown."""
+        phase, record = self._smoothing.phase, self._smoothing.record
+        if phase is Phase.STOPPING:
+            return None, None, "Stopping: the run ends as soon as the method is ready, before its first iteration."
+        if phase is Phase.PREPARING:
+            return None, None, "Preparing the method."
+        if phase in (Phase.RUNNING, Phase.PAUSED):
+            row = record.rows[-1]
+            return row["iteration"], row["seconds"], self._stage(row)
+        moment, why = self.session.timeline.moment, self.session.order.why
+        if moment is None or not moment.number:
+            return None, None, why
+        row = moment.record.rows[moment.number]
+        ended = moment.record.message if moment.number == moment.record.result else ""
+        return row["iteration"], row["seconds"], why or ended
+
+    def _stage(self, row: dict) -> str:
+        if self._hit is not None:
+            return f"Paused at a break-point: {self._hit.hit.sentence}."
+        work = self._smoothing.work
+        if isinstance(work, Recipe) and "stage" in row:
+            return f"Stage {row['stage']} of {len(work.stages)}: {METHODS[row['method']].title}."
+        return ""
+
+    def _show_busy(self) -> None:
+        phase = self._smoothing.phase
+        if not self._seen.another("phase", phase):
+            return
+        if phase is Phase.STOPPING:
+            self.host.busy.show_work("Stopping…")
+        elif phase is Phase.PREPARING:
+            help = "End the run before its first iteration (Shift+F5)."
+            self.host.busy.show_work("Preparing the method…", "Stop", help, self._smoothing.stop)
+        elif not self.session.opener.busy:
+            self.host.busy.done()  # its animation would slow a run that shows itself anyway
+
+    def _on_failed(self, error: Exception) -> None:
+        self.host.messages.show_error("The method failed", f"{error}. The mesh is as it was before the run.")
+
+    def _on_hit(self, frame: Frame) -> None:
+        self._hit, hit = frame, frame.hit
+        if hit.hexes:
+            self.session.selection.choose(hit.hexes[0])
+        elif hit.nodes:
+            around = (self.session.document.now.mesh.hexes == hit.nodes[0]).any(axis=1)
+            self.session.selection.choose(int(around.argmax()), hit.nodes[0])

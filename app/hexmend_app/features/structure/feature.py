@@ -1,0 +1,92 @@
+"""The mesh's structure in the view: irregular and sharp edges, fixed, free and locked nodes."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.features.structure.structure_panel import StructurePanel
+
+#: Text, keys and help of each layer's action, by the names of `Structure`'s fields.
+_LAYERS = {
+    "irregular": (
+        "I&rregular edges inside",
+        "S",
+        "Show the singular edges: those inside the mesh that not four hexes share.",
+    ),
+    "boundary": (
+        "Irregular edges on the &boundary",
+        "B",
+        "Show edges of a smooth boundary that not two hexes share.",
+    ),
+    "sharp": ("S&harp edges", "H", "Show where the boundary has an edge."),
+    "fixed": ("Fixe&d nodes", "X", "Show nodes that no method moves."),
+    "free": ("Free &nodes", "M", "Show nodes that methods may move."),
+    "locked": ("&Locked nodes", "L", "Show the nodes of hexes that fixed nodes alone keep inverted."),
+}
+
+
+class FeatureStructure(Feature):
+    """Switches the layers that show a mesh's structure, and counts what they show."""
+
+    order = 53
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._view = self.session.view
+        self._seen = Seen()
+        self.panel = StructurePanel()
+        self.panel.structure_changed.connect(lambda structure: self._view.change(structure=structure))
+
+    def actions(self) -> Sequence[Action]:
+        """One for each layer."""
+        return [
+            Action(
+                id=f"show_{name}",
+                text=text,
+                menu="View",
+                part=2,
+                keys=keys,
+                help=help,
+                handle=lambda on, name=name: self._switch(name, on),
+                enabled=lambda name=name: self.panel.offered()[name],
+                checked=lambda name=name: getattr(self._view.look.structure, name),
+            )
+            for name, (text, keys, help) in _LAYERS.items()
+        ]
+
+    def panels(self) -> Sequence[Panel]:
+        """The layers, with what their colours mean."""
+        return (
+            Panel(
+                id="show",
+                title="Show",
+                widget=self.panel,
+                place=Place.TOOLS,
+                order=40,
+                help="Edges and nodes that are shown over the mesh.",
+            ),
+        )
+
+    def refresh(self) -> None:
+        """Show what is switched on, and how many there are."""
+        session = self.session
+        self.panel.setEnabled(session.document.is_open)
+        self.panel.set_structure(self._view.look.structure)
+        if not session.document.is_open:
+            return
+        if self._seen.another("found", session.finder.structure, session.document.start):
+            self.panel.set_found(session.finder.structure)
+        now = session.document.now
+        if self._seen.another("counts", now.mesh.pinned, now.summary.free_nodes, now.summary.locked_inverted):
+            mesh, boundary = now.mesh, now.mesh.topology.boundary
+            pinned = 0 if mesh.pinned is None else np.count_nonzero(mesh.pinned & mesh.topology.used & ~boundary)
+            self.panel.set_nodes(
+                np.count_nonzero(boundary), pinned, now.summary.free_nodes, now.summary.locked_inverted
+            )  # fmt: skip
+
+    def _switch(self, layer: str, on: bool) -> None:
+        self._view.change(structure=dataclasses.replace(self._view.look.structure, **{layer: on}))

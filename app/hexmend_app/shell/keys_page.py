@@ -1,0 +1,59 @@
+"""The page of mouse and keys as a window beside the window."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape
+
+from PySide6.QtWidgets import QDialog, QLineEdit, QTextBrowser, QVBoxLayout, QWidget
+
+from hexmend_app.feature import Action
+from hexmend_app.scene.palette import MUTED
+from hexmend_app.shell.keys import tables
+from hexmend_app.widgets.style import dress, explain
+
+
+class KeysPage(QDialog):
+    """Lists every action with its keys; letters typed above leave those that have them.
+
+    Parameters
+    ----------
+    actions : iterable of Action
+    """
+
+    def __init__(self, actions: Iterable[Action], parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setWindowTitle("Mouse and keys")
+        self._tables = tables(actions)
+        self._field = QLineEdit()
+        self._field.setPlaceholderText("Type some letters")
+        self._field.setClearButtonEnabled(True)
+        explain(self._field, "Find", "Leaves what has these letters in its name, its keys or its help.")
+        self._page = QTextBrowser()
+        explain(self._page, "Mouse and keys", "")
+        layout = QVBoxLayout(self)
+        layout.addWidget(self._field)
+        layout.addWidget(self._page)
+        self._field.textChanged.connect(self._fill)
+        dress(self, self._fill)
+        self.resize(640, 620)
+
+    def text(self) -> str:
+        """What is listed, as plain text."""
+        return self._page.toPlainText()
+
+    def _fill(self, *_: object) -> None:
+        wanted = self._field.text().lower().split()
+        parts = []
+        for title, rows in self._tables:
+            kept = [row for row in rows if all(word in " ".join(row).lower() for word in wanted)]
+            if kept:
+                parts.append(f"<tr><td colspan=2><br><b>{escape(title)}</b></td></tr>")
+                parts += [_row(*row) for row in kept]
+        self._page.setHtml(f"<table width='100%' cellspacing=0 cellpadding=2>{''.join(parts)}</table>")
+
+
+def _row(what: str, keys: str, help: str) -> str:
+    about = f"<br><small style='color:{MUTED}'>{escape(help)}</small>" if help else ""
+    shown = escape(keys).replace(" ", "&nbsp;") if len(keys) < 24 else escape(keys)
+    return f"<tr><td>{escape(what)}{about}</td><td align=right><b>{shown}</b></td></tr>"

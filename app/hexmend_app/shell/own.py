@@ -1,0 +1,112 @@
+"""What the window itself can do: show its panels, find every command, list every key, and go."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPoint, Qt
+
+from hexmend_app.feature import Action, Panel
+from hexmend_app.shell.keys_page import KeysPage
+from hexmend_app.shell.palette import CommandPalette
+
+if TYPE_CHECKING:
+    from hexmend_app.shell.window import Window
+
+
+def own_actions(window: Window, panels: Sequence[Panel]) -> list[Action]:
+    """The window's own actions, among them one for each panel that has a tab.
+
+    Parameters
+    ----------
+    window : Window
+    panels : sequence of Panel
+        Of all features.
+    """
+    docks = window.docks
+    with_tabs = {panel.id: panel for panel in panels if panel.id in docks.ids()}
+    return [
+        *(
+            Action(
+                id=f"panel_{id}",
+                text=panel.title,
+                menu="View/Panels",
+                help=panel.help,
+                handle=lambda on, id=id: docks.show_panel(id) if on else docks.close_panel(id),
+                checked=lambda id=id: docks.is_open(id),
+                needs_mesh=False,
+            )
+            for id, panel in with_tabs.items()
+        ),
+        Action(
+            id="panels",
+            text="Show the &view alone",
+            menu="View",
+            part=3,
+            keys="Ctrl+Tab",
+            icon="fullscreen",
+            help="Hide all panels, or bring them back; Tab in the view does the same.",
+            handle=lambda on: docks.set_hidden(on),
+            checked=lambda: docks.hidden,
+            needs_mesh=False,
+            in_view=True,
+        ),
+        Action(
+            id="drawer",
+            text="Panels &below the view",
+            menu="View",
+            part=3,
+            keys="Ctrl+B",
+            icon="dock-bottom",
+            help="Open or close the drawer below the view.",
+            handle=lambda on: docks.drawer.set_folded(not on),
+            checked=lambda: not docks.drawer.folded,
+            needs_mesh=False,
+        ),
+        Action(
+            id="commands",
+            text="&Commands…",
+            menu="Help",
+            keys="Ctrl+Shift+P",
+            icon="magnify",
+            help="Find any command by its name.",
+            needs_mesh=False,
+            handle=lambda: _show_palette(window),
+        ),
+        Action(
+            id="keys",
+            text="&Mouse and keys",
+            menu="Help",
+            keys="F1",
+            icon="mouse",
+            help="List how the view is driven, and every key.",
+            needs_mesh=False,
+            handle=lambda: _show_keys(window),
+        ),
+        Action(
+            id="quit",
+            text="&Quit",
+            menu="File",
+            part=9,
+            keys="Ctrl+Q",
+            help="Close the window.",
+            needs_mesh=False,
+            handle=window.close,
+        ),
+    ]
+
+
+def _show_palette(window: Window) -> None:
+    window.refresh()
+    others = [action for id, action in window.actions.items() if id != "commands"]
+    palette = CommandPalette(others, window)
+    palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    palette.move(window.mapToGlobal(QPoint((window.width() - palette.width()) // 2, 60)))
+    palette.open()
+
+
+def _show_keys(window: Window) -> None:
+    page = KeysPage(window.menus.declared(), window)
+    page.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    page.show()

@@ -1,0 +1,123 @@
+"""Panels in tabs, one of which is in front; those below the view fold away to their tabs."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QStackedWidget, QTabWidget, QWidget
+
+from hexmend_app.widgets.style import smaller
+
+# Qt's QWIDGETSIZE_MAX, which PySide6 does not hand on.
+_UNBOUNDED = (1 << 24) - 1
+
+
+class Tabs(QTabWidget):
+    """Pages behind tabs; a page that is closed has none until it is brought to the front.
+
+    Signals
+    -------
+    changed
+        Another page can be seen.
+
+    Parameters
+    ----------
+    name : str
+        For those who cannot see it.
+    """
+
+    changed = Signal()
+
+    def __init__(self, name: str, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setDocumentMode(True)
+        self.setMovable(True)
+        self.setElideMode(Qt.TextElideMode.ElideNone)
+        self.setUsesScrollButtons(True)
+        self.tabBar().setFont(smaller(self.tabBar().font()))
+        self.tabBar().setAccessibleName(name)
+        self.tabBar().setExpanding(False)
+        self.tabBar().setDrawBase(False)
+        self.currentChanged.connect(self.changed)
+
+    def add(self, page: QWidget, title: str, help: str) -> None:
+        """Put a page behind a tab of its own."""
+        self.setTabToolTip(self.addTab(page, title), help)
+
+    def bring(self, page: QWidget) -> None:
+        """Bring a page to the front."""
+        at = self.indexOf(page)
+        self.setTabVisible(at, True)
+        self.setCurrentIndex(at)
+        self.changed.emit()
+
+    def close_page(self, page: QWidget) -> None:
+        """Take a page's tab away."""
+        self.setTabVisible(self.indexOf(page), False)
+        self.changed.emit()
+
+    def is_open(self, page: QWidget) -> bool:
+        """Whether a page has a tab."""
+        return self.isTabVisible(self.indexOf(page))
+
+    def shows(self, page: QWidget) -> bool:
+        """Whether a page is in front."""
+        return self.currentWidget() is page
+
+    @property
+    def front(self) -> str:
+        """Title of the page in front."""
+        return self.tabText(self.currentIndex())
+
+    def set_front(self, title: str) -> None:
+        """Bring the page of a title to the front, if there is one."""
+        for at in range(self.count()):
+            if self.tabText(at) == title:
+                self.setCurrentIndex(at)
+
+
+class Drawer(Tabs):
+    """Tabs that fold away: a click on the tab in front closes the drawer, a click on any tab opens it.
+
+    Attributes
+    ----------
+    height_unfolded : int
+        Pixels that it has when it is open.
+    """
+
+    def __init__(self, name: str, parent: QWidget | None = None):
+        super().__init__(name, parent)
+        self.height_unfolded = 260
+        self.folded = False
+        self.tabBarClicked.connect(self._on_click)
+        self._clicked = -1
+        self.set_folded(True)
+
+    def set_folded(self, folded: bool) -> None:
+        """Leave nothing but the tabs, or show the page in front."""
+        if folded == self.folded:
+            return
+        if folded and self.height() > self.tabBar().height():
+            self.height_unfolded = self.height()
+        self.folded = folded
+        self.findChild(QStackedWidget).setVisible(not folded)
+        bar = max(self.tabBar().sizeHint().height(), 24)
+        self.setMinimumHeight(bar)
+        self.setMaximumHeight(bar if folded else _UNBOUNDED)
+        splitter = self.parentWidget()
+        if not folded and splitter is not None and hasattr(splitter, "setSizes"):
+            height = splitter.height()
+            splitter.setSizes([height - self.height_unfolded, self.height_unfolded])
+        self.changed.emit()
+
+    def bring(self, page: QWidget) -> None:
+        """Bring a page to the front, and open the drawer."""
+        super().bring(page)
+        self.set_folded(False)
+
+    def shows(self, page: QWidget) -> bool:
+        """Whether a page is in front of the open drawer."""
+        return super().shows(page) and not self.folded
+
+    def _on_click(self, at: int) -> None:
+        if at >= 0:
+            self.set_folded(at == self.currentIndex() and not self.folded)

@@ -1,0 +1,89 @@
+"""What the next run is to do: the method with its values and its limits, as the user has set them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
+
+
+class Order(QObject):
+    """The method at hand, and what was last set for the others.
+
+    Signals
+    -------
+    changed
+        The method, a value or a limit is another.
+    chosen
+        Somebody else than the user's hand has set `stage`: forms show it.
+    refused
+        Somebody wanted the stage while one of its values is wrong.
+
+    Attributes
+    ----------
+    method : str
+        Name of the method at hand.
+    stage : Stage or None
+        The method with its values and limits; None while one of them is wrong.
+    begun : Stage or None
+        What the run under way is doing: only what is set otherwise from then on is a change of it.
+    why : str
+        Why somebody else has chosen the stage; "" once the user has changed it.
+    """
+
+    changed = Signal()
+    chosen = Signal()
+    refused = Signal()
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.method = DEFAULT_METHOD
+        self.stage: Stage | None = Stage(METHODS[DEFAULT_METHOD](), Stop())
+        self.begun: Stage | None = None
+        self.why = ""
+        self._values: dict[str, dict[str, Any]] = {}
+
+    @property
+    def smoother(self) -> Smoother | None:
+        """The method with its values; None while something is wrong."""
+        return self.stage and self.stage.smoother
+
+    def set(self, method: str, values: Mapping[str, Any], stage: Stage | None) -> None:
+        """Take what forms show: a method, the values that are admitted, and all of it, or None where one is wrong."""
+        self._values[method] = dict(values)
+        if (method, stage) != (self.method, self.stage):
+            self.method, self.stage, self.why = method, stage, ""
+            self.changed.emit()
+
+    def choose(self, stage: Stage, why: str = "") -> None:
+        """Set the method, its values and the limits, and say why."""
+        self.method, self.stage = stage.smoother.name, stage
+        self._values[self.method] = stage.smoother.values()
+        self.why = why
+        self.chosen.emit()
+        self.changed.emit()
+
+    def show_at_work(self, stage: Stage) -> None:
+        """Set what the run under way is doing."""
+        self.begun = stage
+        self.choose(stage)
+
+    def values_of(self, method: str) -> dict[str, Any]:
+        """What was last set for a method; empty where nothing was."""
+        return dict(self._values.get(method, {}))
+
+    def smoother_of(self, method: str) -> Smoother:
+        """A method with what was last set for it."""
+        return METHODS[method](**self.values_of(method))
+
+    def use(self, use: Callable[[Stage], object]) -> None:
+        """Hand the stage over, unless a value is wrong: then forms say which."""
+        if self.stage is None:
+            self.refused.emit()
+        else:
+            use(self.stage)

@@ -1,0 +1,112 @@
+"""Features declare themselves: what one offers is found in menus, palette, page of keys and window."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtWidgets import QLabel, QMenu
+
+from hexmend_app.feature import MENUS, Action, Feature, Panel, Place
+from hexmend_app.shell import features as finding
+from hexmend_app.shell.keys import as_markdown
+from hexmend_app.shell.palette import CommandPalette
+from hexmend_app.shell.window import Window
+
+
+class FeatureCounting(Feature):
+    """An example: counts how often it was asked to."""
+
+    order = 99
+
+    def __init__(self, host):
+        super().__init__(host)
+        self.count = self.refreshed = 0
+        self.panel = QLabel()
+
+    def actions(self):
+        return (
+            Action(
+                id="count",
+                text="Count &up",
+                menu="Help",
+                keys="Ctrl+Alt+U",
+                help="Count one more.",
+                handle=self._count,
+                enabled=lambda: self.count < 2,
+                needs_mesh=False,
+            ),
+        )
+
+    def panels(self):
+        return (Panel(id="count", title="Counter", widget=self.panel, place=Place.FACTS, help="What was counted."),)
+
+    def refresh(self):
+        self.refreshed += 1
+        self.panel.setText(f"{self.count} counted")
+
+    def _count(self):
+        self.count += 1
+        self.session.selection.changed.emit()
+
+
+@pytest.fixture
+def with_example(qtbot, monkeypatch, tmp_path):
+    """A window that finds the example among its features."""
+    known = finding.found()
+    monkeypatch.setattr(finding, "found", lambda: [*known, FeatureCounting])
+    monkeypatch.setattr(finding, "name_of", lambda kind: kind.__name__.removeprefix("Feature").lower())
+    window = Window()
+    qtbot.addWidget(window)
+    window.furnish()
+    window.show()
+    yield window
+    window.close()
+
+
+def test_a_feature_reaches_menu_palette_keys_and_window(with_example, qtbot):
+    window = with_example
+    action = window.action("count")
+    menu = next(one for one in window.menuBar().findChildren(QMenu) if one.title().replace("&", "") == "Help")
+    assert action in menu.actions()
+    assert action.shortcut().toString() == "Ctrl+Alt+U"
+    palette = CommandPalette(list(window.actions.values()), window)
+    assert "Count up" in palette.found()
+    palette.close()
+    assert "| Count up | `Ctrl+Alt+U` | Count one more. |" in as_markdown(window.menus.declared())
+    assert "panel_count" in window.actions
+    window.show_panel("count")
+    assert window.features["counting"].panel.isVisible()
+    assert window.in_front("count")
+
+
+def test_whatever_changes_in_a_turn_of_the_event_loop_is_shown_once(with_example, qtbot):
+    window = with_example
+    example = window.features["counting"]
+    qtbot.waitUntil(lambda: example.refreshed > 0)
+    before = example.refreshed
+    for _ in range(20):
+        window.session.selection.changed.emit()
+    assert example.refreshed == before
+    qtbot.waitUntil(lambda: example.refreshed > before)
+    assert example.refreshed == before + 1
+    window.action("count").trigger()
+    window.action("count").trigger()
+    qtbot.waitUntil(lambda: example.panel.text() == "2 counted")
+    assert not window.action("count").isEnabled()
+
+
+def test_every_action_is_in_a_menu_that_there_is_and_has_help(with_example):
+    declared = list(with_example.menus.declared())
+    assert {one.menu for one in declared} <= {"", *MENUS}
+    for one in declared:
+        assert one.help.endswith("."), one.id
+
+
+def test_no_two_actions_have_the_same_keys(with_example):
+    keys = [one.keys for one in with_example.menus.declared() if one.keys]
+    assert len(keys) == len(set(keys))
+
+
+def test_every_folder_is_a_feature():
+    names = [finding.name_of(kind) for kind in finding.found()]
+    assert {"open", "smooth", "histogram", "cut", "compare"} <= set(names)
+    assert len(names) == len(set(names))
