@@ -60,6 +60,7 @@ def opened(mesh: str | Path, size: tuple[int, int] = (1320, 830)) -> Window:
     window.hint.dismiss()
     window.show()
     turn(0.5)
+    window.furnish()
     window.build_canvas()
     window.features["open"].open(mesh)
     until(lambda: window.session.document.is_open)

@@ -36,14 +36,14 @@ def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) ->
         window = Window()
         window.resize(1440, 900)
         window.show()
+        window.furnish()
         window.build_canvas()
         window.session.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
         turn(0.5)  # until the layout has settled
         rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, **row(window)})
-        window.session.document.commit(
-            "measured", window.session.document.now
-        )  # or closing would ask for what is not saved
-        window.session.document.saved(window.session.document.path)
+        document = window.session.document
+        document.commit("measured", document.now)  # or closing would ask for what is not saved
+        document.saved(document.path)
         window.close()
         app.processEvents()
     return {"meshes": rows}

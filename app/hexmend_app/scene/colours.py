@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 
+from hexmend_app.scene.palette import INVERTED as MAGENTA
 from hexmend_app.scene.values import better, declared_range
 from hexmend_app.state.look import ColourScale, RangeMode
 from hexmend_app.state.movement import MOVEMENTS, NOTHING, named
@@ -21,7 +22,7 @@ DIVERGING = "BrBG"
 
 #: Colour of inverted elements, in no map of ours: magenta. In colours of changes it is that of the newly inverted; what
 #: was so before is duller, and what no longer is is yellow.
-INVERTED = (0xE6, 0x19, 0x8A)
+INVERTED = tuple(bytes.fromhex(MAGENTA[1:]))
 _STILL, _MENDED = (0x8E, 0x4B, 0x76), (0xF0, 0xE4, 0x42)
 
 

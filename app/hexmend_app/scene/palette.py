@@ -75,6 +75,9 @@ WORSE = Role("#b34400", "#ff9d63", on=(*_PLAIN, WRONG))
 AMBER = Role("#8a5a00", "#e6b450", on=(*_PLAIN, WARNED))
 INVERTED_TEXT = Role("#b80f6c", "#ff85c6", on=_PLAIN)
 
+#: What inverted hexes have in the view, whatever the theme: in no map of ours.
+INVERTED = "#e6198a"
+
 # Lines and areas
 FRAME = Role("#f7f8fa", "#8b95a3")  # Fusion frames what can be pressed or typed in by a darker shade of this
 GLEAM = Role("#ffffff", "#39404a")  # the bright side of Fusion's grooves, and what is between it and the panel

@@ -10,7 +10,6 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Panel, Place
-from hexmend_app.shell.column import column
 from hexmend_app.shell.tabs import Drawer, Tabs
 
 #: Number of the layout: one that was saved with other panels is not restored.
@@ -90,6 +89,8 @@ class Docks(QWidget):
                 self._add_tab(self._tabs[place], title, list(within))
 
     def _add_tab(self, tabs: Tabs, title: str, panels: list[Panel]) -> None:
+        from hexmend_app.shell.column import column
+
         first = panels[0]
         alone = len(panels) == 1 and not first.scrolls and first.place is not Place.TOOLS
         page = first.widget if alone else column(panels)

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import qtawesome
 from PySide6.QtCore import QObject, QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QIcon, QIconEngine, QPainter, QPalette, QPixmap
 from PySide6.QtWidgets import QApplication, QLabel, QSizePolicy, QToolTip, QWidget
 
-from hexmend_app.scene.colours import INVERTED as SCENE_INVERTED
 from hexmend_app.scene.palette import (
     ACCENT,
     AMBER,
@@ -21,6 +19,7 @@ from hexmend_app.scene.palette import (
     FRAME,
     GLEAM,
     GREY,
+    INVERTED,
     INVERTED_TEXT,
     LINE,
     MUTED,
@@ -34,9 +33,6 @@ from hexmend_app.scene.palette import (
     WORSE,
     Role,
 )
-
-#: The colour that inverted elements have in the view, whatever the theme.
-INVERTED = QColor(*SCENE_INVERTED).name()
 
 _ROLES = QPalette.ColorRole
 _PALETTE = (
@@ -136,6 +132,8 @@ class _IconEngine(QIconEngine):
 
     def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
         """Paint the glyph, as large as the rectangle."""
+        import qtawesome  # its fonts are not there before something is painted with them
+
         glyph = qtawesome.icon(self._name, color=str(self._role), color_disabled=str(FAINT))
         glyph.paint(painter, rect, Qt.AlignmentFlag.AlignCenter, mode, state)
 

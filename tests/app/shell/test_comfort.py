@@ -194,6 +194,7 @@ app = application()
 window = Window()
 window.setGeometry(0, 0, 1001, 651)
 window.show()
+window.furnish()
 window.build_canvas()
 path = tempfile.mkdtemp() + "/cube.vtu"
 io.write(path, gallery.make("cube", size=512))
