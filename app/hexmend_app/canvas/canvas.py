@@ -11,7 +11,6 @@ from PySide6.QtGui import QCloseEvent, QColor, QPainter, QPaintEvent, QResizeEve
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
-from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
@@ -23,6 +22,7 @@ from hexmend_app.canvas.view_keys import steer
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
+from hexmend_app.scene.export.picture import write_picture
 from hexmend_app.scene.export.views import picture_of
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import BLUE, THEME
@@ -259,8 +259,7 @@ class Canvas(QWidget):
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
         """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
         image = picture_of(self.panes, [caption.name for caption in self.frame.captions], size, transparent)
-        with replacing(path) as temporary:
-            image.save(temporary, format="PNG")
+        write_picture(path, image)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QWidget
 
 from hexmend.errors import HexmendError
 from hexmend.report import write_comparison
-from hexmend.report.documents import write_text
 from hexmend_app.features.histogram.file import write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
+from hexmend_app.features.inspect.file import write_worst
 from hexmend_app.features.inspect.worst_list import WorstList
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.commands import Commands
@@ -114,7 +114,7 @@ class Saving:
         """Write the list of the worst elements as CSV."""
         return self._said(
             "The list was not saved",
-            lambda: write_text(Path(path), self._worst_list.text()),
+            lambda: write_worst(Path(path), self._worst_list),
             f"{counted(len(self._worst_list.elements), 'element')} saved to {path}",
         )
 

@@ -115,4 +115,4 @@ def test_the_charts_are_saved_as_figures_and_all_figures_of_all_runs_as_a_table(
     assert rows[-1]["branch_of"] == f"{first.name} 2"
     assert rows[-1]["gradient_norm"] == ""
     assert not window.saving.convergence(tmp_path / "charts.xls", window.converging.write)
-    assert "ends in one of .svg" in window.messages.messages()[-1][2]
+    assert "Use .svg, .pdf, .png or .csv." in window.messages.messages()[-1][2]
