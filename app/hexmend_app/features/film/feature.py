@@ -120,4 +120,6 @@ class Filming(QObject):
 
     def _say(self) -> None:
         word, help = "Cancel", "Give the film up; no file is written."
-        self._busy.show_work(f"Drawing frame {len(self._frames) + 1} of {self._count}…", word, help, self.cancel)
+        drawn = len(self._frames)
+        what = f"Drawing frame {drawn + 1} of {self._count}…" if drawn < self._count else f"Writing {self._path.name}…"
+        self._busy.show_work(what, word, help, self.cancel)
