@@ -14,6 +14,7 @@ from pyvistaqt import QtInteractor
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
+from hexmend_app.canvas.captions import HEIGHT
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.flying import Flying
 from hexmend_app.canvas.once_per_frame import OncePerFrame
@@ -175,6 +176,7 @@ class Canvas(QWidget):
         wipe : Wipe, optional
             None shows all side by side.
         """
+        self.panes.leave_heads(round(HEIGHT * self.devicePixelRatioF()))
         self.panes.show(others, wipe)
         self._select_beside()
         self._place_handles()
