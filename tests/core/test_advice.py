@@ -182,3 +182,14 @@ def test_a_run_that_was_stopped_says_so_and_what_is_inverted():
     assert advice.why.startswith("Stopped by you after 1 iteration.")
     assert advice.left.startswith(f"{advice.loose.size} of 500 hexes are inverted. 94 were at the start.")
     assert [one.title for one in advice.suggestions] == ["Mend"]
+
+
+@pytest.mark.parametrize("method", ["mend", "laplacian", "local-sd"])
+def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(method):
+    run = iterate(make("plane", size=200), method)
+    run.close()
+    advice = advise(run.result())
+    assert advice.why == "Stopped by you before its first iteration: no node has moved. Run begins again."
+    assert advice.nothing == ""
+    finished = advise(smooth(make("cube", size=27), "mend"))
+    assert (finished.suggestions, finished.nothing) == ((), "Nothing is known that would better this mesh.")

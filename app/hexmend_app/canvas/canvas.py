@@ -11,10 +11,10 @@ from PySide6.QtGui import QCloseEvent, QColor, QPainter, QPaintEvent, QResizeEve
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from pyvistaqt import QtInteractor
 
-from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
+from hexmend_app.canvas.captions import HEIGHT
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.flying import Flying
 from hexmend_app.canvas.once_per_frame import OncePerFrame
@@ -23,6 +23,7 @@ from hexmend_app.canvas.view_keys import steer
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
+from hexmend_app.scene.export.picture import write_picture
 from hexmend_app.scene.export.views import picture_of
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import BLUE, THEME
@@ -175,6 +176,7 @@ class Canvas(QWidget):
         wipe : Wipe, optional
             None shows all side by side.
         """
+        self.panes.leave_heads(round(HEIGHT * self.devicePixelRatioF()))
         self.panes.show(others, wipe)
         self._select_beside()
         self._place_handles()
@@ -259,8 +261,7 @@ class Canvas(QWidget):
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
         """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
         image = picture_of(self.panes, [caption.name for caption in self.frame.captions], size, transparent)
-        with replacing(path) as temporary:
-            image.save(temporary, format="PNG")
+        write_picture(path, image)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""

@@ -17,7 +17,7 @@ from hexmend_app.widgets.wording import figure
 _CROSS = 11
 
 #: Pixels of a row; where the screen's scale is 150 %, a multiple of four is whole pixels of the screen.
-_HEIGHT = 24
+HEIGHT = 24
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,12 @@ class Caption:
 
 
 class CaptionRow(QWidget):
-    """Captions of the views of one row, each over its view.
+    """Captions of the views of one row, each at the top of its view.
+
+    Parameters
+    ----------
+    over : QWidget
+        What the views are drawn in; it leaves room for captions above each.
 
     Signals
     -------
@@ -55,8 +60,9 @@ class CaptionRow(QWidget):
 
     closed = Signal(int)
 
-    def __init__(self, parent: QWidget | None = None):
-        super().__init__(parent)
+    def __init__(self, over: QWidget):
+        super().__init__(over)
+        self.setAutoFillBackground(True)
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._row.setSpacing(0)
@@ -79,6 +85,11 @@ class CaptionRow(QWidget):
         for part, caption in zip(self._parts, captions, strict=True):
             part.say(caption)
         self.setVisible(bool(captions))
+
+    def stand_at(self, share: float) -> None:
+        """Stand at a share of the height of what the views are drawn in, from its top, as wide as it is."""
+        over = self.parentWidget().size()
+        self.setGeometry(0, round(share * over.height()), over.width(), HEIGHT)
 
     def _part(self, caption: Caption, number: int) -> _Entry:
         part = _Entry(caption)
@@ -119,7 +130,7 @@ class WipeRow(QWidget):
         (left, right), (its, others) = self._sides, self._figures
         for part, stretch in ((left, 0), (its, 1), (others, 1), (right, 0)):
             row.addWidget(part, stretch)
-        self.setFixedHeight(_HEIGHT + 4)
+        self.setFixedHeight(HEIGHT + 4)
         others.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.hide()
 
@@ -151,7 +162,7 @@ class _Entry(QWidget):
         row.addWidget(name)
         self._figures = _figures()
         row.addWidget(self._figures, 1)
-        self.setFixedHeight(_HEIGHT)
+        self.setFixedHeight(HEIGHT)
 
     def say(self, caption: Caption) -> None:
         """Show the figures as they are now."""

@@ -1,4 +1,4 @@
-"""What stands around the 3D view while several are compared: captions above and below, the wipe's choices and edge."""
+"""What stands around the 3D view while several are compared: a caption above each, the wipe's choices and edge."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from hexmend_app.canvas.captions import Caption, CaptionRow, WipeRow
 from hexmend_app.canvas.wipe_handle import WipeHandle
 from hexmend_app.scene.panes import columns
 from hexmend_app.state.views import Wipe
+
+#: Most rows in which views stand.
+_ROWS = 2
 
 
 class ViewFrame(QVBoxLayout):
@@ -36,11 +39,11 @@ class ViewFrame(QVBoxLayout):
         super().__init__()
         self.setSpacing(0)
         self.captions: Sequence[Caption] = ()
-        self._above, self._below, self._wiped = CaptionRow(), CaptionRow(), WipeRow()
+        self._rows, self._wiped = [CaptionRow(view) for _ in range(_ROWS)], WipeRow()
         self._edge = WipeHandle(view)
-        for part in (self._above, self._wiped, view, self._below):
-            self.addWidget(part, 1 if part is view else 0)
-        for row in (self._above, self._below):
+        self.addWidget(self._wiped)
+        self.addWidget(view, 1)
+        for row in self._rows:
             row.closed.connect(self.view_closed)
         self._wiped.chosen.connect(self.wipe_chosen)
         self._edge.moved.connect(self.wipe_moved)
@@ -48,9 +51,11 @@ class ViewFrame(QVBoxLayout):
     def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
         """Say what is seen in which view; of a wipe, on which side."""
         self.captions = captions
-        above = columns(len(captions)) if len(captions) > 1 and wipe is None else 0
-        self._above.set_captions(captions[:above], 0)
-        self._below.set_captions(captions[above:] if above else [], above)
+        side_by_side = captions if len(captions) > 1 and wipe is None else []
+        wide = columns(max(len(side_by_side), 1))
+        for at, row in enumerate(self._rows):
+            row.set_captions(side_by_side[at * wide : (at + 1) * wide], at * wide)
+        self.fit()
         self._wiped.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
 
     def set_wipe(self, wipe: Wipe | None) -> None:
@@ -62,3 +67,6 @@ class ViewFrame(QVBoxLayout):
     def fit(self) -> None:
         """Stand where everything has to: the view's size is another."""
         self._edge.fit()
+        shown = [row for row in self._rows if not row.isHidden()]
+        for at, row in enumerate(shown):
+            row.stand_at(at / len(shown))

@@ -31,7 +31,6 @@ class Render:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.io import read
-        from hexmend.io.atomic import replacing
         from hexmend.quality import measure
 
         size, names = looks.size_of(args), _captions(args)
@@ -44,17 +43,17 @@ class Render:
 
         prepare_off_screen()
         from hexmend_app.scene.export.figure import Panel, figure
-        from hexmend_app.scene.export.picture import picture
+        from hexmend_app.scene.export.picture import check_picture, picture, write_picture
         from hexmend_app.scene.frame import Frame
 
+        check_picture(Path(args.output))  # an unknown suffix is said before the work, not after
         how = {"view": view, "transparent": args.transparent, "bar": not args.no_bar}
         if len(meshes) == 1:
             image = picture(Frame(mesh, figures, look=look), size, **how)
         else:
             others = (Panel(name, one, measure(one.points, one.hexes)) for name, one in zip(names, meshes, strict=True))
             image = figure([*others], look, size, **how)
-        with replacing(args.output) as temporary:
-            image.save(temporary, format="PNG")
+        write_picture(Path(args.output), image)
         print(f"{args.output}: {size[0]} × {size[1]} pixels")
         return 0
 

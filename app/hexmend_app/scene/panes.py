@@ -70,6 +70,7 @@ class Panes:
         self._centres: dict[Viewport, float] = {}  # of the wipe's halves
         self._borders: list[tuple[pv.Renderer, vtkActor2D]] = []
         self._size = (0, 0)
+        self._head = 0
         self._fitted: tuple[float, ...] = ()  # where the camera stands after `fit`
         self._watch(self.first)
         # The hand may grasp what stands in the first view.
@@ -161,13 +162,19 @@ class Panes:
         self.wipe = wipe
         self.arrange()
 
+    def leave_heads(self, pixels: int) -> None:
+        """Leave so many pixels of the window free above each of several views side by side, for what is said of it."""
+        self._head = pixels
+
     def arrange(self) -> None:
         """Give each view its place, and the wipe its edge at a whole pixel of the window as large as it is now."""
         self._size = self._window.GetSize()
         width = max(self._size[0], 2)
         seen, wipe = self.seen, self.wipe
         if wipe is None:
-            places, self._centres = grid(len(seen)), {}
+            head = self._head / max(self._size[1], 1) if len(seen) > 1 else 0.0
+            places = [(left, low, right, max(high - head, low)) for left, low, right, high in grid(len(seen))]
+            self._centres = {}
         else:
             edge = min(max(round(wipe.at * width), 1), width - 1) / width
             places = [(0.0, 0.0, edge, 1.0), (edge, 0.0, 1.0, 1.0)]

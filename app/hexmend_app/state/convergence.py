@@ -138,7 +138,7 @@ class Columns:
 
     def told(self, key: str) -> bool:
         """Whether the method tells this at all."""
-        return self._known < 2 or bool(np.isfinite(self.of(key)).any()) or key == "objective"
+        return self._known < 2 or bool(np.isfinite(self.of(key)).any())
 
 
 @dataclass(frozen=True, eq=False)

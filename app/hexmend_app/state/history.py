@@ -192,8 +192,16 @@ class History:
         self._moments[state] = moment
 
     def moment_of(self, state: State | None) -> Moment | None:
-        """Which iteration a state shows; None if none that is known."""
-        return None if state is None else self._moments.get(state)
+        """Which iteration a state shows, whatever has been pinned or tagged since; None if none that is known."""
+        if state is None:
+            return None
+        if state not in self._moments:
+            same = (moment for one, moment in self._moments.items() if one.mesh.points is state.mesh.points)
+            moment = next(same, None)
+            if moment is None:
+                return None
+            self._moments[state] = moment  # the other may be gone before this one is
+        return self._moments[state]
 
     def kept(self, record: Record) -> np.ndarray:
         """Numbers of the iterations whose positions are there, ascending, (k,) int."""

@@ -8,6 +8,7 @@ from html import escape
 from itertools import pairwise
 from typing import Any
 
+import shiboken6
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
@@ -95,10 +96,10 @@ class ParameterForm(QWidget):
         return button
 
     def set_declarations(self, declarations: Iterable[Parameter]) -> None:
-        """Show other parameters, at their defaults."""
+        """Show other parameters, at their defaults; not from a signal of an editor that this replaces."""
         while (item := self._grid.takeAt(0)) is not None:
-            item.widget().hide()
-            item.widget().deleteLater()
+            # At once: deleted later, rows stay for as long as the loop does not return to where they were made.
+            shiboken6.delete(item.widget())
         before = self._explain.previousInFocusChain()
         self._rows = {d.name: self._make_row(3 * i, d) for i, d in enumerate(declarations)}
         # Qt puts what is made later at the end of the whole window.

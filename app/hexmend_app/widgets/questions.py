@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from enum import Enum
 from pathlib import Path
 
@@ -23,7 +24,7 @@ def ask_mesh(parent: QWidget) -> str:
     """The mesh file to open, "" for none."""
     kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
     filters = f"Hexahedral meshes ({kinds});;All files (*)"
-    return QFileDialog.getOpenFileName(parent, "Open a mesh", _folder(), filters)[0]
+    return _ask_to_open(parent, "Open a mesh", filters)
 
 
 def ask_target(parent: QWidget, stem: str) -> str:
@@ -51,7 +52,7 @@ def ask_convergence(parent: QWidget, stem: str) -> str:
 
 def ask_recipe(parent: QWidget) -> str:
     """The recipe to load, "" for none."""
-    return QFileDialog.getOpenFileName(parent, "Load a recipe", _folder(), "Recipes (*.toml);;All files (*)")[0]
+    return _ask_to_open(parent, "Load a recipe", "Recipes (*.toml);;All files (*)")
 
 
 def ask_recipe_target(parent: QWidget) -> str:
@@ -72,8 +73,37 @@ def ask_comparison(parent: QWidget, stem: str) -> str:
 
 
 def remember_folder(path: Path) -> None:
-    """Begin the next dialog where this file lies."""
+    """Begin the next dialog, of whatever kind, where this file lies."""
     QSettings().setValue("folder", str(path.resolve().parent))
+
+
+def folder() -> Path:
+    """Where dialogs begin: the folder of the file that was last opened or saved, as long as there is one."""
+    kept = Path(str(QSettings().value("folder", "")))
+    return kept if kept.is_dir() else Path.home()
+
+
+def named(path: str, kinds: str) -> str:
+    """A path with the suffix of the first of some kinds of file, where it has none of its own.
+
+    >>> named("dir/bridge", "Table (*.csv);;Markdown (*.md)"), named("bridge.pdf", "Table (*.csv)"), named("", "(*.md)")
+    ('dir/bridge.csv', 'bridge.pdf', '')
+    """
+    return path + re.search(r"\.\w+", kinds)[0] if path and not Path(path).suffix else path
+
+
+def ask_replacing(parent: QWidget, path: str) -> bool:
+    """Whether a file may be written where there may be one."""
+    if not Path(path).exists():
+        return True
+    buttons = QMessageBox.StandardButton
+    box = QMessageBox(parent)
+    box.setIcon(QMessageBox.Icon.Question)
+    box.setText(f"{Path(path).name} already exists.")
+    box.setInformativeText("Replace it?")
+    box.setStandardButtons(buttons.Yes | buttons.No)
+    box.setDefaultButton(buttons.No)
+    return box.exec() == buttons.Yes
 
 
 def ask_unsaved(parent: QWidget, name: str) -> Answer:
@@ -101,8 +131,16 @@ def show_about(parent: QWidget, version: str) -> None:
 
 def _ask_to_save(parent: QWidget, title: str, name: str, kinds: str, chosen: str = "") -> str:
     """Where to save something that is proposed to be called `name`, of one of several kinds, "" for nowhere."""
-    return QFileDialog.getSaveFileName(parent, title, str(Path(_folder()) / name), kinds, chosen)[0]
+    asked, kind = QFileDialog.getSaveFileName(parent, title, str(folder() / name), kinds, chosen)
+    path = named(asked, kind or kinds)
+    if not path or (path != asked and not ask_replacing(parent, path)):  # the dialog has asked about its own name
+        return ""
+    remember_folder(Path(path))
+    return path
 
 
-def _folder() -> str:
-    return str(QSettings().value("folder", ""))
+def _ask_to_open(parent: QWidget, title: str, filters: str) -> str:
+    path = QFileDialog.getOpenFileName(parent, title, str(folder()), filters)[0]
+    if path:
+        remember_folder(Path(path))
+    return path

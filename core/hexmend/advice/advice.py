@@ -26,6 +26,8 @@ class Advice:
         Numbers, from 0, of the inverted hexes that fixed nodes hold in inversion, and of the other inverted ones.
     suggestions : tuple of Suggestion
         The most urgent first; empty where nothing is known to help.
+    nothing : str
+        What to say where there is no suggestion; "" where nothing can be said, as nothing was tried.
     """
 
     why: str
@@ -33,6 +35,7 @@ class Advice:
     locked: np.ndarray
     loose: np.ndarray
     suggestions: tuple[Suggestion, ...]
+    nothing: str
 
 
 def advise(result: Result) -> Advice:
@@ -41,7 +44,9 @@ def advise(result: Result) -> Advice:
     told = [suggestion for rule in RULES if (suggestion := rule(now)) is not None]
     if result.outcome is Outcome.NOTHING_FREE:
         told = [one for one in told if one.unpin.size]
-    return Advice(_why(now), _left(now), now.locked, now.loose, tuple(told))
+    untried = result.outcome is Outcome.STOPPED and not result.iterations
+    nothing = "" if untried else "Nothing is known that would better this mesh."
+    return Advice(_why(now), _left(now), now.locked, now.loose, tuple(told), nothing)
 
 
 def _why(now: Situation) -> str:
@@ -66,6 +71,8 @@ def _end(now: Situation) -> str:
         return f"Stopped at the limit of {stop.max_iterations:,} iterations before it converged.{still}"
     if result.outcome is Outcome.MAX_SECONDS:
         return f"Stopped at the limit of {stop.max_seconds:g} s, after {count}, before it converged.{still}"
+    if result.outcome is Outcome.STOPPED and not result.iterations:
+        return "Stopped by you before its first iteration: no node has moved. Run begins again."
     if result.outcome is Outcome.STOPPED:
         return f"Stopped by you after {count}.{still}"
     return result.outcome.value

@@ -8,6 +8,7 @@ from pathlib import Path
 from hexmend.errors import FileError, ParameterError
 from hexmend.io.atomic import replacing
 from hexmend.io.files import check_readable
+from hexmend.io.suffixes import suffix_for
 from hexmend.recipe import Recipe, from_toml, to_toml
 
 
@@ -38,7 +39,8 @@ def write_recipe(path: str | os.PathLike[str], recipe: Recipe) -> None:
     Raises
     ------
     FileError
-        Where the place cannot be written to.
+        For a suffix other than .toml, or where the place cannot be written to.
     """
+    suffix_for(path, "a recipe", (".toml", ""))
     with replacing(path) as temporary:
         temporary.write_text(to_toml(recipe), encoding="utf-8")

@@ -9,6 +9,7 @@ from typing import Any
 
 from hexmend.errors import FileError
 from hexmend.io.atomic import replacing
+from hexmend.io.suffixes import suffix_for
 from hexmend.report.latex import latex
 from hexmend.report.markdown import markdown
 from hexmend.report.records import write_json
@@ -16,7 +17,6 @@ from hexmend.report.tables import Table
 
 #: What a table can be written as: for spreadsheets, to be read, to be typeset, for programs.
 SUFFIXES = (".csv", ".md", ".tex", ".json")
-_KNOWN = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
 
 
 def made_folder(path: str | Path) -> Path:
@@ -71,17 +71,15 @@ def write_document(path: Path, table: Table, rows: Sequence[Mapping[str, Any]], 
     FileError
         For another suffix, or where the file cannot be written; the one that was there stays.
     """
-    suffix = path.suffix.lower()
+    suffix = suffix_for(path, "a table", SUFFIXES)
     if suffix == ".csv":
         write_csv(path, rows)
     elif suffix == ".md":
         write_text(path, markdown(table))
     elif suffix == ".tex":
         write_text(path, latex(table))
-    elif suffix == ".json":
-        write_json(path, data)
     else:
-        raise FileError(path, f"a table cannot be written as {suffix or 'a file without a suffix'}", f"Use {_KNOWN}.")
+        write_json(path, data)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from hexmend.errors import HexmendError
 from hexmend.io.atomic import replacing
+from hexmend.io.suffixes import suffix_for
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -156,10 +157,8 @@ def write_histogram_figure(
 
 
 def check_figure(path: Path) -> None:
-    """Raise `HexmendError` for a suffix that no figure has."""
-    if path.suffix.lower() not in FIGURE_SUFFIXES:
-        kinds = ", ".join(FIGURE_SUFFIXES)
-        raise HexmendError(f"{path.name}: the name of a figure ends in one of {kinds}; choose one of them.")
+    """Raise `FileError` for a suffix that no figure has."""
+    suffix_for(path, "a figure", FIGURE_SUFFIXES)
 
 
 def new_figure(width: float = 7.5, height: float = 4.5) -> Figure:

@@ -69,6 +69,18 @@ def test_each_view_shows_its_mesh_as_it_would_alone(panes):
     assert np.abs(both[:, 5:115] - both[:, 125:235]).max() < 16  # the same mesh, so the same picture, but for rounding
 
 
+@pytest.mark.parametrize("views", [1, 2, 4])
+def test_room_is_left_above_each_of_several_views_and_all_stay_of_one_size(panes, views):
+    panes.leave_heads(16)
+    panes.show([shown(mesh) for mesh in OTHERS[: views - 1]])
+    expected = [(left, low, right, high - (0.1 if views > 1 else 0)) for left, low, right, high in grid(views)]
+    for view, place in zip(panes.all, expected, strict=True):
+        for layer in view.layers:
+            assert layer.GetViewport() == pytest.approx(place)
+    panes.show([shown(OTHERS[0])], Wipe(0, 1, 0.5))
+    assert panes.first.layers[0].GetViewport() == (0.0, 0.0, 0.5, 1.0)
+
+
 def test_one_camera_leads_all_views(panes):
     panes.show([shown(mesh) for mesh in OTHERS])
     assert all(view.camera is panes.first.camera for view in panes.all)

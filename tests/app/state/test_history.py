@@ -116,3 +116,17 @@ def test_a_run_without_iterations_is_not_kept(added):
     result = Moment(record, added) if added else None
     history.finish(record, result, State.of(run.result().mesh) if added else None, "Stopped.")
     assert history.records == [record] * added
+
+
+@pytest.mark.parametrize("number", [0, 7, 20])
+def test_what_is_tagged_or_pinned_since_is_of_the_same_iteration(number):
+    history = History()
+    record, run, _ = recorded(history)
+    history.finish(record, Moment(record, 20), State.of(run.result().mesh), "Done.")
+    shown = history.state(Moment(record, number), MESH)
+    for change in ({"hex_sets": {"tagged": np.array([3])}}, {"pinned": MESH.topology.boundary.copy()}):
+        changed = State.of(shown.mesh.replace(**change))
+        assert history.moment_of(changed) == Moment(record, number)
+        shown = changed  # and the one before is gone
+    assert history.begin("mend", "Mend", shown).parent == Moment(record, number)
+    assert history.moment_of(State.of(scrambled(grid(5), 0.3))) is None

@@ -8,7 +8,9 @@ import pytest
 from hexmend.run import Stop, smooth
 from hexmend.smoothers.laplacian import Laplacian
 from hexmend.smoothers.local_sd import LocalSteepestDescent
+from hexmend_app.state.commands import Commands
 from hexmend_app.state.document import State
+from hexmend_app.state.history import Moment
 from hexmend_app.state.run import Phase
 from hexmend_app.state.session import Session
 from tests.core.grids import grid, scrambled
@@ -136,3 +138,15 @@ def test_another_mesh_has_no_history_yet(session, qtbot):
     assert session.history.bytes == 0
     assert session.timeline.record is None
     assert session.timeline.moment is None
+
+
+def test_tags_given_after_a_run_leave_one_where_one_is(session, qtbot):
+    record = run(qtbot, session)
+    commands = Commands(session)
+    commands.tag("bad", [1, 2])
+    assert (session.timeline.record, session.timeline.moment) == (record, Moment(record, 12))
+    session.timeline.go(record, 5)
+    commands.tag("worse", [3])
+    assert session.timeline.moment == Moment(record, 5)
+    session.document.undo()
+    assert session.timeline.moment == Moment(record, 12)

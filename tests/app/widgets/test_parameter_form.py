@@ -1,6 +1,8 @@
 """Forms made from declarations of every kind."""
 
 import dataclasses
+import gc
+import weakref
 from dataclasses import dataclass
 
 import pytest
@@ -9,7 +11,7 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QToolButton
+from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parametrised, declared, parameter
@@ -204,6 +206,19 @@ def test_other_declarations_replace_the_rows(form):
     assert form.values() == {}
     assert form._none.isVisible()
     assert not any(button.isVisible() for button in form.findChildren(QToolButton))
+
+
+def test_rows_that_are_replaced_are_gone_at_once(form):
+    def widgets():
+        return len(form.findChildren(QWidget))
+
+    first = widgets()
+    old = weakref.ref(form.editor("delta"))
+    for _ in range(240):
+        form.set_declarations(declared(AllKinds))
+        assert widgets() == first
+    gc.collect()
+    assert old() is None
 
 
 @settings(max_examples=40)

@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.io.suffixes import suffix_for
 from hexmend.report.convergence import DrawnChart, DrawnCurve, write_convergence_figure
 from hexmend.report.documents import write_csv
+from hexmend.report.plots import FIGURE_SUFFIXES
 from hexmend_app.features.convergence.line import colour_of
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.convergence.plot import ConvergencePlot
@@ -22,7 +24,7 @@ def write_convergence(path: Path, panel: ConvergencePanel, title: str) -> None:
     HexmendError
         For another suffix, or where the file cannot be written; the one that was there stays.
     """
-    if path.suffix.lower() == ".csv":
+    if suffix_for(path, "a chart", (*FIGURE_SUFFIXES, ".csv")) == ".csv":
         write_csv(path, [row for curve in panel.curves for row in rows(curve)])
         return
     label = "seconds in the method" if panel.by_time else "iteration"

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.axis import UNIT, Scale, plain, powers
 from hexmend_app.features.convergence.line import MOST, RunLine, colour_of
+from hexmend_app.features.convergence.words import titled, why_blank
 from hexmend_app.scene.palette import TEXT
 from hexmend_app.state.convergence import Chart, Curve, Quantity, thinned
 from hexmend_app.state.history import Record
@@ -85,6 +86,11 @@ class ConvergencePlot(QWidget):
         self.title = note()
         self.title.setWordWrap(False)
         explain(self.title, chart.title, f"{chart.help} {_HELP}")
+        self._blank = note()
+        self._blank.setAccessibleName(f"Why the chart of {chart.title} is blank")
+        self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._blank.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        QVBoxLayout(self.plot).addWidget(self._blank)
         self._mark = pg.InfiniteLine(0, movable=False)
         self._mark.setZValue(20)
         self.plot.addItem(self._mark, ignoreBounds=True)
@@ -121,7 +127,8 @@ class ConvergencePlot(QWidget):
         for curve in self._curves:
             for style, quantity in zip(_STYLES, self.chart.quantities, strict=False):
                 self._draw_curve(curve, quantity, style)
-        self.title.setText(self._words())
+        self.title.setText(titled(self.chart, curves, _DASHES))
+        self._blank.setText(why_blank(self.chart, curves))
 
     def _draw_curve(self, curve: Curve, quantity: Quantity, style: Qt.PenStyle) -> None:
         line = self._lines.get((curve.slot, quantity.key))
@@ -184,18 +191,6 @@ class ConvergencePlot(QWidget):
             self._scale = scale
             self.plot.getAxis("left").setTicks([list(scale.ticks)])
             self.plot.setYRange(scale.low, scale.high, padding=0.08)
-
-    def _words(self) -> str:
-        quantities = self.chart.quantities
-        if len(quantities) > 1:
-            text = ", ".join(f"{one.title} {dash}" for one, dash in zip(quantities, _DASHES, strict=False))
-        else:
-            text = self.chart.title
-        silent = [one.record.name for one in self._curves if not any(one.columns.told(each.key) for each in quantities)]
-        if silent:
-            several = len(silent) > 1
-            text += f": {' and '.join(silent)} {'do' if several else 'does'} not tell this"
-        return text
 
     # Under the mouse
 

@@ -7,13 +7,61 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend_app.state.convergence import Chart, Curve
-from hexmend_app.widgets.wording import figure
+from hexmend_app.widgets.wording import counted, figure
 
 
 def describe(chart: Chart, curves: Sequence[Curve], x: float, by_time: bool) -> str:
     """The figures of all runs that are plotted at a place of the axis, a line each; "" where there is none."""
     reaching = [one for one in curves if one.shown and _reaches(one, x, by_time)]
     return "\n".join(_line(chart, one, one.nearest(x, by_time), by_time) for one in reaching)
+
+
+def titled(chart: Chart, curves: Sequence[Curve], dashes: Sequence[str]) -> str:
+    """What stands above a chart: the dashes of its quantities where there are several, and which runs are not in it."""
+    quantities = chart.quantities
+    several = len(quantities) > 1
+    text = ", ".join(f"{one.title} {dash}" for one, dash in zip(quantities, dashes, strict=False))
+    silent = [one for one in curves if one.shown and not _tells(chart, one)]
+    inverted = [one.record.name for one in silent if _infinite(chart, one)]
+    others = [one.record.name for one in silent if not _infinite(chart, one)]
+    said = [text if several else chart.title]
+    if inverted:
+        said.append(f"{' and '.join(inverted)} {'have' if len(inverted) > 1 else 'has'} none while hexes are inverted")
+    if others:
+        said.append(f"{' and '.join(others)} {'do' if len(others) > 1 else 'does'} not tell this")
+    return ": ".join([said[0], "; ".join(said[1:])]) if silent else said[0]
+
+
+def why_blank(chart: Chart, curves: Sequence[Curve]) -> str:
+    """Why nothing is drawn in a chart; "" where something is, or is about to be.
+
+    A run of which there are no iterations yet tells nothing, and that is no reason.
+    """
+    shown = [one for one in curves if one.shown]
+    if not shown:
+        return "No run is ticked."
+    if any(_tells(chart, one) for one in shown):
+        return ""
+    left = [int(one.columns.of("inverted")[-1]) for one in shown if _infinite(chart, one)]
+    if left:
+        some = f"{counted(left[-1], 'hex', 'hexes')} {'is' if left[-1] == 1 else 'are'} inverted"
+        return f"{some}: the objective is infinite until none is."
+    return f"The method does not tell its {chart.title}." if len(shown) == 1 else f"No run tells its {chart.title}."
+
+
+def _tells(chart: Chart, curve: Curve) -> bool:
+    """Whether there is anything to draw of a run, or may be once it has begun."""
+    if _infinite(chart, curve):
+        return False
+    return any(curve.columns.told(one.key) for one in chart.quantities)
+
+
+def _infinite(chart: Chart, curve: Curve) -> bool:
+    """Whether a run has no objective because of inverted hexes."""
+    columns = curve.columns
+    if chart.key != "objective" or not len(columns) or np.isfinite(columns.of("objective")).any():
+        return False
+    return bool(columns.of("inverted")[-1] > 0)
 
 
 def _reaches(curve: Curve, x: float, by_time: bool) -> bool:

@@ -121,5 +121,7 @@ class FeatureFilm(Feature):
             self.host.messages.show_info(f"Film of {len(frames)} frames saved to {path}")
 
     def _say(self) -> None:
-        at, help = min(len(self._frames) + 1, self._count), "Give the film up; no file is written."
-        self.host.busy.show_work(f"Drawing frame {at} of {self._count}…", "Cancel", help, self.cancel)
+        word, help = "Cancel", "Give the film up; no file is written."
+        drawn = len(self._frames)
+        what = f"Drawing frame {drawn + 1} of {self._count}…" if drawn < self._count else f"Writing {self._path.name}…"
+        self.host.busy.show_work(what, word, help, self.cancel)

@@ -7,8 +7,9 @@ import io
 from itertools import pairwise
 from pathlib import Path
 
+from hexmend.io.suffixes import suffix_for
 from hexmend.report.documents import write_text
-from hexmend.report.plots import Outline, write_histogram_figure
+from hexmend.report.plots import FIGURE_SUFFIXES, Outline, write_histogram_figure
 from hexmend_app.features.histogram.bins import Distribution
 from hexmend_app.features.histogram.panel import QualityHistogram
 
@@ -21,7 +22,7 @@ def write_histogram(path: Path, histogram: QualityHistogram, title: str) -> None
     HexmendError
         For another suffix, or where the file cannot be written; the one that was there stays.
     """
-    if path.suffix.lower() == ".csv":
+    if suffix_for(path, "a histogram", (*FIGURE_SUFFIXES, ".csv")) == ".csv":
         write_text(path, text(histogram))
         return
     axis, cumulative = histogram.axis, histogram.cumulative

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hexmend.quality import element, node
-from hexmend.report.documents import write_text
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.inspect.element_panel import ElementPanel
+from hexmend_app.features.inspect.file import write_worst
 from hexmend_app.features.inspect.worst_list import WorstList
 from hexmend_app.widgets.questions import ask_list
 from hexmend_app.widgets.wording import counted
@@ -168,6 +168,6 @@ class FeatureInspect(Feature):
         """Write the list of the worst hexes as CSV; whether it was."""
         return self.host.said(
             "The list was not saved",
-            lambda: write_text(Path(path), self.worst_list.text()),
+            lambda: write_worst(Path(path), self.worst_list),
             f"{counted(len(self.worst_list.elements), 'hex', 'hexes')} saved to {path}",
         )

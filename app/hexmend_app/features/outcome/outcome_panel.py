@@ -65,7 +65,7 @@ class OutcomePanel(QWidget):
             elements.show_requested.connect(self.show_requested)
         self._next = QLabel("What to try next")
         self._next.setFont(font)
-        self._nothing = note("Nothing is known that would better this mesh.")
+        self._nothing = note()
         self._rows = QGridLayout()
         self._rows.setColumnStretch(0, 1)
         self._rows.setVerticalSpacing(6)
@@ -110,6 +110,7 @@ class OutcomePanel(QWidget):
         tint(self._left, INVERTED_TEXT if advice.locked.size or advice.loose.size else TEXT)
         self._locked.show_elements(advice.locked)
         self._loose.show_elements(advice.loose)
+        self._nothing.setText(advice.nothing)
         self._show_suggestions(advice.suggestions)
         self._stack.setCurrentIndex(1)
 
@@ -124,7 +125,8 @@ class OutcomePanel(QWidget):
             item.widget().hide()
             item.widget().deleteLater()
         self._buttons = []
-        self._nothing.setVisible(not suggestions)
+        self._next.setVisible(bool(suggestions or self._nothing.text()))
+        self._nothing.setVisible(not suggestions and bool(self._nothing.text()))
         before: QWidget = self._loose.button
         for at, one in enumerate(suggestions):
             text = self._text()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QSettings, QSize
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -20,10 +20,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.widgets.style import explain
+from hexmend.errors import FileError
+from hexmend_app.widgets.questions import ask_replacing, folder, named, remember_folder
+from hexmend_app.widgets.style import WORSE, explain, note
 
 _PRESETS = (("Full HD", 1920, 1080), ("4K", 3840, 2160), ("Square, for print", 3000, 3000))
 _LARGEST = 8192
+_KIND = "PNG picture (*.png)"
 
 
 class PictureDialog(QDialog):
@@ -40,9 +43,12 @@ class PictureDialog(QDialog):
     def __init__(self, view: QSize, name: str, parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle("Save picture")
-        folder = Path(str(QSettings().value("picture_folder", Path.home())))
-        self._path = QLineEdit(str(folder / name))
+        self._path = QLineEdit(str(folder() / name))
         self._path.setMinimumWidth(360)
+        self._path.textChanged.connect(lambda: self._refuse(""))
+        self._replaced = ""  # the file that may be replaced, as a dialog of the desktop has asked
+        self._problem = note("", WORSE)
+        self._problem.setAccessibleName("What is wrong")
         browse = QPushButton("Browse…")
         browse.clicked.connect(self._browse)
         where = QHBoxLayout()
@@ -70,16 +76,17 @@ class PictureDialog(QDialog):
         buttons.rejected.connect(self.reject)
         form = QFormLayout(self)
         form.addRow("File", where)
+        form.addRow("", self._problem)
         form.addRow("Size", self._preset)
         form.addRow("", size)
         form.addRow("", self._transparent)
         form.addRow(buttons)
+        self._refuse("")
         self._on_preset()
 
     def path(self) -> Path:
-        """Where the picture goes; .png is added where it is missing."""
-        path = Path(self._path.text()).expanduser()
-        return path if path.suffix.lower() == ".png" else path.with_name(path.name + ".png")
+        """Where the picture goes; a name without a suffix gets one."""
+        return Path(named(str(Path(self._path.text()).expanduser()), _KIND))
 
     def picture_size(self) -> tuple[int, int]:
         """Width and height in pixels."""
@@ -90,9 +97,25 @@ class PictureDialog(QDialog):
         return self._transparent.isChecked()
 
     def accept(self) -> None:
-        """Remember the folder."""
-        QSettings().setValue("picture_folder", str(self.path().parent))
-        super().accept()
+        """Close where a picture can be written to the path, and remember its folder; or say why not."""
+        from hexmend_app.scene.export.picture import check_picture
+
+        if not self._path.text().strip():
+            self._refuse("Name the file that the picture goes to.")
+            return
+        try:
+            check_picture(self.path())
+        except FileError as error:
+            self._refuse(str(error))
+            return
+        if str(self.path()) == self._replaced or ask_replacing(self, str(self.path())):
+            remember_folder(self.path())
+            super().accept()
+
+    def _refuse(self, problem: str) -> None:
+        self._problem.setText(problem)
+        self._problem.setVisible(bool(problem))
+        self.adjustSize()
 
     def _on_preset(self) -> None:
         size = self._preset.currentData()
@@ -101,6 +124,7 @@ class PictureDialog(QDialog):
             box.setValue(value)
 
     def _browse(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(self, "Save picture", self._path.text(), "PNG picture (*.png)")
+        path, _ = QFileDialog.getSaveFileName(self, "Save picture", self._path.text(), _KIND)
         if path:
+            self._replaced = path
             self._path.setText(path)

@@ -9,8 +9,8 @@ import numpy as np
 import pyvista as pv
 from PIL import Image, ImageDraw
 
-from hexmend.errors import HexmendError
 from hexmend.io.atomic import replacing
+from hexmend.io.suffixes import suffix_for
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
@@ -115,7 +115,7 @@ def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
 
     Raises
     ------
-    HexmendError
+    FileError
         For a suffix that is none of `FORMATS`, or where the file cannot be written.
     """
     format = format_of(path)
@@ -136,12 +136,10 @@ def format_of(path: Path) -> str:
 
     Raises
     ------
-    HexmendError
+    FileError
         For another suffix.
     """
-    if path.suffix.lower() not in FORMATS:
-        raise HexmendError(f"{path}: a film is written as {', '.join(FORMATS)}; give the file one of these suffixes")
-    return FORMATS[path.suffix.lower()]
+    return FORMATS[suffix_for(path, "a film", FORMATS)]
 
 
 def _with_one_palette(frames: Sequence[Image.Image]) -> list[Image.Image]:

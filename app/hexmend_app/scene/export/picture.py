@@ -9,6 +9,8 @@ import numpy as np
 import pyvista as pv
 from PIL import Image, ImageDraw, ImageFont
 
+from hexmend.io.atomic import replacing
+from hexmend.io.suffixes import suffix_for
 from hexmend.node_step import NodeStep
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.filters import Filters
@@ -16,6 +18,9 @@ from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
 
 INK = (31, 38, 48)
+
+#: What a picture can be written as.
+SUFFIXES = (".png",)
 
 #: Width and height in pixels below which there is no room for the colour bar.
 _SMALLEST_WITH_BAR = (320, 160)
@@ -78,6 +83,24 @@ def picture(
     whole.paste(image, (0, 0))
     whole.paste(colour_bar(viewport.colouring, viewport.colours.apart, (width, strip), image.mode), (0, height - strip))
     return whole
+
+
+def check_picture(path: Path) -> None:
+    """Raise `FileError` for a suffix that no picture has; a name without one is taken as it is."""
+    suffix_for(path, "a picture", (*SUFFIXES, ""))
+
+
+def write_picture(path: Path, image: Image.Image) -> None:
+    """Write a picture as a whole or not at all.
+
+    Raises
+    ------
+    FileError
+        For a suffix that no picture has, or where the file cannot be written; the one that was there stays.
+    """
+    check_picture(path)
+    with replacing(path) as temporary:
+        image.save(temporary, format="PNG")
 
 
 def paper(size: tuple[int, int], mode: str) -> Image.Image:

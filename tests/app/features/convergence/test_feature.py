@@ -114,5 +114,5 @@ def test_the_charts_are_saved_as_figures_and_all_figures_of_all_runs_as_a_table(
     assert rows[-1]["run"] == second.name
     assert rows[-1]["branch_of"] == f"{first.name} 2"
     assert rows[-1]["gradient_norm"] == ""
-    assert not window.features["convergence"].save(tmp_path / "charts.xls", window.features["convergence"].write)
-    assert "ends in one of .svg" in window.messages.messages()[-1][2]
+    assert not window.features["convergence"].save(tmp_path / "charts.xls")
+    assert "Use .svg, .pdf, .png or .csv." in window.messages.messages()[-1][2]

@@ -18,7 +18,7 @@ def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["-o", "run.mp4"], ".gif, .png, .webp"),
+        (["-o", "run.mp4"], "Use .gif, .png or .webp."),
         (["-o", "run.gif", "--frames", "1"], "--frames '1' cannot be used: expected a whole number from 2 to 1000"),
         (["-o", "run.gif", "--rate", "fast"], "--rate 'fast' cannot be used"),
         (["-o", "run.gif", "--method", "lapalcian"], "lapalcian"),

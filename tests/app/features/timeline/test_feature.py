@@ -260,8 +260,11 @@ def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkey
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
     shown = window.session.timeline.moment
     window.actions["film"].trigger()
-    assert "Drawing frame 1 of 6" in window.busy.text()
+    said = [window.busy.text()]
+    show = window.busy.show_work
+    monkeypatch.setattr(window.busy, "show_work", lambda text, *others: (said.append(text), show(text, *others)))
     qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=60_000)
+    assert said == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
     assert "6 frames" in " ".join(window.messages.messages()[-1])
     with Image.open(path) as film:
         assert (film.n_frames, film.width) == (record.newest + 1, WIDTH)
@@ -288,7 +291,7 @@ def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path
     path = tmp_path / "run.avi"
     window.actions["film"].trigger()
     assert not window.features["film"].going_on
-    assert ".gif, .png, .webp" in " ".join(window.messages.messages()[-1])
+    assert "Use .gif, .png or .webp." in " ".join(window.messages.messages()[-1])
 
 
 def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(window, qtbot):

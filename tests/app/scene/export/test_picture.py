@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.errors import ParameterError
+from hexmend.errors import FileError, ParameterError
 from hexmend.io import write
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, measure
@@ -18,7 +18,7 @@ from hexmend_app.cli.looks import look_of
 from hexmend_app.cli.render import command
 from hexmend_app.scene.colours import INVERTED, resolve
 from hexmend_app.scene.export.figure import Panel, figure
-from hexmend_app.scene.export.picture import picture
+from hexmend_app.scene.export.picture import picture, write_picture
 from hexmend_app.scene.frame import Frame
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.look import Look
@@ -208,3 +208,19 @@ def test_looks_are_values():
     assert Look() == Look()
     with pytest.raises(ValueError, match="expected a direction"):
         ClipPlane((0, 0, 0))
+
+
+def test_a_picture_is_written_as_what_it_is(tmp_path, capsys):
+    from hexmend.cli.main import main
+
+    write(tmp_path / "mesh.vtu", grid(2))
+    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "p.pdf")]) != 0
+    assert "p.pdf: a picture cannot be written as .pdf. Use .png." in capsys.readouterr().err
+    assert [one.name for one in tmp_path.iterdir()] == ["mesh.vtu"]
+    image = Image.new("RGB", (16, 16))
+    for name in ("p.PNG", "p"):
+        write_picture(tmp_path / name, image)
+        with Image.open(tmp_path / name) as read:
+            assert (read.format, read.size) == ("PNG", (16, 16))
+    with pytest.raises(FileError, match=r"Use \.png"):
+        write_picture(tmp_path / "p.jpg", image)

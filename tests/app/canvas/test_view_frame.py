@@ -1,0 +1,78 @@
+"""Captions of views: each over its own, in whatever rows they stand."""
+
+import pytest
+from PySide6.QtCore import QPoint, QRect
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QToolButton, QWidget
+
+from hexmend_app.canvas.captions import HEIGHT, Caption, CaptionRow
+from hexmend_app.canvas.view_frame import ViewFrame
+from hexmend_app.scene.panes import grid
+from hexmend_app.state.views import Wipe
+from tests.app.driving import LEFT
+
+
+class Framed(QWidget):
+    """A view in its frame."""
+
+    def __init__(self):
+        super().__init__()
+        self.view = QWidget()
+        self.frame = ViewFrame(self.view)
+        self.setLayout(self.frame)
+
+
+@pytest.fixture
+def framed(shown):
+    return shown(Framed(), 801, 603)
+
+
+def captions(count):
+    return [Caption(f"view {k}", 0.5, 0, None) for k in range(count)]
+
+
+def entries(view):
+    """Where each caption stands in the view, by its name."""
+    found = {}
+    for row in view.findChildren(CaptionRow):
+        for part in row.findChildren(QWidget):
+            name = part.accessibleName().partition(":")[0]
+            if name.startswith("view") and part.isVisible():
+                found[name] = QRect(part.mapTo(view, QPoint(0, 0)), part.size())
+    return found
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_each_caption_stands_at_the_top_of_its_view(framed, qtbot, count):
+    frame, view, size = framed.frame, framed.view, framed.view.size()
+    frame.set_captions(captions(count), None)
+    assert view.size() == size  # what is said of views takes nothing from them but the room that they leave
+    found = entries(view)
+    if count == 1:
+        assert found == {}
+        return
+    for k, (left, _, right, high) in enumerate(grid(count)):
+        place = found[f"view {k}"]
+        assert place.top() == round((1 - high) * view.height())
+        assert place.height() == HEIGHT
+        assert abs(place.left() - left * view.width()) <= 1
+        assert abs(place.right() + 1 - right * view.width()) <= 1
+
+
+def test_they_stay_there_as_the_view_grows_and_go_with_a_wipe(framed, qtbot):
+    frame, view = framed.frame, framed.view
+    frame.set_captions(captions(4), None)
+    framed.resize(1001, 803)
+    frame.fit()
+    assert entries(view)["view 2"].top() == round(view.height() / 2)
+    frame.set_captions(captions(4), Wipe(0, 1, 0.5))
+    assert entries(view) == {}
+
+
+def test_a_cross_in_the_lower_row_closes_its_view(framed, qtbot):
+    frame, view = framed.frame, framed.view
+    frame.set_captions(captions(4), None)
+    cross = next(one for one in view.findChildren(QToolButton) if one.accessibleName() == "Close the view of view 2")
+    with qtbot.waitSignal(frame.view_closed) as told:
+        QTest.mouseClick(cross, LEFT)
+    assert told.args == [2]
