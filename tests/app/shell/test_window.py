@@ -136,8 +136,8 @@ def test_nothing_is_cut_off(window, qtbot, size):
 
 def test_brushing_the_histogram_keeps_a_range_in_view(window, qtbot):
     whole = pixels(window)
-    view = window.histogram._plot.view
-    plot = window.histogram._plot.plot
+    view = window.histogram.plot.view
+    plot = window.histogram.plot.plot
 
     def at(q):
         scene = view.mapViewToScene(QPointF(q, 10))
@@ -164,7 +164,7 @@ def choose(combo, name):
 
 def brush(window, low, high):
     """Drag over the histogram from one place to another."""
-    plot, view = window.histogram._plot.plot, window.histogram._plot.view
+    plot, view = window.histogram.plot.plot, window.histogram.plot.view
     middle = view.viewRect().center().y()
     ends = [plot.mapFromScene(view.mapViewToScene(QPointF(x, middle))) for x in (low, high)]
     drag(plot.viewport(), *ends)
@@ -186,7 +186,7 @@ def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbo
 
     start, shown = window.document.now, viewport.shown
     assert 0 < shown == inside() < 4000
-    assert window.histogram._text.text().startswith(f"{shown:,} of 4,000 elements in ")
+    assert window.histogram.words.text().startswith(f"{shown:,} of 4,000 elements in ")
     click(window, "Step")
     qtbot.waitUntil(lambda: window.document.now is not start, timeout=PATIENCE)
     assert viewport.shown == inside() != shown
