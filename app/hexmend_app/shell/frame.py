@@ -32,6 +32,7 @@ from hexmend_app.state.commands import methods_offered
 from hexmend_app.state.recent import Recent
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.overlay import Overlay
 
 
 class Shell(QMainWindow):
@@ -78,13 +79,13 @@ class Shell(QMainWindow):
         self._centre = QVBoxLayout()
         self._centre.setContentsMargins(0, 0, 0, 0)
         self._centre.setSpacing(0)
-        self._centre.addWidget(self.messages)
         self._centre.addWidget(self.hint)
         self._centre.addWidget(self.welcome, 1)
         self._centre.addWidget(self.timeline_bar)
         centre = QWidget()
         centre.setLayout(self._centre)
         self.setCentralWidget(centre)
+        Overlay(self.messages, centre, (0.5, 0.0), width=560)
         tools = column(
             self.smoothing_panel, self.colour_panel, self.clip_panel, self.inside_panel, self.structure_panel
         )
