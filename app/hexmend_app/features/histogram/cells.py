@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.state.look import ValueRange
 
@@ -47,14 +48,20 @@ class Cells:
         """What shows the elements that the cells from `first` to `last` count, and no others; None where that is all.
 
         >>> Cells(Axis("q"), 50).range(1, 25)
-        ValueRange(metric='q', low=-inf, high=0.49999999999999994, inverted=False)
+        ValueRange(metric='q', low=0.0, high=0.49999999999999994, inverted=False)
         """
         if not 0 <= first <= last < len(self):
             raise ValueError(f"cells {first} to {last}: expected two of 0 to {len(self) - 1}, the lower first")
         if (first, last) == (0, len(self) - 1):
             return None
-        low, high = self._least(max(first, 1)), math.nextafter(self._least(last + 1), -math.inf)
-        return ValueRange(self.axis.metric, low, math.inf if last == len(self) - 1 else high, first == 0)
+        if last == 0:
+            return ValueRange(self.axis.metric, -math.inf, -math.inf, inverted=True)
+        low, high = METRICS[self.axis.metric].full_range  # these bound nothing
+        if first > 1:
+            low = self._least(first)
+        if last < len(self) - 1:
+            high = math.nextafter(self._least(last + 1), -math.inf)
+        return ValueRange(self.axis.metric, low, high, inverted=first == 0)
 
     @property
     def _first(self) -> int:
@@ -62,14 +69,10 @@ class Cells:
         return 1 + self.axis.open_low
 
     def _least(self, at: int) -> float:
-        """The least value that is counted in a cell or beyond it; -inf for the first that counts values.
+        """The least value that is counted in a cell or beyond it; not of the first that counts values.
 
         Counting rounds, so that a value beside the end of a bin may be counted on the end's other side.
         """
-        if at == 1:
-            return -math.inf
-        if at >= len(self):
-            return math.inf
         axis, k = self.axis, at - self._first
         scale = self.bins / (axis.high - axis.low)
         value = axis.low + k / scale

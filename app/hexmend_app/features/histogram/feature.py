@@ -8,6 +8,7 @@ from hexmend.quality import measure
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept, KeptMoments
+from hexmend_app.state.kinds import isolate, of_kind
 from hexmend_app.state.measured import values
 from hexmend_app.state.movement import MOVEMENTS
 from hexmend_app.state.session import Session
@@ -41,6 +42,7 @@ class Counting:
         histogram.keep_requested.connect(self._keep)
         histogram.renamed.connect(self.kept.rename)
         histogram.removed.connect(self.kept.remove)
+        histogram.inverted_requested.connect(self._isolate_inverted)
 
     @property
     def metric(self) -> str:
@@ -91,6 +93,10 @@ class Counting:
             self.refresh()
         self._histogram.set_metric(self.metric, self._follows)
         self._histogram.set_range(look.quality_range)
+
+    def _isolate_inverted(self) -> None:
+        now = self._document.now
+        isolate(self._view, of_kind("inverted", now.mesh, now.figures))
 
     # What is kept
 

@@ -13,7 +13,7 @@ from hexmend_app.state.look import ValueRange
 from hexmend_app.widgets.metrics import in_sentence
 from hexmend_app.widgets.style import INVERTED, explain
 
-_SPACING, _SWATCH = 5, 12
+_SPACING, _SWATCH = 4, 12
 _INVERTED = "Show inverted elements too, whatever their value; they have a bar of their own beside the bins."
 
 

@@ -12,6 +12,7 @@ from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
 from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.scene.filters import Filters
+from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.values import within
 from hexmend_app.state.look import Look, ValueRange
 from tests.core.grids import grid, scrambled
@@ -79,7 +80,8 @@ def test_the_view_shows_what_the_bars_count(name):
     part = distribute(values, figures.inverted, Axis.fitted(name, values, figures.inverted), 20)
     counts, filters = cell_counts(part), Filters(mesh)
     for first, last in ((0, 0), (1, len(counts) - 1), (0, 8), (3, 12), (len(counts) - 2, len(counts) - 1)):
-        kept = filters.kept(Look(quality_range=part.cells.range(first, last)), mesh.points, figures)
+        look = Look(quality_range=part.cells.range(first, last))
+        kept = filters.kept(Frame(mesh, figures, None, look))
         assert np.count_nonzero(kept) == sum(counts[first : last + 1])
 
 
@@ -104,7 +106,7 @@ def test_the_plot_marks_the_cells_of_a_range():
 def test_all_cells_are_no_range_and_none_are_no_question():
     cells = Cells(Axis("q"), 10)
     assert cells.range(0, 10) is None
-    assert cells.range(1, 10) == ValueRange("q", -math.inf, math.inf)
+    assert cells.range(1, 10) == ValueRange("q", 0.0, 1.0)
     assert cells.range(0, 0) == ValueRange("q", -math.inf, -math.inf, inverted=True)
     for first, last in ((3, 2), (-1, 4), (0, 11)):
         with pytest.raises(ValueError, match="the lower first"):
