@@ -33,10 +33,16 @@ def test_the_worst_are_the_first_of_all_in_order(seed, count, better):
     sigma = random.choice([-1.0, 1.0], 30, p=[0.3, 0.7])
     figures = ElementQuality(values, sigma, jacobian, values)
     got = worst(values, figures, count, better)
-    everything = sorted(
-        range(30), key=lambda h: (sigma[h] > 0, jacobian[h] if sigma[h] <= 0 else better * values[h], h)
-    )
+    everything = sorted(range(30), key=lambda h: (better * values[h], jacobian[h], h))
     assert got.tolist() == everything[:count]
+
+
+def test_what_has_no_value_is_the_worst_whichever_way_is_better():
+    values = np.array([0.5, np.nan, 3.0, np.inf])
+    figures = ElementQuality(values, np.ones(4), np.zeros(4), values)
+    assert worst(values, figures, 4).tolist() == [1, 0, 2, 3]
+    assert worst(values, figures, 3, better=-1).tolist() == [1, 3, 2]
+    assert np.isnan(values[1])  # not written into
 
 
 def test_a_node_says_what_the_mesh_says_of_it():

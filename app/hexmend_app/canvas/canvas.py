@@ -1,4 +1,4 @@
-"""The 3D view as a widget: the scene in a Qt interactor, what is dragged in it, the colour bar below."""
+"""The 3D view as a widget: the scene in a Qt interactor, what is dragged in it, the colour bar over it."""
 
 from __future__ import annotations
 
@@ -30,6 +30,7 @@ from hexmend_app.scene.palette import BLUE, THEME
 from hexmend_app.scene.panes import ROOM, Panes
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.views import Wipe
+from hexmend_app.widgets.overlay import Overlay
 from hexmend_app.widgets.style import dress, explain
 
 #: Milliseconds of rest after which the fine still frame is drawn.
@@ -71,12 +72,11 @@ class Canvas(QWidget):
         self.plane = PlaneWidget(self.interactor, self.plane_dragged.emit)
         self.box = BoxWidget(self.interactor, self.box_dragged.emit)
         self.colour_bar = ColourBar()
+        self._bar_place = Overlay(self.colour_bar, self.interactor, (1.0, 0.5), key="colour_bar")
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(_RING, _RING, _RING, 0)
-        layout.setSpacing(_RING)
+        layout.setContentsMargins(_RING, _RING, _RING, _RING)
         self.frame = ViewFrame(self.interactor)
         layout.addLayout(self.frame, 1)
-        layout.addWidget(self.colour_bar)
         self._once = OncePerFrame(self.interactor)
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
@@ -235,12 +235,13 @@ class Canvas(QWidget):
         super().resizeEvent(event)
         whole = Fraction(self.devicePixelRatioF()).limit_denominator(4).denominator
         at = self.mapTo(self.window(), QPoint(0, 0))
-        right, bottom = at.x() + self.width() - _RING, at.y() + self.height() - self.colour_bar.height() - _RING
-        layout = self.layout()
-        layout.setContentsMargins(
-            _RING + -(at.x() + _RING) % whole, _RING + -(at.y() + _RING) % whole, _RING + right % whole, 0
+        right, bottom = at.x() + self.width() - _RING, at.y() + self.height() - _RING
+        self.layout().setContentsMargins(
+            _RING + -(at.x() + _RING) % whole,
+            _RING + -(at.y() + _RING) % whole,
+            _RING + right % whole,
+            _RING + bottom % whole,
         )
-        layout.setSpacing(_RING + bottom % whole)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Mark the focus by a ring around the view."""

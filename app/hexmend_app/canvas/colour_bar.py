@@ -6,17 +6,18 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colours import range_label
-from hexmend_app.widgets.style import INVERTED, LINE, MUTED, TEXT, explain, smaller, tabular
+from hexmend_app.widgets.style import INVERTED, LINE, MUTED, PANEL, TEXT, dress, explain, smaller, tabular
 
-_THICKNESS = 14.0
-_SWATCH = 32.0
-_GAP = 24.0
-_TICK = 4.0
+#: Pixels: of the whole, of the gradient, of a tick, and between a tick and its number.
+_HEIGHT = 300
+_THICKNESS, _TICK, _GAP = 14.0, 4.0, 3.0
+_WIDEST_TITLE = 116
 _MOST_TICKS = 11
 
 
@@ -38,141 +39,137 @@ def nice_ticks(low: float, high: float, most: int) -> list[float]:
     return []
 
 
-class ColourBar(QWidget):
-    """What the colours mean: a gradient with ticks, and a swatch of its own for inverted elements.
+class ColourBar(QFrame):
+    """What the colours mean: a gradient with ticks, and below it a swatch for what has a colour of its own.
 
     Parameters
     ----------
-    orientation : Qt.Orientation
-        Which way the gradient runs.
     label : str
         The quantity.
+
+    Signals
+    -------
+    apart_clicked(str)
+        The user clicked on the swatch of what has this name.
     """
 
-    def __init__(
-        self,
-        orientation: Qt.Orientation = Qt.Orientation.Horizontal,
-        label: str = "q(H)",
-        parent: QWidget | None = None,
-    ):
+    apart_clicked = Signal(str)
+
+    def __init__(self, label: str = "q(H)", parent: QWidget | None = None):
         super().__init__(parent)
-        self._across = orientation == Qt.Orientation.Horizontal
-        self._label = label
-        self._table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
-        self._low, self._high = 0.0, 1.0
-        self._apart: list[tuple[str, int, QColor]] = [("inverted", 0, QColor(INVERTED))]
+        self.setObjectName("colour_bar")
         self.setFont(tabular(smaller(self.font())))
-        self.setContentsMargins(9, 3, 9, 3)
-        fixed, grows = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding
-        self.setSizePolicy(*((grows, fixed) if self._across else (fixed, grows)))
-        self._describe()
+        self._title = QLabel(label)
+        self._title.setWordWrap(True)
+        self._title.setTextFormat(Qt.TextFormat.PlainText)
+        self._gradient = _Gradient()
+        self.swatches: list[SwatchButton] = []
+        self._layout = QVBoxLayout(self)
+        self._layout.setContentsMargins(8, 6, 6, 5)
+        self._layout.setSpacing(3)
+        self._layout.addWidget(self._title)
+        self._layout.addWidget(self._gradient, 1)
+        self.set_apart([("inverted", 0, INVERTED)])
+        sheet = "#colour_bar {{ background: {0}; border: 1px solid {1}; border-radius: 7px; }}"
+        dress(self, lambda: self.setStyleSheet(sheet.format(PANEL, LINE)))
 
     def set_table(self, table: np.ndarray) -> None:
         """Take the colour map, (256, 3) uint8, lowest value first."""
         table = np.ascontiguousarray(table, dtype=np.uint8)
         if table.ndim != 2 or table.shape[1] != 3:
             raise ValueError(f"the colour table has shape {table.shape}: expected (n, 3)")
-        self._table = table
-        self.update()
+        self._gradient.table = table
+        self._gradient.update()
 
     def set_label(self, label: str) -> None:
         """Take the name of the quantity."""
-        self._label = label
-        self._describe()
-        self.updateGeometry()
-        self.update()
+        if label != self._title.text():
+            self._title.setText(label)
+            self._describe()
 
     def set_range(self, low: float, high: float) -> None:
         """Take the values at the ends of the gradient."""
-        self._low, self._high = float(low), float(high)
-        self._describe()
-        self.update()
+        if (low, high) != self.range:
+            self._gradient.low, self._gradient.high = float(low), float(high)
+            self._gradient.update()
+            self._describe()
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """The values at the ends of the gradient."""
+        return self._gradient.low, self._gradient.high
+
+    def ticks(self, length: float) -> list[float]:
+        """The values at the ticks of a gradient of so many pixels."""
+        return self._gradient.ticks(length)
 
     def set_apart(self, apart: Sequence[tuple[str, int, object]]) -> None:
         """Take what has a colour of its own: name, number of elements, colour as name or (red, green, blue) bytes."""
-        self._apart = [
-            (name, int(count), QColor(colour) if isinstance(colour, str | QColor) else QColor(*map(int, colour)))
-            for name, count, colour in apart
-        ]
+        while len(self.swatches) < len(apart):
+            swatch = SwatchButton()
+            swatch.clicked.connect(lambda _=False, swatch=swatch: self.apart_clicked.emit(swatch.name))
+            self._layout.addWidget(swatch)
+            if self.swatches:
+                QWidget.setTabOrder(self.swatches[-1], swatch)
+            self.swatches.append(swatch)
+        for swatch in self.swatches[len(apart) :]:
+            swatch.hide()
+        for swatch, (name, count, colour) in zip(self.swatches, apart, strict=False):
+            known = isinstance(colour, str | QColor)
+            swatch.show_kind(name, int(count), QColor(colour) if known else QColor(*map(int, colour)))
+            swatch.show()
         self._describe()
-        self.updateGeometry()
-        self.update()
 
     def _describe(self) -> None:
-        low, high = self._text(self._low), self._text(self._high)
+        low, high = (self._gradient.text(end) for end in self.range)
+        label, apart = self._title.text(), [one for one in self.swatches if not one.isHidden()]
         explain(
             self,
             "Colour bar",
-            f"Colours stand for {self._label} from {low} to {high}; values beyond an end have the end's colour. "
-            f"Elements that are {' or '.join(name for name, *_ in self._apart)} have a colour of their own; inverted "
-            "ones are turned inside out at a corner (a determinant σ ≤ 0), and outlined.",
+            f"Colours stand for {label} from {low} to {high}; values beyond an end have the end's colour. "
+            f"Elements that are {' or '.join(one.name for one in apart)} have a colour of their own; inverted "
+            "ones are turned inside out at a corner (a determinant σ ≤ 0), and outlined. Drag the bar elsewhere; a "
+            "double click puts it back.",
         )
-        texts = "; ".join(_swatch_text(name, count) for name, count, _ in self._apart)
-        self.setAccessibleDescription(f"{texts}; {self._label} from {low} to {high}")
-
-    def _text(self, value: float) -> str:
-        return range_label(value, self._low, self._high)
+        texts = "; ".join(swatch_text(one.name, one.count) for one in apart)
+        self.setAccessibleDescription(f"{texts}; {label} from {low} to {high}")
 
     def sizeHint(self) -> QSize:
-        """As much as the labels need."""
-        metrics, margins = QFontMetricsF(self.font()), self.contentsMargins()
-        if self._across:
-            size = QSize(300, math.ceil(_THICKNESS + _TICK + metrics.height() + 3))
-        else:
-            width = max(_THICKNESS + _TICK + 3 + metrics.horizontalAdvance("0.000"), *self._rooms(metrics))
-            size = QSize(math.ceil(width), 200)
-        return size.grownBy(margins)
+        """As wide as the texts need, and as high as is pleasant."""
+        title = min(self._title.fontMetrics().horizontalAdvance(self._title.text()) + 2, _WIDEST_TITLE)
+        parts = [title, self._gradient.sizeHint().width()]
+        parts += [one.sizeHint().width() for one in self.swatches if not one.isHidden()]
+        margins = self._layout.contentsMargins()
+        return QSize(max(parts) + margins.left() + margins.right(), _HEIGHT)
 
-    minimumSizeHint = sizeHint
 
-    def _rooms(self, metrics: QFontMetricsF) -> list[float]:
-        """Width of each swatch's text; a single one has room for a large count, so that the gradient holds still."""
-        if len(self._apart) > 1:
-            return [max(_SWATCH, metrics.horizontalAdvance(_swatch_text(name, n))) for name, n, _ in self._apart]
-        ((name, count, _),) = self._apart
-        wide = f"{name} (00,000)" if 0 < count < 100_000 else _swatch_text(name, count)
-        return [metrics.horizontalAdvance(wide)]
+class _Gradient(QWidget):
+    """The colours from the highest value down, with ticks at their right."""
 
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint swatches, gradient, ticks and labels."""
-        painter = QPainter(self)
-        painter.setFont(self.font())
+    def __init__(self) -> None:
+        super().__init__()
+        self.table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
+        self.low, self.high = 0.0, 1.0
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
+
+    def text(self, value: float) -> str:
+        """A value as it stands at a tick."""
+        return range_label(value, self.low, self.high)
+
+    def sizeHint(self) -> QSize:
+        """As wide as the numbers need; so much for common ones that it holds still."""
         metrics = QFontMetricsF(self.font())
-        swatches, bar = self._boxes(metrics)
-        # One row of 256 pixels, stretched by the painter at the screen's own resolution.
-        table = self._table if self._across else np.ascontiguousarray(self._table[::-1])
-        n = len(table)
-        width, height = (n, 1) if self._across else (1, n)
-        image = QImage(table.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888)
-        painter.drawImage(bar, image)
-        for swatch, (*_, colour) in zip(swatches, self._apart, strict=True):
-            painter.fillRect(swatch, colour)
-        painter.setPen(QPen(QColor(str(LINE)), 0))
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawRects([*swatches, bar])
-        self._paint_labels(painter, metrics, swatches, bar)
+        texts = ["0.000", *(self.text(tick) for tick in self.ticks(_HEIGHT / 2))]
+        widest = max(map(metrics.horizontalAdvance, texts))
+        return QSize(math.ceil(_THICKNESS + _TICK + _GAP + widest), 40)
 
-    def _boxes(self, metrics: QFontMetricsF) -> tuple[list[QRectF], QRectF]:
-        """Swatches and gradient."""
-        inside = QRectF(self.contentsRect())
-        if self._across:
-            swatches, left = [], inside.left()
-            for room in self._rooms(metrics):
-                swatches.append(QRectF(left, inside.top(), _SWATCH, _THICKNESS))
-                left += room + (_GAP if len(self._apart) == 1 else 0.6 * _GAP)
-            if len(self._apart) > 1:  # a single one has room to spare
-                left += metrics.horizontalAdvance(self._text(self._low)) / 2
-            right = inside.right() - metrics.horizontalAdvance(self._label) - 8
-            return swatches, QRectF(left, inside.top(), max(right - left, 1), _THICKNESS)
-        top = inside.top() + metrics.height() + 4
-        each = metrics.height() + _TICK + _THICKNESS
-        under = inside.bottom() - len(self._apart) * each
-        swatches = [QRectF(inside.left(), under + k * each, _THICKNESS, _THICKNESS) for k in range(len(self._apart))]
-        return swatches, QRectF(inside.left(), top, _THICKNESS, max(under - _GAP - top, 1))
+    def minimumSizeHint(self) -> QSize:
+        """Low enough for a low view."""
+        return QSize(self.sizeHint().width(), 20)
 
-    def _ticks(self, length: float, room: float) -> list[float]:
-        """Both ends, and of the round values between them those that leave each number its room."""
-        low, high = self._low, self._high
+    def ticks(self, length: float) -> list[float]:
+        """Both ends, and of the round values between them those that leave each number its room on so many pixels."""
+        low, high, room = self.low, self.high, 2 * QFontMetricsF(self.font()).height()
         if not high > low:
             return []
         near = room / max(length, 1) * (high - low)
@@ -183,37 +180,22 @@ class ColourBar(QWidget):
                 break
         return [low, *(tick for tick in between if low + near <= tick <= high - near), high]
 
-    def _paint_labels(self, painter: QPainter, metrics: QFontMetricsF, swatches: list[QRectF], bar: QRectF) -> None:
-        line, ascent = metrics.height(), metrics.ascent()
-        painter.setPen(QColor(str(TEXT)))
-        if self._across:
-            painter.drawText(QPointF(bar.right() + 8, bar.center().y() + ascent / 2 - 1), self._label)
-        else:
-            painter.drawText(QPointF(bar.left(), bar.top() - 4 - metrics.descent()), self._label)
-        for swatch, (name, count, _) in zip(swatches, self._apart, strict=True):
-            painter.setPen(QColor(str(TEXT if count else MUTED)))
-            painter.drawText(QPointF(swatch.left(), swatch.bottom() + _TICK + 2 + ascent), _swatch_text(name, count))
-
-        length = bar.width() if self._across else bar.height()
-        ends = self._text(self._low), self._text(self._high)
-        room = max(map(metrics.horizontalAdvance, ends)) + metrics.horizontalAdvance("00") if self._across else 2 * line
-        for value in self._ticks(length, room):
-            share = (value - self._low) / (self._high - self._low)
-            text = self._text(value)
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint gradient, ticks and numbers."""
+        painter = QPainter(self)
+        painter.setFont(self.font())
+        metrics = QFontMetricsF(self.font())
+        half = metrics.height() / 2
+        bar = QRectF(0.0, half, _THICKNESS, max(self.height() - 2 * half, 1.0))
+        # One column of 256 pixels, stretched by the painter at the screen's own resolution.
+        table = np.ascontiguousarray(self.table[::-1])
+        painter.drawImage(bar, QImage(table.tobytes(), 1, len(table), 3, QImage.Format.Format_RGB888))
+        painter.setPen(QPen(QColor(str(LINE)), 0))
+        painter.drawRect(bar)
+        for value in self.ticks(bar.height()):
+            share = (value - self.low) / (self.high - self.low)
+            y = round(bar.bottom() - share * bar.height())
             painter.setPen(QPen(QColor(str(MUTED)), 1))
-            if self._across:
-                x = round(bar.left() + share * length) + 0.5 * (share < 0.5) - 0.5 * (share >= 0.5)
-                painter.drawLine(QPointF(x, bar.bottom() + 1), QPointF(x, bar.bottom() + _TICK))
-                wide = metrics.horizontalAdvance(text)
-                painter.setPen(QColor(str(TEXT)))
-                # The label stands higher, so the last number may reach under it.
-                painter.drawText(QPointF(x - wide / 2, bar.bottom() + _TICK + 2 + ascent), text)
-            else:
-                y = round(bar.bottom() - share * length)
-                painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + _TICK, y))
-                painter.setPen(QColor(str(TEXT)))
-                painter.drawText(QPointF(bar.right() + _TICK + 3, y + ascent / 2 - 1), text)
-
-
-def _swatch_text(name: str, count: int) -> str:
-    return f"{name} ({count:,})" if count else name
+            painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + _TICK, y))
+            painter.setPen(QColor(str(TEXT)))
+            painter.drawText(QPointF(bar.right() + _TICK + _GAP, y + metrics.ascent() / 2 - 1), self.text(value))

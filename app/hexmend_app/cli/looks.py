@@ -32,7 +32,11 @@ def add_arguments(parser: argparse.ArgumentParser, size: str) -> None:
     )
     parser.add_argument("--colour-range", metavar="LOW,HIGH", help="values at the ends of the colours")
     parser.add_argument("--colour-map", metavar="NAME", default="viridis", help="viridis, cividis, plasma, inferno")
-    parser.add_argument("--quality-range", metavar="LOW,HIGH", help="show only elements of a q in this range")
+    parser.add_argument(
+        "--quality-range",
+        metavar="LOW,HIGH",
+        help="show only elements of a q in this range; from 0 on, inverted ones too",
+    )
     parser.add_argument(
         "--view", metavar="FROM", default="iso", help="iso, +x, -x, ..., or x,y,z (default %(default)s)"
     )
@@ -65,9 +69,13 @@ def look_of(args: argparse.Namespace, mesh: Mesh) -> Look:
         mode, ends = RangeMode.PINNED, (max(metric.full_range[0], 0.0), metric.full_range[1])
     else:
         mode, ends = RangeMode.FITTED, (0.0, 1.0)
+    quality_range = None
+    if args.quality_range:
+        low, high = span(args.quality_range, "--quality-range")
+        quality_range = ValueRange("q", low, high, inverted=low <= 0)
     return Look(
         clip=clip.clip_of(args, mesh),
-        quality_range=ValueRange("q", *span(args.quality_range, "--quality-range")) if args.quality_range else None,
+        quality_range=quality_range,
         scale=ColourScale(metric.name, args.colour_map, mode, ends),
         edges=not args.no_edges,
         structure=_structure(args.structure) if args.structure else Structure(),

@@ -68,7 +68,7 @@ class Filters:
         return left if keep is None else left & keep
 
     def _within(self, chosen: ValueRange, points: np.ndarray, figures: ElementQuality) -> np.ndarray:
-        return within(values(chosen.metric, points, self._mesh.hexes, figures), chosen)
+        return within(values(chosen.metric, points, self._mesh.hexes, figures), figures.inverted, chosen)
 
     def _part(self, name: str, reason: Hashable | None, find: Callable[[], np.ndarray]) -> np.ndarray | None:
         if reason is None:

@@ -9,15 +9,24 @@ from hexmend_app.state.look import RangeMode, ValueRange
 from hexmend_app.state.movement import named
 
 
-def within(values: np.ndarray, chosen: ValueRange) -> np.ndarray:
-    """True for each value of the range's metric that lies in the range, (m,) bool."""
+def within(values: np.ndarray, inverted: np.ndarray, chosen: ValueRange) -> np.ndarray:
+    """Which elements a range shows, (m,) bool: exactly those that the histogram counts there.
+
+    Parameters
+    ----------
+    values : (m,) float64
+        Of the range's metric. What is no number is counted as inverted.
+    inverted : (m,) bool
+    chosen : ValueRange
+    """
     least, most = METRICS[chosen.metric].full_range
-    inside = np.ones(len(values), dtype=bool)
+    apart = inverted | np.isnan(values)
+    inside = ~apart if chosen.high > -np.inf else np.zeros(len(values), dtype=bool)
     if chosen.low > least:
         inside &= values >= chosen.low
     if chosen.high < most:
         inside &= values <= chosen.high
-    return inside
+    return inside | apart if chosen.inverted else inside
 
 
 def better(metric: str) -> int:

@@ -33,8 +33,10 @@ class Docks(QWidget):
 
     Attributes
     ----------
+    centre : QWidget
+        What is not of panels.
     view : QVBoxLayout
-        Where the 3D view goes.
+        In it, where the 3D view goes.
     """
 
     changed = Signal()
@@ -42,9 +44,9 @@ class Docks(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._where: dict[str, tuple[Tabs, QWidget]] = {}
-        self._centre = QWidget()
-        self._centre.setMinimumSize(*_LEAST_VIEW)
-        self.view = QVBoxLayout(self._centre)
+        self.centre = QWidget()
+        self.centre.setMinimumSize(*_LEAST_VIEW)
+        self.view = QVBoxLayout(self.centre)
         self.view.setContentsMargins(0, 0, 0, 0)
         self.view.setSpacing(0)
         self.drawer = Drawer("Panels below the view")
@@ -52,7 +54,7 @@ class Docks(QWidget):
         self._left, self._right = QSplitter(Qt.Orientation.Vertical), QSplitter(Qt.Orientation.Vertical)
         self._all = QSplitter(Qt.Orientation.Horizontal)
         for splitter, parts in (
-            (self._left, (self._centre, self.drawer)),
+            (self._left, (self.centre, self.drawer)),
             (self._right, (self._tabs[Place.TOOLS], self._tabs[Place.FACTS])),
             (self._all, (self._left, self._right)),
         ):

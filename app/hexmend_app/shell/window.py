@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QMainWindow, QWidget
 from hexmend_app.shell.docks import Docks
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.overlay import Overlay
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -42,7 +43,7 @@ class Window(QMainWindow):
         self.setWindowTitle("Hexmend")
         self.messages, self.busy = MessageBar(), Busy()
         self.docks = Docks()
-        self.docks.view.addWidget(self.messages)
+        Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
         self.setCentralWidget(self.docks)
         self._counts = QLabel()
         self._counts.setAccessibleName("Hexes")
@@ -90,7 +91,7 @@ class Window(QMainWindow):
 
         self.canvas = Canvas()
         self.canvas.hide()
-        self.docks.view.insertWidget(1, self.canvas, 1)
+        self.docks.view.insertWidget(0, self.canvas, 1)
         panels = QShortcut(QKeySequence(Qt.Key.Key_Tab), self.canvas, self.toggle_panels)
         panels.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         for feature in self.features.values():

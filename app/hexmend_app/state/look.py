@@ -147,7 +147,7 @@ class Structure:
 
 @dataclass(frozen=True)
 class ValueRange:
-    """Bounds of a metric, within which elements are shown.
+    """Bounds of a metric, within which elements are shown: those that a histogram counts between them.
 
     Parameters
     ----------
@@ -155,12 +155,15 @@ class ValueRange:
         A name of `hexmend.quality.METRICS`.
     low, high : float
         Infinite where there is no bound. An end of the metric's full range bounds nothing either: the best hex has
-        q = 1 but for rounding.
+        q = 1 but for rounding. Both bounds are within; of a range that ends at -inf, no value is.
+    inverted : bool
+        Whether inverted elements are shown, whatever their value: the histogram has a bar of their own for them.
     """
 
     metric: str
     low: float
     high: float
+    inverted: bool = False
 
     def __post_init__(self) -> None:
         if not self.low <= self.high:

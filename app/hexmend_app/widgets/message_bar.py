@@ -1,4 +1,4 @@
-"""A bar in the window for what went wrong, what to look out for, and what has been done."""
+"""What went wrong, what to look out for, and what has been done, in a bar over the view."""
 
 from __future__ import annotations
 
@@ -17,27 +17,31 @@ _MAX_KEPT = 100
 
 @dataclass
 class _Message:
-    """A message and how often it came."""
+    """A message, how often it came, and as which one it came first."""
 
     kind: str
     title: str
     text: str
     timeout_ms: int = 0
     times: int = 1
+    number: int = 0
 
 
-# Icon, colour of the icon and the left edge, background.
+# Icon, colour of the icon and the left edge, background; the most pressing first.
 _KINDS = {
     "error": ("alert-circle", WORSE, WRONG),
     "warning": ("alert", AMBER, WARNED),
     "info": ("information", BLUE, TOLD),
 }
+_PRESSING = list(_KINDS)
 
 
 class MessageBar(QFrame):
     """Shows one message at a time and keeps the others until they have been seen; hidden while there is none.
 
-    Esc dismisses the message shown. A message that repeats the last one is counted, not queued.
+    The newest error is shown, then older ones, warnings and what has been done, each the newest first. What is less
+    pressing than what is shown waits behind it. Esc dismisses the message shown. A message that repeats the last one
+    of its kind is counted, not queued.
 
     Signals
     -------
@@ -52,7 +56,7 @@ class MessageBar(QFrame):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._messages: list[_Message] = []
+        self._messages: list[_Message] = []  # in the order of showing
         self._at = 0
         self.setObjectName("message_bar")
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
@@ -119,17 +123,22 @@ class MessageBar(QFrame):
         self._add(_Message("info", text, "", timeout_ms))
 
     def _add(self, message: _Message) -> None:
-        last = self._messages[-1] if self._messages else None
+        rank = _PRESSING.index(message.kind)
+        shown = self._messages[self._at] if self._messages else None
+        first = next((at for at, one in enumerate(self._messages) if _PRESSING.index(one.kind) >= rank), None)
+        at = len(self._messages) if first is None else first
+        last = self._messages[at] if at < len(self._messages) else None
         if last is not None and (last.kind, last.title, last.text) == (message.kind, message.title, message.text):
             last.times += 1
         else:
             # News of what is done soon age: a newer one takes their place.
             if last is not None and last.kind == message.kind == "info":
-                self._messages.pop()
-            self._messages.append(message)
-            del self._messages[1:-_MAX_KEPT]
-            if message.kind == "error" and self._messages[self._at % len(self._messages)].kind == "info":
-                self._at = len(self._messages) - 1
+                self._messages.pop(at)
+            message.number = max((one.number for one in self._messages), default=0) + 1
+            self._messages.insert(at, message)
+            del self._messages[_MAX_KEPT:]
+        if shown is None or rank <= _PRESSING.index(shown.kind):
+            self._at = at
         self._refresh()
 
     def dismiss(self) -> None:
@@ -147,7 +156,8 @@ class MessageBar(QFrame):
 
     def messages(self) -> list[tuple[str, str, str]]:
         """Kind, title and text of all messages that are kept, oldest first."""
-        return [(message.kind, message.title, message.text) for message in self._messages]
+        came = sorted(self._messages, key=lambda message: message.number)
+        return [(message.kind, message.title, message.text) for message in came]
 
     def _show_next(self) -> None:
         self._at += 1
@@ -160,7 +170,10 @@ class MessageBar(QFrame):
     def _paint(self) -> None:
         if self._messages:
             icon_name, colour, background = _KINDS[self._messages[self._at].kind]
-            self.setStyleSheet(f"#message_bar {{ background: {background}; border-left: 4px solid {colour}; }}")
+            self.setStyleSheet(
+                f"#message_bar {{ background: {background}; border: 1px solid {colour}; border-radius: 5px;"
+                " border-left-width: 5px; }"
+            )
             self._icon.setPixmap(icon(icon_name, colour).pixmap(QSize(20, 20), self.devicePixelRatioF()))
 
     def _refresh(self) -> None:

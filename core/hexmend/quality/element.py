@@ -128,9 +128,10 @@ def node(mesh: Mesh, number: int) -> Node:
 
 
 def worst(values: np.ndarray, figures: ElementQuality, count: int, better: int = 1) -> np.ndarray:
-    """The worst hexes, (at most count,) int64, the worst first.
+    """The worst hexes by a metric, (at most count,) int64, the worst first.
 
-    Inverted hexes come before all others, by their scaled Jacobian; of equal ones the lower number comes first.
+    Of equal ones, such as those whose q is 0, that of the lower scaled Jacobian comes first, then that of the lower
+    number. What has no value (nan) is the worst.
 
     Parameters
     ----------
@@ -142,19 +143,18 @@ def worst(values: np.ndarray, figures: ElementQuality, count: int, better: int =
     better : int
         +1 where a higher value is better, -1 where a lower one is.
     """
-    inverted = np.flatnonzero(figures.inverted)
-    first = _least(figures.scaled_jacobian[inverted], inverted, count)
-    if first.size == count or inverted.size == values.size:
-        return first
-    sound = np.flatnonzero(~figures.inverted) if inverted.size else np.arange(values.size)
-    return np.concatenate([first, _least(better * values[sound], sound, count - first.size)])
+    keys = better * np.asarray(values, dtype=np.float64)
+    keys[np.isnan(keys)] = -np.inf
+    numbers = _least(keys, np.arange(keys.size), count, figures.scaled_jacobian)
+    return numbers[np.lexsort((numbers, figures.scaled_jacobian[numbers], keys[numbers]))]
 
 
-def _least(keys: np.ndarray, numbers: np.ndarray, count: int) -> np.ndarray:
-    """The numbers of the `count` least keys, in order."""
-    if count < keys.size:
-        bound = np.partition(keys, count - 1)[count - 1] if count else -np.inf
-        below, equal = np.flatnonzero(keys < bound), np.flatnonzero(keys == bound)
-        chosen = np.concatenate([below, equal[: count - below.size]])
-        keys, numbers = keys[chosen], numbers[chosen]
-    return numbers[np.lexsort((numbers, keys))]
+def _least(keys: np.ndarray, numbers: np.ndarray, count: int, *others: np.ndarray) -> np.ndarray:
+    """The `count` of some hexes whose keys are least, in no order; of equal ones, those whose other keys are."""
+    if count >= numbers.size:
+        return numbers
+    mine = keys[numbers]
+    bound = np.partition(mine, count - 1)[count - 1] if count else -np.inf
+    below, equal = numbers[mine < bound], numbers[mine == bound]
+    missing = count - below.size
+    return np.concatenate([below, _least(others[0], equal, missing, *others[1:]) if others else equal[:missing]])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PIL import Image
-from PySide6.QtCore import QMimeData, QPointF, Qt, QThread, QUrl
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QThread, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMessageBox, QPushButton, QToolButton
@@ -136,8 +136,8 @@ def test_nothing_is_cut_off(window, qtbot, size):
 
 def test_brushing_the_histogram_keeps_a_range_in_view(window, qtbot):
     whole = pixels(window)
-    view = window.features["histogram"].panel._plot.view
-    plot = window.features["histogram"].panel._plot.plot
+    view = window.features["histogram"].panel.plot.view
+    plot = window.features["histogram"].panel.plot.plot
 
     def at(q):
         scene = view.mapViewToScene(QPointF(q, 10))
@@ -166,7 +166,7 @@ def choose(combo, name):
 
 def brush(window, low, high):
     """Drag over the histogram from one place to another."""
-    plot, view = window.features["histogram"].panel._plot.plot, window.features["histogram"].panel._plot.view
+    plot, view = window.features["histogram"].panel.plot.plot, window.features["histogram"].panel.plot.view
     middle = view.viewRect().center().y()
     ends = [plot.mapFromScene(view.mapViewToScene(QPointF(x, middle))) for x in (low, high)]
     drag(plot.viewport(), *ends)
@@ -184,11 +184,12 @@ def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbo
 
     def inside():
         mesh, figures = window.session.document.now.mesh, window.session.document.now.figures
-        return np.count_nonzero(METRICS["max-angle"].of(mesh.points, mesh.hexes, figures) >= chosen.low)
+        angles = METRICS["max-angle"].of(mesh.points, mesh.hexes, figures)
+        return np.count_nonzero((angles >= chosen.low) & ~figures.inverted)
 
     start, shown = window.session.document.now, viewport.shown
     assert 0 < shown == inside() < 4000
-    assert window.features["histogram"].panel._text.text().startswith(f"{shown:,} of 4,000 elements in ")
+    assert window.features["histogram"].panel.words.text().startswith(f"{shown:,} of 4,000 elements from ")
     click(window, "Step")
     qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
     assert viewport.shown == inside() != shown
@@ -268,7 +269,8 @@ def test_what_a_range_leaves_is_drawn_anew_only_where_it_changes(window, qtbot, 
     shaken = now.mesh.points + 0.3 * now.mesh.mean_edge_length * np.random.default_rng(0).random(now.mesh.points.shape)
     window.session.document.preview(State.of(now.mesh.with_points(shaken)))
     assert len(rebuilt) == 2
-    assert viewport.shown == np.count_nonzero(window.session.document.now.figures.q >= 0.4)
+    figures = window.session.document.now.figures
+    assert viewport.shown == np.count_nonzero((figures.q >= 0.4) & ~figures.inverted)
 
 
 def test_a_bad_file_is_said_in_the_window_and_the_open_mesh_stays(window, qtbot, tmp_path):
@@ -374,3 +376,37 @@ def test_a_method_with_a_wrong_value_is_not_started(window):
     QTest.keyClicks(line, "0.1")
     click(window, "Run")
     assert not window.session.smoothing.busy
+
+
+def test_a_click_on_the_bar_of_the_inverted_shows_only_them(window, qtbot):
+    plot, view = window.features["histogram"].panel.plot.plot, window.features["histogram"].panel.plot.view
+    bar = window.features["histogram"].panel.axis.inverted
+    place = plot.mapFromScene(view.mapViewToScene(QPointF(sum(bar) / 2, view.viewRect().center().y())))
+    QTest.mouseClick(plot.viewport(), LEFT, pos=place)
+    n_inverted = window.session.document.now.figures.n_inverted
+    assert window.canvas.viewport.shown == n_inverted > 0
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert window.canvas.viewport.shown == 4000
+
+
+def test_messages_and_the_colour_bar_lie_over_the_view_and_move_nothing(window, qtbot):
+    canvas, bar = window.canvas, window.canvas.colour_bar
+    before = canvas.interactor.geometry(), bar.geometry()
+    assert canvas.interactor.rect().contains(bar.geometry())
+    window.messages.show_error("The mesh was not saved", "There is no room. " * 20)
+    qtbot.waitUntil(window.messages.isVisible)
+    assert (canvas.interactor.geometry(), bar.geometry()) == before
+    assert window.messages.width() <= 560
+    window.resize(1000, 640)
+    qtbot.wait(50)
+    assert canvas.interactor.rect().contains(bar.geometry())
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert not window.messages.isVisible()
+
+
+def test_the_mesh_is_not_turned_by_dragging_the_colour_bar(window):
+    bar, camera = window.canvas.colour_bar, window.canvas.viewport.camera
+    before, place = camera.position, bar.pos()
+    drag(bar, QPoint(20, 15), QPoint(-80, 60))
+    assert bar.pos() != place
+    assert camera.position == before

@@ -34,18 +34,33 @@ def test_it_is_hidden_until_there_is_something_to_say(bar):
     assert (bar._title.text(), bar._text.text()) == ("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
 
 
-def test_a_second_error_waits_behind_the_first(bar):
+def test_the_newest_error_is_shown_and_the_older_wait_behind_it(bar):
     bar.show_error("first")
     bar.show_error("second")
-    assert bar._title.text() == "first"
+    assert bar._title.text() == "second"
     assert bar._next.text().startswith("1 of 2")
     QTest.mouseClick(bar._next, _LEFT)
-    assert bar._title.text() == "second"
-    QTest.mouseClick(bar._dismiss, _LEFT)
     assert bar._title.text() == "first"
+    bar.show_error("third")
+    assert bar._title.text() == "third"
+    for left in ("second", "first"):
+        QTest.mouseClick(bar._dismiss, _LEFT)
+        assert bar._title.text() == left
     assert not bar._next.isVisible()
     QTest.mouseClick(bar._dismiss, _LEFT)
     assert not bar.isVisible()
+
+
+def test_what_is_less_pressing_waits_behind_what_is_more(bar):
+    bar.show_warning("careful")
+    bar.show_error("broken")
+    bar.show_warning("more careful")
+    bar.show_info("done", timeout_ms=0)
+    shown = []
+    while bar.isVisible():
+        shown.append(bar._title.text())
+        QTest.mouseClick(bar._dismiss, _LEFT)
+    assert shown == ["broken", "more careful", "careful", "done"]
 
 
 def test_escape_dismisses_wherever_the_focus_is_and_only_while_there_is_a_message(window, bar):
@@ -63,13 +78,13 @@ def test_a_repeated_message_is_counted(bar):
     assert "1000" in bar._title.text()
 
 
-def test_many_messages_keep_the_first_and_the_newest(bar):
+def test_of_many_messages_the_newest_are_kept(bar):
     for k in range(500):
         bar.show_error(f"error {k}")
     titles = [title for _, title, _ in bar.messages()]
-    assert titles[0] == bar._title.text() == "error 0"
-    assert titles[-1] == "error 499"
-    assert len(titles) < 200
+    assert titles[-1] == bar._title.text() == "error 499"
+    assert titles == [f"error {k}" for k in range(500 - len(titles), 500)]
+    assert 50 < len(titles) < 200
 
 
 def test_information_goes_by_itself_and_errors_stay(bar, qtbot):
@@ -86,7 +101,7 @@ def test_an_error_comes_before_information(bar):
     assert bar._title.text() == "broken"
     bar.show_info("Saved again.")
     assert bar._title.text() == "broken"
-    assert ("info", "Saved.", "") in bar.messages()
+    assert ("info", "Saved again.", "") in bar.messages()
 
 
 def test_copy_takes_all_of_a_long_message(bar):

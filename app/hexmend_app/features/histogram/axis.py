@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.quality import METRICS
 from hexmend_app.scene.colours import range_label
+from hexmend_app.state.look import ValueRange
 
 #: Where on the plot the bins lie: from 0 to 1, whatever the metric.
 _INVERTED = (-0.25, -0.13)
@@ -73,19 +74,17 @@ class Axis:
     def place(self, value: float) -> float:
         """Where a value lies on the plot; beyond the ends, the outer side of what is counted there."""
         if value < self.low:
-            return self.reach[0]
+            return (self.below or (0.0, 0.0))[0]
         if value > self.high:
-            return self.reach[1]
+            return (self.above or (1.0, 1.0))[1]
         return (value - self.low) / (self.high - self.low)
 
-    def value(self, place: float) -> float:
-        """The value at a place, rounded as `text` writes it; beyond the ends, the bound of the metric."""
-        least, most = METRICS[self.metric].full_range
-        if place < 0:
-            return least
-        if place > 1:
-            return most
-        return round(self.low + place * (self.high - self.low), self.decimals)
+    def span(self, chosen: ValueRange) -> tuple[float, float]:
+        """Left and right of a range on the plot; from the bar of inverted elements on, where nothing is left out."""
+        least = METRICS[self.metric].full_range[0]
+        joined = chosen.inverted and chosen.low <= least
+        left = self.inverted[0] if joined else self.place(chosen.low)
+        return left, self.inverted[1] if chosen.high == -math.inf else self.place(chosen.high)
 
     @property
     def decimals(self) -> int:
@@ -94,7 +93,7 @@ class Axis:
 
     @property
     def grain(self) -> float:
-        """The finest distance that can be brushed."""
+        """A hundredth of the axis, by which its numbers are stepped."""
         return 10.0**-self.decimals
 
     @property
@@ -115,9 +114,8 @@ class Axis:
 
     @property
     def reach(self) -> tuple[float, float]:
-        """How far a range can be brushed: over the bars at the ends where the metric goes on there."""
-        least = METRICS[self.metric].full_range[0]
-        return self.inverted[0] if least < self.low else 0.0, _ABOVE[1] if self.open_high else 1.0
+        """How far a range can be brushed: over all that counts."""
+        return self.inverted[0], (self.above or (1.0, 1.0))[1]
 
     @property
     def extent(self) -> tuple[float, float]:
@@ -165,6 +163,18 @@ class Axis:
         if math.isinf(value):
             return "∞" if value > 0 else "−∞"
         return f"{value:.6g}" if not 0 <= self.decimals <= 4 else f"{value:.{self.decimals}f}"
+
+    def end(self, value: float) -> str:
+        """An end of a range, with two more digits where it needs them.
+
+        >>> Axis("q").end(0.505), Axis("q").end(0.49999999999999994)
+        ('0.505', '0.50')
+        """
+        if not (math.isfinite(value) and 0 <= self.decimals <= 4):
+            return self.text(value)
+        whole, _, digits = f"{value:.{self.decimals + 2}f}".partition(".")
+        digits = digits[: self.decimals] + digits[self.decimals :].rstrip("0")
+        return f"{whole}.{digits}" if digits else whole
 
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend_app.features.histogram.axis import Axis
+from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.scene.values import within
 from hexmend_app.state.binning import bin_counts
 from hexmend_app.state.look import ValueRange
@@ -50,16 +51,20 @@ class Distribution:
         """Ends of the bins as values, (bins + 1,) float64."""
         return np.linspace(self.axis.low, self.axis.high, len(self.counts) + 1)
 
+    @property
+    def cells(self) -> Cells:
+        """Everything that counts elements, from left to right."""
+        return Cells(self.axis, len(self.counts))
+
     def cumulated(self) -> Distribution:
         """The same with each count raised by those left of it: inverted elements first, those above the axis last."""
         below = self.inverted + self.below
         counts = below + np.cumsum(self.counts)
         return Distribution(self.values, self.is_inverted, self.axis, counts, self.inverted, below, self.total)
 
-    def within(self, low: float, high: float) -> tuple[int, int]:
-        """Elements with low <= value <= high, and how many of them are inverted."""
-        inside = within(self.values, ValueRange(self.axis.metric, low, high))
-        return int(np.count_nonzero(inside)), int(np.count_nonzero(inside & self.is_inverted))
+    def within(self, chosen: ValueRange) -> int:
+        """How many elements a range of the axis' metric shows."""
+        return int(np.count_nonzero(within(self.values, self.is_inverted, chosen)))
 
 
 def distribute(values: np.ndarray, inverted: np.ndarray, axis: Axis, bins: int = BINS) -> Distribution:

@@ -9,6 +9,12 @@ from PySide6.QtWidgets import QGraphicsSceneHoverEvent
 #: Pixels around an edge of the range in which a drag moves that edge.
 _REACH = 6
 
+_SHAPES = {
+    "new": Qt.CursorShape.CrossCursor,
+    "move": Qt.CursorShape.SizeAllCursor,
+    "bar": Qt.CursorShape.PointingHandCursor,
+}
+
 
 class BrushView(pg.ViewBox):
     """Drags select a range of places: on open ground a new one, on an edge that edge, inside the range all of it.
@@ -20,6 +26,8 @@ class BrushView(pg.ViewBox):
     range : (low, high) or None
     reach : (low, high)
         No range goes beyond these.
+    bar : (left, right) or None
+        Where a click means a bar; None where there is nothing in it.
 
     Signals
     -------
@@ -27,15 +35,19 @@ class BrushView(pg.ViewBox):
         While the mouse is dragged.
     cleared
         Double click.
+    bar_clicked
+        A click on the bar.
     """
 
     brushed = Signal(object)
     cleared = Signal()
+    bar_clicked = Signal()
 
     def __init__(self):
         super().__init__(enableMenu=False, defaultPadding=0)
         self.range: tuple[float, float] | None = None
         self.reach = (0.0, 1.0)
+        self.bar: tuple[float, float] | None = None
         self._mode = ""
         self._grabbed = (0.0, 0.0)
         self.setAcceptHoverEvents(True)
@@ -73,10 +85,19 @@ class BrushView(pg.ViewBox):
         self.brushed.emit((low, high))
 
     def mouseClickEvent(self, ev) -> None:
-        """Clear on a double click."""
-        if ev.button() == Qt.MouseButton.LeftButton and ev.double():
+        """Tell a click on the bar; clear on a double click elsewhere."""
+        if ev.button() != Qt.MouseButton.LeftButton:
+            return
+        on_bar = self._on_bar(self.mapToView(ev.pos()).x())
+        if on_bar or ev.double():
             ev.accept()
+        if ev.double() and not on_bar:
             self.cleared.emit()
+        elif on_bar and not ev.double():
+            self.bar_clicked.emit()
+
+    def _on_bar(self, x: float) -> bool:
+        return self.bar is not None and self.bar[0] <= x <= self.bar[1]
 
     def wheelEvent(self, ev, axis=None) -> None:
         """Leave the wheel to the panel, which scrolls."""
@@ -84,9 +105,6 @@ class BrushView(pg.ViewBox):
 
     def hoverMoveEvent(self, event: QGraphicsSceneHoverEvent) -> None:
         """Show by the pointer's shape what a drag would do."""
-        mode = self._mode_at(self.mapToView(event.pos()).x())
-        self.setCursor(
-            {"new": Qt.CursorShape.CrossCursor, "move": Qt.CursorShape.SizeAllCursor}.get(
-                mode, Qt.CursorShape.SplitHCursor
-            )
-        )
+        x = self.mapToView(event.pos()).x()
+        mode = "bar" if self._on_bar(x) else self._mode_at(x)
+        self.setCursor(_SHAPES.get(mode, Qt.CursorShape.SplitHCursor))

@@ -13,6 +13,7 @@ from hexmend_app.features.histogram.file import write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept
+from hexmend_app.state.kinds import isolate, of_kind
 from hexmend_app.state.measured import values
 from hexmend_app.state.movement import MOVEMENTS
 from hexmend_app.widgets.questions import ask_histogram
@@ -41,6 +42,7 @@ class FeatureHistogram(Feature):
         panel.renamed.connect(self._kept.rename)
         panel.removed.connect(self._kept.remove)
         panel.save_requested.connect(self.ask)
+        panel.inverted_requested.connect(self._isolate_inverted)
 
     def panels(self) -> Sequence[Panel]:
         """The histogram."""
@@ -92,6 +94,10 @@ class FeatureHistogram(Feature):
         if chosen is not None and chosen.metric != self.metric:
             self._view.change(quality_range=None)  # what it hides could no longer be told from the plot
         self.host.refresh_soon()
+
+    def _isolate_inverted(self) -> None:
+        now = self._document.now
+        isolate(self._view, of_kind("inverted", now.mesh, now.figures))
 
     # What is kept
 

@@ -11,7 +11,7 @@ from superqt import QFlowLayout
 
 from hexmend_app.scene.palette import HOVER, KEPT
 from hexmend_app.widgets.legend import Swatch, legend_entry
-from hexmend_app.widgets.style import BLUE, FIELD, GREY, LINE, MUTED, dress, explain, icon, smaller
+from hexmend_app.widgets.style import BLUE, FIELD, GREY, LINE, MUTED, dress, explain, icon, note, smaller
 
 _WIDEST, _HEIGHT = 150, 18
 
@@ -28,7 +28,7 @@ QToolButton:focus {{ border: 1px solid {BLUE}; }}
 
 
 class HistogramLegend(QWidget):
-    """Names what is drawn, in as many rows as it takes.
+    """Names the axis and what is drawn, in as many rows as it takes.
 
     Signals
     -------
@@ -47,11 +47,28 @@ class HistogramLegend(QWidget):
         self._flow.setVerticalSpacing(1)
         dress(self, lambda: self.setStyleSheet(_sheet()))
         self.entries: dict[int, KeptEntry] = {}
+        self._title = note()
+        self._title.setWordWrap(False)
+        self._title.setSizePolicy(self.sizePolicy())
+        self._title.setMinimumHeight(_HEIGHT)
+        self._title.setContentsMargins(0, 0, 8, 0)
+        explain(self._title, "Axis of values", help)
+        self._flow.addWidget(self._title)
         for text, colour in (("at the start", GREY), ("now", BLUE)):
             entry = legend_entry(text, colour)
             explain(entry, text, help)
             entry.setMinimumHeight(_HEIGHT)  # or a row of both kinds does not line up
             self._flow.addWidget(entry)
+
+    def set_title(self, title: str) -> None:
+        """Name the axis of values."""
+        self._title.setText(title)
+
+    def size_within(self, width: int) -> QSize:
+        """What it takes of a width: one row as long as it has to be, or more rows."""
+        parts = [self._flow.itemAt(at).sizeHint().width() for at in range(self._flow.count())]
+        width = min(sum(parts) + (len(parts) - 1) * self._flow.horizontalSpacing() + 1, max(width, 1))
+        return QSize(width, self._flow.heightForWidth(width))
 
     def set_kept(self, kept: Sequence[tuple[int, str]]) -> None:
         """Take slots and names of what is kept."""

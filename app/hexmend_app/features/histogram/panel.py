@@ -5,26 +5,34 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from PySide6.QtCore import QPointF, Signal
-from PySide6.QtWidgets import QToolTip, QVBoxLayout, QWidget
+from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
+from superqt import QElidingLabel
 from superqt.utils import QSignalThrottler
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import Distribution, distribute
+from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.features.histogram.head import HistogramHead
 from hexmend_app.features.histogram.legend import HistogramLegend
-from hexmend_app.features.histogram.plot import HistogramPlot, Series
+from hexmend_app.features.histogram.outline import Series
+from hexmend_app.features.histogram.plot import HistogramPlot
 from hexmend_app.features.histogram.range import RangeRow
 from hexmend_app.features.histogram.words import describe, sentence
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.state.look import ValueRange
-from hexmend_app.widgets.style import BLUE, GREY, note, tabular
+from hexmend_app.widgets.style import BLUE, GREY, MUTED, smaller, tabular, tint
 
 _PERIOD_MS = 33
+
+#: Pixels that the words below the plot need beside the numbers.
+_WORDS = 210
 _HELP = (
     "How many elements have which value. Inverted elements stand apart at the left, whatever the metric. Drag over the "
-    "plot to see only the elements of a range; double-click to see all."
+    "plot to see only the elements of a range; double-click to see all. A click on the bar of the "
+    "inverted shows only them."
 )
 
 
@@ -43,6 +51,8 @@ class QualityHistogram(QWidget):
         The user calls what is kept otherwise, or keeps it no longer.
     save_requested
         The user wants the histogram as a file.
+    inverted_requested
+        The user clicked on the bar of the inverted elements of now, of which there are some.
     """
 
     metric_chosen = Signal(str)
@@ -51,6 +61,7 @@ class QualityHistogram(QWidget):
     renamed = Signal(int, str)
     removed = Signal(int)
     save_requested = Signal()
+    inverted_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -64,16 +75,22 @@ class QualityHistogram(QWidget):
         self._throttler.triggered.connect(lambda: self.range_changed.emit(self._range))
         self._make_parts()
         layout = QVBoxLayout(self)
-        layout.setSpacing(4)
-        for part in (self.head, self.legend, self._plot, self.ends, self._text):
-            layout.addWidget(part, 1 if part is self._plot else 0)
-        self._plot.set_axis(self._axis)
+        layout.setContentsMargins(8, 3, 8, 3)
+        layout.setSpacing(3)
+        layout.addWidget(self.head)
+        layout.addWidget(self.plot, 1)
+        self._below = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._below.setSpacing(3)
+        self._below.addWidget(self.ends)
+        self._below.addWidget(self.words, 1)
+        layout.addLayout(self._below)
+        self.plot.set_axis(self._axis)
         self._refresh()
         self._show_range(None)
 
     def _make_parts(self) -> None:
         self.head, self.legend = HistogramHead(), HistogramLegend(_HELP)
-        self._plot, self.ends = HistogramPlot(), RangeRow()
+        self.plot, self.ends = HistogramPlot(self.legend), RangeRow()
         self.head.metric_chosen.connect(self.metric_chosen)
         self.head.scale_changed.connect(self._on_scale)
         self.head.bins_changed.connect(self._recount)
@@ -81,19 +98,30 @@ class QualityHistogram(QWidget):
         self.head.save_requested.connect(self.save_requested)
         self.legend.renamed.connect(self.renamed)
         self.legend.removed.connect(self.removed)
-        self.ends.chosen.connect(self._choose)
-        self.ends.cleared.connect(lambda: self._choose())
+        self.ends.chosen.connect(self._on_ends)
+        self.ends.cleared.connect(lambda: self._choose(None))
         # Over the plot the tooltip says the counts; the legend above it explains.
-        self._plot.plot.setAccessibleName("Histogram of element quality")
-        self._plot.plot.setAccessibleDescription(_HELP)
-        self._plot.plot.setWhatsThis(_HELP)
-        self._plot.view.brushed.connect(self._on_brushed)
-        self._plot.view.cleared.connect(lambda: self._choose())
-        self._plot.plot.scene().sigMouseMoved.connect(self._hover)
-        self._text = note()
-        self._text.setFont(tabular(self._text.font()))
-        self._text.setWordWrap(False)  # a second line would push the view about while a range is brushed
-        self._text.setAccessibleName("Elements shown")
+        self.plot.plot.setAccessibleName("Histogram of element quality")
+        self.plot.plot.setAccessibleDescription(_HELP)
+        self.plot.plot.setWhatsThis(_HELP)
+        self.plot.view.brushed.connect(self._on_brushed)
+        self.plot.view.cleared.connect(lambda: self._choose(None))
+        self.plot.view.bar_clicked.connect(self.inverted_requested)
+        self.plot.plot.scene().sigMouseMoved.connect(self._hover)
+        # In one line, whatever it says: a second would push the plot about while a range is brushed.
+        self.words = QElidingLabel()
+        self.words.setFont(tabular(smaller(self.words.font())))
+        self.words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        tint(self.words, MUTED)
+        self.words.setAccessibleName("Elements shown")
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Put the words below the numbers where there is no room beside them."""
+        super().resizeEvent(event)
+        beside = self.width() >= self.ends.minimumSizeHint().width() + _WORDS
+        ways, sides = QBoxLayout.Direction, Qt.AlignmentFlag
+        self._below.setDirection(ways.LeftToRight if beside else ways.TopToBottom)
+        self.words.setAlignment((sides.AlignRight if beside else sides.AlignLeft) | sides.AlignVCenter)
 
     # What is drawn
 
@@ -164,12 +192,12 @@ class QualityHistogram(QWidget):
     @property
     def log(self) -> bool:
         """Whether heights go by powers of ten."""
-        return self._plot.log
+        return self.plot.log
 
     @property
     def cumulative(self) -> bool:
         """Whether heights are shares of elements up to a value."""
-        return self._plot.cumulative
+        return self.plot.cumulative
 
     @property
     def axis(self) -> Axis:
@@ -188,26 +216,23 @@ class QualityHistogram(QWidget):
         self._show_range(range if range is not None and range.metric == self._axis.metric else None)
 
     def _on_brushed(self, places: tuple[float, float]) -> None:
-        axis = self._axis
-        low, high = (axis.value(place) for place in places)
-        if high - low < axis.grain / 2:  # at least as wide as can be told apart, and on the axis
-            low = min(max(low, axis.low), axis.high - axis.grain)
-            low, high = (round(end, axis.decimals) for end in (low, low + axis.grain))
-        self._choose(low, high)
+        cells = Cells(self._axis, self.head.bins.value())
+        self._choose(cells.range(*cells.nearest(*places)))
 
-    def _choose(self, low: float = -np.inf, high: float = np.inf) -> None:
+    def _on_ends(self, low: float, high: float, inverted: bool) -> None:
         least, most = METRICS[self._axis.metric].full_range
-        whole = low <= least and high >= most
-        chosen = None if whole else ValueRange(self._axis.metric, low, high)
+        whole = low <= least and high >= most and inverted
+        self._choose(None if whole else ValueRange(self._axis.metric, low, high, inverted))
+
+    def _choose(self, chosen: ValueRange | None) -> None:
         if chosen != self._range:
             self._show_range(chosen)
             self._throttler.throttle()
 
     def _show_range(self, chosen: ValueRange | None) -> None:
         self._range = chosen
-        ends = None if chosen is None else (chosen.low, chosen.high)
-        self._plot.show_range(ends and (self._axis.place(ends[0]), self._axis.place(ends[1])))
-        self.ends.show_ends(ends)
+        self.plot.show_range(chosen and self._axis.span(chosen), chosen is not None and chosen.inverted)
+        self.ends.show_range(chosen)
         self._say()
 
     # Drawing
@@ -225,22 +250,22 @@ class QualityHistogram(QWidget):
 
     def _set_axis(self, axis: Axis) -> None:
         self._axis = axis
-        self._plot.set_axis(axis)
+        self.plot.set_axis(axis)
         self.ends.set_axis(axis)
         self._show_range(None if self._range is None or self._range.metric != axis.metric else self._range)
 
     def _on_scale(self) -> None:
-        self._plot.log, self._plot.cumulative = self.head.log, self.head.cumulative.isChecked()
+        self.plot.log, self.plot.cumulative = self.head.log, self.head.cumulative.isChecked()
         self._refresh()
 
     def _refresh(self) -> None:
         self.head.set_offered(self._current is not None, len(self._kept) == len(KEPT))
-        self._plot.draw(self.series())
+        self.plot.draw(self.series())
         self._say()
 
     def _say(self) -> None:
-        self._text.setText(sentence(self._current, self._range))
-        self._text.setToolTip(self._text.text())
+        self.words.setText(sentence(self._current, self._range))
+        self.words.setToolTip(self.words.text())
 
     # Under the mouse
 
@@ -249,7 +274,7 @@ class QualityHistogram(QWidget):
         return describe(self.series(), x, self.cumulative)
 
     def _hover(self, at: QPointF) -> None:
-        view, plot = self._plot.view, self._plot.plot
+        view, plot = self.plot.view, self.plot.plot
         inside = view.sceneBoundingRect().contains(at)
         text = self.describe_at(view.mapSceneToView(at).x()) if inside else ""
         QToolTip.showText(plot.mapToGlobal(plot.mapFromScene(at)), text, plot)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import Distribution
-from hexmend_app.features.histogram.plot import Series
+from hexmend_app.features.histogram.outline import Series
 from hexmend_app.state.look import ValueRange
 from hexmend_app.widgets.metrics import in_sentence
 from hexmend_app.widgets.wording import counted
@@ -63,15 +63,26 @@ def sentence(now: Distribution | None, chosen: ValueRange | None) -> str:
     if now is None:
         return "No mesh is open."
     if chosen is None:
-        return f"{counted(now.total, 'element')}, {now.inverted:,} of them inverted"
-    inside, inverted = now.within(chosen.low, chosen.high)
-    also = f", {inverted:,} of them inverted" if inverted else ""
-    return f"{inside:,} of {counted(now.total, 'element')} {_where(now.axis, chosen)}{also}"
+        return f"{counted(now.total, 'element')}, {now.inverted:,} inverted"
+    return f"{now.within(chosen):,} of {counted(now.total, 'element')}{_where(now, chosen)}"
 
 
-def _where(axis: Axis, chosen: ValueRange) -> str:
-    low, high = axis.text(chosen.low), axis.text(chosen.high)
+def _where(now: Distribution, chosen: ValueRange) -> str:
+    if chosen.high == -math.inf:
+        return ", the inverted ones"
+    values = _values(now.axis, chosen)
+    if not now.inverted:
+        return values
+    if not values:
+        return ", all but the inverted ones"
+    return f"{values}, and the {now.inverted:,} inverted" if chosen.inverted else values
+
+
+def _values(axis: Axis, chosen: ValueRange) -> str:
+    """Which values a range bounds; "" where it bounds none."""
+    least, most = METRICS[axis.metric].full_range
+    low, high = axis.end(chosen.low), axis.end(chosen.high)
     unit = f" {METRICS[axis.metric].unit}".rstrip()
-    if math.isinf(chosen.high):
-        return f"from {low}{unit}"
-    return f"up to {high}{unit}" if math.isinf(chosen.low) else f"in {low} – {high}{unit}"
+    if chosen.high >= most:
+        return "" if chosen.low <= least else f" from {low}{unit}"
+    return f" up to {high}{unit}" if chosen.low <= least else f" in {low} – {high}{unit}"

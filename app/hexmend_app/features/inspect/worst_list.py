@@ -115,7 +115,10 @@ class WorstList(QWidget):
             self._metric.addItem(metric.title, metric.name)
             self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
         explain(
-            self._metric, "Worst by", "The figure that the list is ordered by. Inverted elements always come first."
+            self._metric,
+            "Worst by",
+            "The figure that the list is ordered by, and nothing else; of equal elements, the lower scaled Jacobian "
+            "comes first.",
         )
         self._metric.currentIndexChanged.connect(self._refresh)
         self._alone = QCheckBox("Isolate")
@@ -247,7 +250,8 @@ class WorstList(QWidget):
         self._model.fill(chosen, known[chosen], figures.scaled_jacobian[chosen], states)
         all_of_them = chosen.size == known.size
         shown = "" if all_of_them else f"The {chosen.size:,} worst of "
-        self._text.setText(f"{shown}{counted(known.size, 'element')}, {figures.n_inverted:,} inverted")
+        order = "" if metric.name == "scaled-jacobian" else "; equal ones by scaled Jacobian"
+        self._text.setText(f"{shown}{counted(known.size, 'element')}, {figures.n_inverted:,} inverted{order}")
         self._mark()
 
     def _mark(self) -> None:

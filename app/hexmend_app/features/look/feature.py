@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.look.colour_panel import ColourPanel
 from hexmend_app.scene.frame import Frame
+from hexmend_app.state.kinds import isolate, of_kind
 from hexmend_app.state.look import Arrows, Look
 from hexmend_app.state.movement import MOVEMENTS, Movement
 from hexmend_app.state.run import Phase
@@ -65,6 +66,7 @@ class FeatureLook(Feature):
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take the 3D view."""
         self._canvas = canvas
+        canvas.colour_bar.apart_clicked.connect(self._isolate)
 
     def refresh(self) -> None:
         """Draw the mesh as it is now."""
@@ -83,6 +85,10 @@ class FeatureLook(Feature):
             self._canvas.rest()
         self._canvas.show()
         self.panel.set_ends(self._canvas.colouring.low, self._canvas.colouring.high)
+
+    def _isolate(self, kind: str) -> None:
+        now = self.session.document.now
+        isolate(self._view, of_kind(kind, now.mesh, now.figures, self._movement))
 
     @property
     def _movement(self) -> Movement | None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.quality.statistics import StatisticsTable
+from hexmend_app.state.kinds import isolate, of_kind
 
 
 class FeatureQuality(Feature):
@@ -17,6 +18,7 @@ class FeatureQuality(Feature):
         super().__init__(host)
         self._seen = Seen()
         self.panel = StatisticsTable()
+        self.panel.isolate_requested.connect(self._isolate)
 
     def panels(self) -> Sequence[Panel]:
         """The table."""
@@ -36,3 +38,7 @@ class FeatureQuality(Feature):
         document = self.session.document
         if document.is_open and self._seen.another("figures", document.start, document.now):
             self.panel.set_summaries(document.start.summary, document.now.summary)
+
+    def _isolate(self, kind: str) -> None:
+        now = self.session.document.now
+        isolate(self.session.view, of_kind(kind, now.mesh, now.figures))

@@ -6,18 +6,19 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from PySide6.QtCore import QPoint, QSize, Qt
+from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QBrush, QColor, QGuiApplication, QKeySequence, QPalette
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QFrame,
     QHeaderView,
     QMenu,
-    QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
+from hexmend_app.widgets.link_table import LinkTable
 from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, tabular
 from hexmend_app.widgets.wording import figure
 
@@ -107,18 +108,31 @@ def change(row: Row, start: float | None, now: float | None) -> tuple[str, int]:
     return f"{'▲' if moved > 0 else '▼'} {size}", row.better * (1 if moved > 0 else -1)
 
 
+#: Rows whose number now is a link to the elements that it counts, and what those are called.
+LINKS = {"inverted": "inverted", "locked_inverted": "locked"}
+
+
 class StatisticsTable(QWidget):
-    """Figures at the start and now, and how they changed; Ctrl+C copies them for a spreadsheet."""
+    """Figures at the start and now, and how they changed; Ctrl+C copies them for a spreadsheet.
+
+    Signals
+    -------
+    isolate_requested(str)
+        The user clicked on the number of "inverted" or "locked" elements, or pressed Enter in its row.
+    """
+
+    isolate_requested = Signal(str)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._summaries: tuple[Any, Any] = (None, None)
-        self._table = table = QTableWidget(len(ROWS), len(_COLUMNS))
+        self._table = table = LinkTable(len(ROWS), len(_COLUMNS))
+        table.link_activated.connect(self.isolate_requested)
         table.setHorizontalHeaderLabels(_COLUMNS)
         table.setAccessibleName("Statistics of the mesh")
         table.setFont(tabular(table.font()))
         table.setShowGrid(False)
-        table.setFrameShape(QTableWidget.Shape.NoFrame)
+        table.setFrameShape(QFrame.Shape.NoFrame)
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         table.setTabKeyNavigation(False)  # Tab leaves the table; arrow keys walk in it
@@ -159,7 +173,7 @@ class StatisticsTable(QWidget):
         for at, row in enumerate(ROWS):
             for column in range(len(_COLUMNS)):
                 item = QTableWidgetItem(row.title if column == 0 else "")
-                item.setToolTip(f"<qt><b>{row.title.removeprefix('– ')}</b><br>{row.help}</qt>")
+                item.setToolTip(_help(row))
                 if column:
                     item.setTextAlignment(right)
                 self._table.setItem(at, column, item)
@@ -193,14 +207,27 @@ class StatisticsTable(QWidget):
             item.setForeground(QBrush(QColor(str({1: BETTER, -1: WORSE, 0: MUTED}[sense]))))
             word = {1: "better", -1: "worse", 0: ""}[sense]
             item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{text} {word}".strip())
-        self._mark_inverted(now)
+        self._mark_links(now)
 
-    def _mark_inverted(self, now: Any) -> None:
-        item = self._table.item([row.key for row in ROWS].index("inverted"), _NOW)
-        font = item.font()
-        font.setBold(now is not None and now.inverted > 0)
-        item.setFont(font)
-        item.setForeground(QBrush(QColor(str(WORSE if now is not None and now.inverted > 0 else TEXT))))
+    def _mark_links(self, now: Any) -> None:
+        """Let the numbers of inverted elements look like what they are: bad news, and links."""
+        for at, row in enumerate(ROWS):
+            if row.key in LINKS:
+                there = now is not None and getattr(now, row.key) > 0
+                item = self._table.item(at, _NOW)
+                font = item.font()
+                font.setBold(there and row.key == "inverted")
+                font.setUnderline(there)
+                item.setFont(font)
+                item.setForeground(QBrush(QColor(str(WORSE if there else TEXT))))
+                kind = LINKS[row.key]
+                item.setToolTip(
+                    f"<qt>Show only the {kind} elements: click, or press Enter in this row. Esc brings back the rest."
+                    "</qt>"
+                    if there
+                    else _help(row)
+                )
+                self._table.set_link(at, _NOW, kind if there else None)
 
     def text(self) -> str:
         """The table as tab-separated text with full precision and a line of titles; an infinite figure is empty."""
@@ -231,3 +258,7 @@ class StatisticsTable(QWidget):
 
     def _figures_width(self) -> int:
         return sum(self._table.columnWidth(column) for column in (_START, _NOW, _CHANGE))
+
+
+def _help(row: Row) -> str:
+    return f"<qt><b>{row.title.removeprefix('– ')}</b><br>{row.help}</qt>"

@@ -258,7 +258,7 @@ def test_cut_and_colours_are_those_of_all_views(compared):
     q = [one.figures.q[~one.figures.inverted] for one in states]
     assert (first.colouring.low, first.colouring.high) == (min(map(np.min, q)), max(map(np.max, q)))
     bar = compared.canvas.colour_bar
-    assert (bar._low, bar._high) == (first.colouring.low, first.colouring.high)
+    assert bar.range == (first.colouring.low, first.colouring.high)
 
 
 @pytest.mark.parametrize("arranged", ["side by side", "wipe", "wipe, the mesh at the right"])

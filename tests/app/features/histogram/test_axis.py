@@ -66,28 +66,29 @@ def test_inverted_elements_do_not_stretch_the_axis():
 
 
 @given(st.floats(1e-12, 1e9), st.floats(1.1, 100), st.floats(0, 1))
-def test_a_place_and_its_value_belong_together(size, ratio, place):
+def test_a_value_has_its_place_and_a_text_to_a_hundredth_of_the_axis(size, ratio, place):
     values = np.linspace(size, ratio * size, 200)
     axis = Axis.fitted("volume", values, np.zeros(200, bool))
-    value = axis.value(place)
-    assert axis.place(value) == pytest.approx(place, abs=0.0101)
+    value = axis.low + place * (axis.high - axis.low)
+    assert axis.place(value) == pytest.approx(place, abs=1e-6)
     assert float(axis.text(value)) == pytest.approx(value, rel=1e-5, abs=axis.grain)
+    assert float(axis.end(value)) == pytest.approx(value, rel=1e-5, abs=axis.grain)
 
 
-def test_what_lies_beyond_the_ends_has_the_bounds_of_the_metric():
+def test_what_lies_beyond_the_ends_has_the_places_of_its_bars():
     axis = Axis("condition", 1, 21, 4, open_high=True)
-    assert axis.value(sum(axis.above) / 2) == math.inf
     assert axis.place(math.inf) == axis.above[1] == axis.reach[1]
-    assert axis.reach[0] == 0
-    jacobian = Axis("scaled-jacobian")
-    assert jacobian.value(sum(jacobian.inverted) / 2) == -1
-    assert jacobian.place(-1) == jacobian.reach[0] == jacobian.inverted[0]
+    assert axis.place(-math.inf) == 0 > axis.reach[0]
+    volume = Axis("volume", 1.0, 2.0, open_low=True)
+    assert volume.place(0.0) == volume.below[0] > volume.reach[0] == volume.inverted[0]
+    assert volume.place(3.0) == volume.reach[1] == 1
 
 
 def test_a_range_to_the_end_of_the_metric_lets_rounding_pass():
     values = np.array([1 + 2e-16, np.nextafter(1, 2), 0.5])
-    assert within(values, ValueRange("q", 0.9, 1.0)).tolist() == [True, True, False]
-    assert within(values, ValueRange("q", 0.0, 0.99)).tolist() == [False, False, True]
-    assert within(np.array([1.0, np.inf]), ValueRange("condition", 2, np.inf)).tolist() == [False, True]
+    none = np.zeros(3, bool)
+    assert within(values, none, ValueRange("q", 0.9, 1.0)).tolist() == [True, True, False]
+    assert within(values, none, ValueRange("q", 0.0, 0.99)).tolist() == [False, False, True]
+    assert within(np.array([1.0, np.inf]), none[:2], ValueRange("condition", 2, np.inf)).tolist() == [False, True]
     with pytest.raises(ValueError, match="lower number first"):
         ValueRange("q", 0.5, 0.4)

@@ -8,6 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import BINS, distribute, round_up
+from hexmend_app.state.look import ValueRange
 
 Q = Axis("q")
 _QUALITIES = arrays(np.float64, st.integers(0, 200), elements=st.floats(0, 1))
@@ -31,8 +32,9 @@ def test_bins_agree_with_numpys_histogram(bins):
 def test_a_cube_whose_quality_exceeds_one_by_rounding_is_counted_and_within():
     part = distribute(np.array([1 + 2e-16, np.nextafter(1, 2)]), np.array([False, True]), Q)
     assert part.counts[-1] == 1
-    assert part.within(0.9, 1.0) == (2, 1)
-    assert part.within(0.9, 0.99) == (0, 0)
+    assert part.within(ValueRange("q", 0.9, 1.0)) == 1
+    assert part.within(ValueRange("q", 0.9, 1.0, inverted=True)) == 2
+    assert part.within(ValueRange("q", 0.9, 0.99)) == 0
 
 
 def test_lengths_must_agree():

@@ -47,14 +47,14 @@ def ends(chosen):
 
 def place(histogram, x):
     """Point of the plot's viewport at q = x."""
-    view, plot = histogram._plot.view, histogram._plot.plot
+    view, plot = histogram.plot.view, histogram.plot.plot
     middle = view.viewRect().center().y()
     return plot.mapFromScene(view.mapViewToScene(QPointF(x, middle)))
 
 
 def drag(histogram, *stations):
     """Press at the first q, move through the others in small moves, release at the last."""
-    viewport = histogram._plot.plot.viewport()
+    viewport = histogram.plot.plot.viewport()
 
     def send(kind, at, button, buttons):
         event = QMouseEvent(kind, at, viewport.mapToGlobal(at), button, buttons, Qt.KeyboardModifier.NoModifier)
@@ -77,15 +77,70 @@ def test_dragging_over_the_plot_selects_the_range_under_it(histogram, heard, dat
     assert (low, high) == pytest.approx((0.3, 0.45), abs=0.011)
     now = data[0] ** 0.5
     inside = np.count_nonzero((now >= low) & (now <= high))
-    assert histogram._text.text() == f"{inside} of 2,000 elements in {low:.2f} – {high:.2f}"
+    assert histogram.words.text() == f"{inside} of 2,000 elements in {low:.2f} – {high:.2f}"
 
 
 def test_dragging_backwards_and_beyond_the_ends_stays_within_zero_and_one(histogram, heard):
-    drag(histogram, 0.5, -0.2)
-    assert ends(heard[-1]) == pytest.approx((0, 0.5), abs=0.011)
+    drag(histogram, 0.5, -0.05)
+    assert ends(heard[-1]) == (0, pytest.approx(0.5, abs=0.011))
     histogram.set_range(None)
     drag(histogram, 0.7, 1.015)
-    assert ends(heard[-1]) == pytest.approx((0.7, 1), abs=0.011)
+    assert ends(heard[-1]) == (pytest.approx(0.7, abs=0.011), 1)
+
+
+def test_dragging_over_the_bar_of_the_inverted_takes_them_in(histogram, heard, data):
+    histogram.set_current(*data)
+    drag(histogram, 0.5, sum(histogram.axis.inverted) / 2)
+    assert heard[-1].inverted
+    now = histogram.series()[1].part
+    low = np.count_nonzero((data[0] <= heard[-1].high) & ~data[1])
+    assert histogram.words.text().startswith(f"{low + now.inverted} of 2,000 elements up to 0.5")
+    assert histogram.words.text().endswith(f", and the {now.inverted} inverted")
+    histogram.set_range(None)
+    drag(histogram, histogram.axis.inverted[0] - 0.01, histogram.axis.inverted[1])
+    assert heard[-1] == ValueRange("q", -np.inf, -np.inf, inverted=True)
+    assert histogram.words.text() == f"{now.inverted} of 2,000 elements, the inverted ones"
+    drag(histogram, 0.001, 1.0)
+    assert heard[-1] == ValueRange("q", 0.0, 1.0)
+    assert histogram.words.text() == f"{2000 - now.inverted:,} of 2,000 elements, all but the inverted ones"
+
+
+def test_a_click_on_the_bar_of_the_inverted_asks_for_them(histogram, heard, data):
+    asked = []
+    histogram.inverted_requested.connect(lambda: asked.append(True))
+    at = place(histogram, sum(histogram.axis.inverted) / 2)
+    QTest.mouseClick(histogram.plot.plot.viewport(), _LEFT, pos=at)
+    assert asked == []  # there are none
+    histogram.set_current(*data)
+    QTest.mouseClick(histogram.plot.plot.viewport(), _LEFT, pos=at)
+    assert asked == [True]
+    QTest.mouseClick(histogram.plot.plot.viewport(), _LEFT, pos=place(histogram, 0.5))
+    assert (asked, heard) == ([True], [])
+
+
+def test_the_inverted_are_taken_in_or_left_out_by_a_button(histogram, heard):
+    QTest.mouseClick(histogram.ends.inverted, _LEFT)
+    assert heard == [ValueRange("q", 0.0, 1.0)]
+    histogram.set_range(ValueRange("q", 0.2, 0.5))
+    QTest.mouseClick(histogram.ends.inverted, _LEFT)
+    QTest.qWait(60)
+    assert heard[-1] == ValueRange("q", 0.2, 0.5, inverted=True)
+    histogram.set_range(None)
+    assert histogram.ends.inverted.isChecked()
+
+
+def test_typing_one_end_leaves_the_other_where_it_was_brushed(histogram, heard):
+    histogram.head.bins.setValue(200)
+    histogram.plot.view.brushed.emit((0.3049, 0.6))
+    brushed = heard[-1]
+    assert histogram.ends.low.text() == "0.305"
+    box = histogram.ends.high
+    box.setFocus()
+    box.selectAll()
+    QTest.keyClicks(box, "0.7")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    QTest.qWait(60)
+    assert heard[-1] == ValueRange("q", brushed.low, 0.7)
 
 
 def test_an_edge_moves_alone_and_the_inside_moves_the_range(histogram, heard):
@@ -95,7 +150,7 @@ def test_an_edge_moves_alone_and_the_inside_moves_the_range(histogram, heard):
     drag(histogram, 0.45, 0.55)
     assert ends(heard[-1]) == pytest.approx((0.4, 0.8), abs=0.021)
     drag(histogram, 0.6, 1.0)
-    assert ends(heard[-1]) == pytest.approx((0.6, 1.0), abs=0.021)  # keeps its width at the wall
+    assert ends(heard[-1]) == (pytest.approx(0.6, abs=0.021), 1)  # keeps its width at the wall
 
 
 def test_the_range_is_announced_while_dragged_but_not_at_every_move(histogram, heard):
@@ -107,7 +162,7 @@ def test_the_range_is_announced_while_dragged_but_not_at_every_move(histogram, h
 def test_a_double_click_shows_all_again(histogram, heard):
     histogram.set_range(ValueRange("q", 0.3, 0.5))
     # Through the window, which makes of the second press what a mouse would.
-    at = histogram._plot.plot.viewport().mapTo(histogram, place(histogram, 0.8))
+    at = histogram.plot.plot.viewport().mapTo(histogram, place(histogram, 0.8))
     QTest.mouseDClick(histogram.windowHandle(), _LEFT, pos=at)
     QTest.qWait(40)
     assert histogram.range() is None
@@ -140,15 +195,15 @@ def test_setters_are_silent(histogram, heard, data):
     histogram.clear()
     QTest.qWait(60)
     assert heard == []
-    assert histogram._text.text() == "No mesh is open."
+    assert histogram.words.text() == "No mesh is open."
 
 
 def test_a_set_range_withdraws_one_that_waits_to_be_announced(histogram, heard):
-    histogram._plot.view.brushed.emit((0.1, 0.2))
-    histogram._plot.view.brushed.emit((0.1, 0.3))  # waits for its turn
+    histogram.plot.view.brushed.emit((0.1, 0.2))
+    histogram.plot.view.brushed.emit((0.1, 0.3))  # waits for its turn
     histogram.set_range(None)
     QTest.qWait(60)
-    assert heard == [ValueRange("q", 0.1, 0.2)]
+    assert [ends(one) for one in heard] == [pytest.approx((0.1, 0.2))]
 
 
 def test_hovering_tells_the_counts_then_and_now(histogram, data):
@@ -167,8 +222,10 @@ def test_hovering_tells_the_counts_then_and_now(histogram, data):
 
 def test_inverted_elements_in_the_range_are_told(histogram, data):
     histogram.set_current(*data)
-    histogram.set_range(ValueRange("q", 0.0, 1.0))
-    assert histogram._text.text().endswith(f"{data[1].sum()} of them inverted")
+    histogram.set_range(ValueRange("q", 0.1, 0.9))
+    assert histogram.words.text().endswith(" in 0.10 – 0.90")
+    histogram.set_range(ValueRange("q", 0.1, 0.9, inverted=True))
+    assert histogram.words.text().endswith(f" in 0.10 – 0.90, and the {data[1].sum()} inverted")
 
 
 @pytest.mark.parametrize("scale", ["linear", "log"])
@@ -178,14 +235,92 @@ def test_the_largest_count_is_in_sight_on_both_scales(histogram, scale):
         q = np.concatenate([np.full(count, 0.5), [0.1]])
         histogram.set_initial(q, np.zeros(len(q), bool))
         histogram.set_current(q, np.zeros(len(q), bool))
-        low, high = histogram._plot.plot.viewRange()[1]
-        height = float(histogram._plot.heights(histogram.series()[0].part, count))
+        low, high = histogram.plot.plot.viewRange()[1]
+        height = float(histogram.plot.heights.of(histogram.series()[0].part, count))
         assert low < height < high
         assert (height - low) / (high - low) > 0.35
 
 
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_the_axis_is_that_of_the_bins_and_a_taller_bar_is_broken(histogram, scale):
+    QTest.mouseClick(histogram.head.scale.button(scale), _LEFT)
+    q = np.full(3000, 0.5)
+    tangled, mended = np.arange(3000) >= 100, np.arange(3000) >= 2990
+    histogram.set_initial(q, tangled)
+    histogram.set_current(q, tangled)
+    plot = histogram.plot
+    top = 10**plot.heights.top if scale == "log" else plot.heights.top
+    assert 100 <= top <= 150
+    now, start = (plot.numbers[key][0] for key in ("now", "start"))
+    assert now.toPlainText() == "2,900"
+    assert now.isVisible()
+    assert not start.isVisible()  # the same number twice
+    bar = plot.outlines["now"].bar.path()
+    assert len(bar.toSubpathPolygons()) == 2  # with a gap between them
+    assert plot.heights.top < bar.boundingRect().bottom() < plot.plot.viewRange()[1][1]
+    lower, upper = (piece.boundingRect() for piece in bar.toSubpathPolygons())
+    assert lower.top() == plot.heights.floor
+    assert lower.bottom() < upper.bottom()
+    histogram.set_current(np.append(q, q[:500]), np.append(tangled, tangled[100:600]))
+    assert (now.toPlainText(), start.toPlainText()) == ("3,400", "2,900")
+    assert start.isVisible()
+    middles = [number.mapRectToScene(number.boundingRect()).center() for number in (start, now)]
+    assert all(map(plot.view.sceneBoundingRect().contains, middles))
+    assert middles[0].y() < middles[1].y() - 8
+    histogram.set_current(q, mended)
+    assert now.toPlainText() == "10"
+    if scale == "linear":
+        assert not start.isVisible()  # the axis reaches up to it again
+    assert len(plot.outlines["now"].bar.path().toSubpathPolygons()) == 1
+
+
+def test_the_scale_changes_whatever_the_counts_were(histogram):
+    q = np.full(5000, 0.5)
+    histogram.set_initial(q, np.zeros(5000, bool))
+    for scale in ("log", "linear", "log"):
+        QTest.mouseClick(histogram.head.scale.button(scale), _LEFT)
+        assert histogram.plot.heights.log == (scale == "log")
+    assert histogram.plot.heights.top == pytest.approx(np.log10(5000))
+
+
+def test_with_all_elements_inverted_there_is_an_axis_all_the_same(histogram):
+    histogram.set_initial(np.zeros(50), np.ones(50, bool))
+    histogram.set_current(np.zeros(50), np.ones(50, bool))
+    assert histogram.plot.heights.top == 1
+    assert histogram.plot.numbers["now"][0].toPlainText() == "50"
+
+
+@pytest.mark.parametrize("kept", [0, 6])
+def test_the_plot_has_160_pixels_in_a_low_panel(histogram, data, kept):
+    histogram.resize(600, 230)
+    histogram.set_kept([(slot, f"getme {slot}", *data) for slot in range(kept)])
+    QTest.qWait(50)
+    assert histogram.size().height() == 230
+    assert histogram.plot.height() >= 160
+    space = histogram.plot.view.sceneBoundingRect()
+    legend = histogram.legend.geometry()
+    assert legend.right() <= histogram.plot.width()
+    low, high = histogram.plot.plot.viewRange()[1]
+    bars = space.height() * (histogram.plot.heights.share(1) - low) / (high - low)
+    assert bars >= 80
+    if kept == 0:
+        assert space.height() - bars >= legend.height()  # nothing is drawn below the legend
+
+
+def test_words_hold_still_and_stand_in_one_line(histogram):
+    histogram.resize(600, 230)
+    QTest.qWait(30)
+    before = histogram.plot.geometry()
+    for chosen in (None, ValueRange("q", 0.123, 0.789, inverted=True), ValueRange("q", 0.2, 0.3)):
+        histogram.set_range(chosen)
+        QTest.qWait(10)
+        assert histogram.plot.geometry() == before
+        assert histogram.words.height() < 2 * histogram.fontMetrics().height()
+        assert histogram.words.toolTip() == histogram.words.text()
+
+
 def test_it_has_neither_menu_nor_buttons_and_does_not_zoom(histogram):
-    plot = histogram._plot.plot
+    plot = histogram.plot.plot
     assert not plot.getPlotItem().menuEnabled()
     assert plot.getPlotItem().buttonsHidden
     before = plot.viewRange()
@@ -214,9 +349,9 @@ def test_another_metric_is_brushed_to_its_end_and_beyond(histogram, heard, condi
     assert heard[-1] == histogram.range()
     assert (heard[-1].metric, heard[-1].high) == ("condition", np.inf)
     assert heard[-1].low == pytest.approx(low, abs=0.03 * low)
-    inside = np.count_nonzero(values >= heard[-1].low)
-    assert histogram._text.text().startswith(f"{inside:,} of 2,000 elements from {axis.text(heard[-1].low)}, ")
-    assert histogram._text.text().endswith(f"{inverted.sum()} of them inverted")
+    inside = np.count_nonzero((values >= heard[-1].low) & ~inverted)
+    words = f"{inside:,} of 2,000 elements from {axis.end(heard[-1].low)}"
+    assert histogram.words.text() == words
     assert histogram.ends.high.text() == "∞"
 
 
@@ -252,7 +387,7 @@ def test_every_metric_fits_into_a_narrow_dock(histogram, name):
     assert histogram.minimumSizeHint().width() <= 322
     histogram.resize(322, 268)
     QTest.qWait(20)
-    for part in (*histogram.ends._rest, histogram.head.metric, histogram.head.scale, histogram.head.more):
+    for part in (*histogram.ends.parts, histogram.head.metric, histogram.head.scale, histogram.head.more):
         right = part.mapTo(histogram, part.rect().topRight()).x()
         assert 0 < right < 322
         assert part.width() >= part.minimumSizeHint().width()
@@ -276,7 +411,7 @@ def test_bins_are_chosen_in_the_head_and_in_the_menu(histogram, data):
     bins.setFocus()
     QTest.keyClick(bins, Qt.Key.Key_Up)
     assert len(histogram.series()[0].part.counts) == 60
-    assert len(histogram._plot._outlines["now"]._curve.yData) == 60
+    assert len(histogram.plot.outlines["now"].curve.yData) == 60
     numbers = {action.text(): action for action in histogram.head._numbers.actions()}
     numbers["200"].trigger()
     assert bins.value() == 200
@@ -303,14 +438,14 @@ def test_cumulative_shares_begin_with_the_inverted_and_end_at_all(histogram, dat
     assert text.startswith("inverted, or q(H) up to 0.52\n")
     assert f"now: {share:.4g} %, " in text
     assert "now: 100 %, 2,000 elements" in histogram.describe_at(0.99)
-    curve = histogram._plot._outlines["now"]._curve.yData
+    curve = histogram.plot.outlines["now"].curve.yData
     assert curve[-1] == (2.0 if scale == "log" else 100)
     assert np.diff(curve).min() >= 0
-    assert histogram._plot._number.toPlainText() == f"{inverted.mean() * 100:.3g} %"
-    low, high = histogram._plot.plot.viewRange()[1]
+    assert histogram.plot.numbers["now"][0].toPlainText() == f"{inverted.mean() * 100:.3g} %"
+    low, high = histogram.plot.plot.viewRange()[1]
     assert low <= curve[0] < curve[-1] < high
     QTest.mouseClick(cumulative_button(histogram), _LEFT)
-    assert histogram._plot._outlines["now"]._curve.yData.max() < (3 if scale == "log" else 200)
+    assert histogram.plot.outlines["now"].curve.yData.max() < (3 if scale == "log" else 200)
 
 
 def test_what_is_kept_is_drawn_named_renamed_and_removed(histogram, data):
@@ -323,7 +458,7 @@ def test_what_is_kept_is_drawn_named_renamed_and_removed(histogram, data):
     QTest.qWait(30)
     assert [one.name for one in histogram.series()] == ["at the start", "now", "laplacian 5", "now"]
     assert len({one.colour for one in histogram.series()}) == 4
-    assert len(histogram._plot._outlines) == 4
+    assert len(histogram.plot.outlines) == 4
     assert f"laplacian 5: {np.count_nonzero((half[0] >= 0.24) & (half[0] < 0.26))} " in histogram.describe_at(0.25)
     name = histogram.legend.entries[0].name
     assert name.text() == "laplacian 5"
@@ -336,7 +471,7 @@ def test_what_is_kept_is_drawn_named_renamed_and_removed(histogram, data):
     histogram.set_kept(kept[:1])
     QTest.qWait(30)
     assert list(histogram.legend.entries) == [0]
-    assert len(histogram._plot._outlines) == 3
+    assert len(histogram.plot.outlines) == 3
 
 
 def test_an_empty_name_is_no_name(histogram, data):
@@ -356,7 +491,7 @@ def test_an_empty_name_is_no_name(histogram, data):
 def test_the_tooltip_over_the_plot_counts_all_that_is_drawn(histogram, data):
     histogram.set_kept([(0, "laplacian 5", *data)])
     QTest.qWait(30)
-    viewport = histogram._plot.plot.viewport()
+    viewport = histogram.plot.plot.viewport()
     for x in (0.3, 0.705):  # a tooltip comes as the mouse moves
         QTest.mouseMove(viewport, place(histogram, x))
         QTest.qWait(60)
@@ -365,7 +500,7 @@ def test_the_tooltip_over_the_plot_counts_all_that_is_drawn(histogram, data):
 
 
 def test_the_axis_holds_still_while_values_change(histogram, condition):
-    before = histogram.axis, histogram._plot.plot.viewRange()[0]
+    before = histogram.axis, histogram.plot.plot.viewRange()[0]
     for share in (0.5, 0.2, 5.0):
         histogram.set_current(1 + share * np.linspace(0, 9, 2000), np.zeros(2000, bool))
-        assert (histogram.axis, histogram._plot.plot.viewRange()[0]) == before
+        assert (histogram.axis, histogram.plot.plot.viewRange()[0]) == before

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QPushButton, QTableView
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QTableView
 
-from hexmend.quality import measure
+from hexmend.quality import METRICS, measure
 from hexmend_app.features.inspect.worst_list import MOST, WorstList
 from tests.core.grids import grid, scrambled
 
@@ -33,15 +33,36 @@ def row_at(widget, row):
     return table.viewport(), table.visualRect(table.model().index(row, 0)).center()
 
 
-def test_inverted_elements_come_first_and_the_list_is_bounded(worst_list):
+@pytest.mark.parametrize("name", METRICS)
+def test_the_list_is_bounded_and_in_the_order_of_its_metric(worst_list, name):
+    metric = worst_list.findChild(QComboBox)
+    metric.setCurrentIndex(metric.findData(name))
+    elements, better = worst_list.elements, METRICS[name].better or 1
+    assert len(elements) == min(MOST, MESH.n_hexes) < MESH.n_hexes
+    keys = better * METRICS[name].of(MESH.points, MESH.hexes, FIGURES)
+    keys[np.isnan(keys)] = -np.inf
+    listed = keys[elements]
+    assert (listed[1:] >= listed[:-1]).all()
+    assert np.sort(keys)[: len(elements)].tolist() == listed.tolist()
+    equal = listed[1:] == listed[:-1]
+    assert (np.diff(FIGURES.scaled_jacobian[elements])[equal] >= 0).all()
+
+
+def test_an_inverted_element_of_good_quality_comes_after_worse_ones(worst_list):
     elements = worst_list.elements
-    assert len(elements) == min(MOST, MESH.n_hexes)
-    assert FIGURES.inverted[elements[0]]
-    sound = ~FIGURES.inverted[elements]
-    assert (np.diff(sound.astype(int)) >= 0).all()
+    q, inverted = FIGURES.q[elements], FIGURES.inverted[elements]
+    assert inverted.any()
+    assert q[inverted].max() > q[~inverted].min()
+
+
+def test_the_list_says_how_equal_elements_are_ordered(worst_list):
+    def said():
+        return " ".join(label.text() for label in worst_list.findChildren(QLabel))
+
+    assert "equal ones by scaled Jacobian" in said()
     metric = worst_list.findChild(QComboBox)
     metric.setCurrentIndex(metric.findData("scaled-jacobian"))
-    assert (np.diff(FIGURES.scaled_jacobian[worst_list.elements]) >= 0).all()
+    assert "equal ones" not in said()
 
 
 def test_a_click_on_a_row_chooses_its_element(worst_list, qtbot):

@@ -123,3 +123,51 @@ def test_nothing_is_cut_off_in_a_narrow_panel(table):
 def test_no_mesh_clears_the_figures(table):
     table.set_summaries(None, None)
     assert all(cell(table, key, column).text() == "" for key in _AT for column in (1, 2, 3))
+
+
+@pytest.fixture
+def tangled(table):
+    """The table with inverted elements now, and what it asked for."""
+    table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW | {"inverted": 12, "locked_inverted": 3}))
+    asked = []
+    table.isolate_requested.connect(asked.append)
+    return table, asked
+
+
+def click(table, key, column):
+    place = table._table.visualItemRect(cell(table, key, column)).center()
+    QTest.mouseMove(table._table.viewport(), place)
+    QTest.mouseClick(table._table.viewport(), Qt.MouseButton.LeftButton, pos=place)
+
+
+def test_the_numbers_of_inverted_and_locked_elements_are_links(tangled):
+    table, asked = tangled
+    for key in ("inverted", "locked_inverted", "hexes"):
+        click(table, key, 2)
+    click(table, "inverted", 1)  # at the start, of which there is no picture
+    assert asked == ["inverted", "locked"]
+    assert cell(table, "inverted", 2).font().underline()
+    assert "Show only the locked elements" in cell(table, "locked_inverted", 2).toolTip()
+
+
+def test_links_are_reached_by_keys(tangled):
+    table, asked = tangled
+    table._table.setFocus()
+    table._table.setCurrentCell(_AT["inverted"], 0)
+    QTest.keyClick(table._table, Qt.Key.Key_Return)
+    QTest.keyClick(table._table, Qt.Key.Key_Down)
+    QTest.keyClick(table._table, Qt.Key.Key_Enter)
+    QTest.keyClick(table._table, Qt.Key.Key_Down)
+    QTest.keyClick(table._table, Qt.Key.Key_Enter)
+    assert asked == ["inverted", "locked"]
+
+
+def test_where_there_are_none_there_is_no_link(tangled):
+    table, asked = tangled
+    table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW))
+    click(table, "inverted", 2)
+    table._table.setCurrentCell(_AT["inverted"], 0)
+    QTest.keyClick(table._table, Qt.Key.Key_Return)
+    assert asked == []
+    assert not cell(table, "inverted", 2).font().underline()
+    assert "determinant" in cell(table, "inverted", 2).toolTip()

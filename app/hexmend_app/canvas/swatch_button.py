@@ -1,0 +1,76 @@
+"""A colour with its name and its number of elements, to be clicked on."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
+
+from hexmend_app.scene.palette import BLUE, LINE, MUTED, TEXT
+from hexmend_app.widgets.style import explain
+
+_SIZE, _GAP = 12, 5
+
+
+def swatch_text(name: str, count: int) -> str:
+    """A name with its number, if there are any.
+
+    >>> swatch_text("inverted", 2707), swatch_text("inverted", 0)
+    ('inverted (2,707)', 'inverted')
+    """
+    return f"{name} ({count:,})" if count else name
+
+
+class SwatchButton(QAbstractButton):
+    """A swatch that asks, as a link does, for the elements of its kind; pale while there are none.
+
+    Attributes
+    ----------
+    name : str
+    count : int
+    """
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.name, self.count = "", 0
+        self._colour = QColor()
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+
+    def show_kind(self, name: str, count: int, colour: QColor) -> None:
+        """Stand for other elements."""
+        if (name, count, colour) == (self.name, self.count, self._colour):
+            return
+        self.name, self.count, self._colour = name, count, colour
+        self.setEnabled(count > 0)
+        self.setCursor(Qt.CursorShape.PointingHandCursor if count else Qt.CursorShape.ArrowCursor)
+        explain(self, f"Show only what is {name}", f"Show only the elements that are {name}; Esc brings back the rest.")
+        self.updateGeometry()
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """With room for a large number, so that nothing moves while numbers change."""
+        metrics = QFontMetricsF(self.font())
+        text = f"{self.name} (00,000)" if 0 < self.count < 100_000 else swatch_text(self.name, self.count)
+        return QSize(math.ceil(_SIZE + _GAP + metrics.horizontalAdvance(text)) + 2, math.ceil(metrics.height()) + 4)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the swatch and its text; underlined under the mouse, framed while it has the focus."""
+        painter = QPainter(self)
+        metrics, middle = QFontMetricsF(self.font()), self.height() / 2
+        painter.setPen(QPen(QColor(str(LINE)), 0))
+        painter.setBrush(self._colour)
+        painter.drawRect(QRectF(0, round(middle - _SIZE / 2), _SIZE, _SIZE))
+        font = self.font()
+        font.setUnderline(self.isEnabled() and self.underMouse())
+        painter.setFont(font)
+        painter.setPen(QColor(str(TEXT if self.count else MUTED)))
+        text = swatch_text(self.name, self.count)
+        painter.drawText(QPointF(_SIZE + _GAP, middle + metrics.ascent() / 2 - 1), text)
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(str(BLUE)), 1))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(QRectF(_SIZE + 1.5, 0.5, self.width() - _SIZE - 2, self.height() - 1))

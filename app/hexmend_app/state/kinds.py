@@ -1,0 +1,49 @@
+"""Elements that have a name of their own, to be shown alone: the inverted, the locked, the mended..."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.quality import ElementQuality, locked
+from hexmend_app.state.look import Isolation
+from hexmend_app.state.movement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Movement
+from hexmend_app.state.view import View
+
+#: Those that a movement tells apart.
+_MOVED = {"newly inverted": NEWLY_INVERTED, "still inverted": STILL_INVERTED, "mended": MENDED}
+
+KINDS = ("inverted", "locked", *_MOVED)
+
+
+def of_kind(kind: str, mesh: Mesh, figures: ElementQuality, movement: Movement | None = None) -> np.ndarray:
+    """The hexes of a kind, (k,) int64.
+
+    Parameters
+    ----------
+    kind : str
+        One of `KINDS`.
+    mesh : Mesh
+    figures : ElementQuality
+        Of this mesh.
+    movement : Movement, optional
+        What tells apart the newly inverted, the still inverted and the mended; without it there are none.
+
+    Raises
+    ------
+    KeyError
+        For another kind.
+    """
+    if kind not in KINDS:
+        raise KeyError(f"there is no kind of elements {kind!r}: known are {', '.join(KINDS)}")
+    if kind == "inverted":
+        return np.flatnonzero(figures.inverted)
+    if kind == "locked":
+        return np.flatnonzero(locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted))
+    return np.empty(0, np.int64) if movement is None else np.flatnonzero(movement.kinds == _MOVED[kind])
+
+
+def isolate(view: View, hexes: np.ndarray) -> None:
+    """Show some hexes alone, whatever range was shown before; none leave the view as it is."""
+    if len(hexes):
+        view.change(quality_range=None, isolation=Isolation(tuple(hexes.tolist()), rings=0))

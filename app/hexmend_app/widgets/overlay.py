@@ -1,0 +1,142 @@
+"""Widgets that lie over others, at a place given as shares of what they lie over."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QSettings, QSize, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QWidget
+
+_MARGIN = 8
+_MOUSE = (
+    QEvent.Type.MouseButtonPress,
+    QEvent.Type.MouseMove,
+    QEvent.Type.MouseButtonRelease,
+    QEvent.Type.MouseButtonDblClick,
+)
+
+
+class Overlay(QObject):
+    """Keeps a widget over another one, whose layout knows nothing of it: what comes and goes there moves nothing.
+
+    The widget is as large as it wants to be where there is room. It never leaves what it lies over, and the mouse on it
+    is its own; the wheel goes on to what is below.
+
+    Parameters
+    ----------
+    widget : QWidget
+        Becomes a child of `over`.
+    over : QWidget
+    home : (x, y)
+        Where it stands, as shares of the room beside it: (0, 0) is the upper left corner, (1, 0.5) the middle of the
+        right edge.
+    width : int, optional
+        Of the widget, where there is room; by itself it is as wide as it wants to be.
+    key : str, optional
+        Under which the settings keep its place. With it, the widget can be dragged elsewhere, and a double click puts
+        it back.
+    """
+
+    def __init__(
+        self,
+        widget: QWidget,
+        over: QWidget,
+        home: tuple[float, float],
+        width: int | None = None,
+        key: str | None = None,
+    ):
+        super().__init__(widget)
+        self._widget, self._over, self._home, self._width = widget, over, home, width
+        self._key = key and f"overlay/{key}"
+        self._place = self._kept() if key else home
+        self._grip: QPoint | None = None  # where on the widget the mouse holds it
+        widget.setParent(over)
+        if key:
+            widget.setCursor(Qt.CursorShape.OpenHandCursor)
+        for watched in (widget, over):
+            watched.installEventFilter(self)
+        self.fit()
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Where it stands, as shares of the room beside it."""
+        return self._place
+
+    def move_to(self, place: tuple[float, float]) -> None:
+        """Stand elsewhere."""
+        self._place = tuple(min(max(share, 0.0), 1.0) for share in place)
+        self.fit()
+
+    def fit(self) -> None:
+        """Stand where it has to, as large as there is room for."""
+        size = self._size()
+        room = self._room(size)
+        x, y = (round(_MARGIN + share * most) for share, most in zip(self._place, room, strict=True))
+        self._widget.setGeometry(x, y, size.width(), size.height())
+        self._widget.raise_()
+
+    def _size(self) -> QSize:
+        widget = self._widget
+        widget.ensurePolished()
+        wanted, most = widget.sizeHint(), self._over.size() - QSize(2 * _MARGIN, 2 * _MARGIN)
+        width = min(self._width or wanted.width(), most.width())
+        if self._width is not None and widget.hasHeightForWidth():
+            wanted.setHeight(widget.heightForWidth(width))
+        return QSize(max(width, 1), max(min(wanted.height(), most.height()), 1))
+
+    def _room(self, size: QSize) -> tuple[int, int]:
+        free = self._over.size() - size - QSize(2 * _MARGIN, 2 * _MARGIN)
+        return max(free.width(), 0), max(free.height(), 0)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Follow what it lies over, and the mouse."""
+        kind = event.type()
+        if kind in (QEvent.Type.Show, QEvent.Type.LayoutRequest) or (
+            kind == QEvent.Type.Resize and watched is self._over
+        ):
+            self.fit()
+        elif kind in _MOUSE and watched is self._widget:
+            self._follow(event)
+            event.accept()
+            return True
+        return super().eventFilter(watched, event)
+
+    def _follow(self, event: QMouseEvent) -> None:
+        """Move as the mouse does; what is not the mouse's to move stays."""
+        if self._key is None:
+            return
+        kind, at = event.type(), event.globalPosition()
+        if kind == QEvent.Type.MouseButtonPress and event.button() == Qt.MouseButton.LeftButton:
+            self._grip = self._widget.mapFromGlobal(at).toPoint()
+            self._widget.setCursor(Qt.CursorShape.ClosedHandCursor)
+        elif kind == QEvent.Type.MouseMove and self._grip is not None:
+            self._drag(at)
+        elif kind == QEvent.Type.MouseButtonRelease and self._grip is not None:
+            self._grip = None
+            self._widget.setCursor(Qt.CursorShape.OpenHandCursor)
+            self._keep()
+        elif kind == QEvent.Type.MouseButtonDblClick:
+            self.move_to(self._home)
+            self._keep()
+
+    def _drag(self, at: QPointF) -> None:
+        corner = self._over.mapFromGlobal(at).toPoint() - self._grip - QPoint(_MARGIN, _MARGIN)
+        room = self._room(self._widget.size())
+        here = corner.x(), corner.y()
+        self.move_to(
+            tuple(was if most == 0 else x / most for x, most, was in zip(here, room, self._place, strict=True))
+        )
+
+    def _keep(self) -> None:
+        if self._place == self._home:
+            QSettings().remove(self._key)
+        else:
+            QSettings().setValue(self._key, " ".join(f"{share:.4f}" for share in self._place))
+
+    def _kept(self) -> tuple[float, float]:
+        """The place in the settings; home where there is none that can be read."""
+        try:
+            x, y = (float(share) for share in str(QSettings().value(self._key, "")).split())
+        except ValueError:
+            return self._home
+        inside = all(0 <= share <= 1 for share in (x, y))
+        return (x, y) if inside else self._home

@@ -1,0 +1,59 @@
+"""Elements that are shown alone by their names."""
+
+import numpy as np
+import pytest
+
+from hexmend.quality import measure, summarise
+from hexmend_app.scene.colours import resolve
+from hexmend_app.state.kinds import KINDS, isolate, of_kind
+from hexmend_app.state.look import ColourScale, Isolation, ValueRange
+from hexmend_app.state.movement import Moment, Movement
+from hexmend_app.state.view import View
+from tests.core.grids import grid, scrambled
+
+MESH = scrambled(grid(6), 0.8, 1)
+FIGURES = measure(MESH.points, MESH.hexes)
+
+
+def test_as_many_are_shown_as_the_figures_count():
+    summary = summarise(MESH, FIGURES)
+    assert len(of_kind("inverted", MESH, FIGURES)) == summary.inverted > 0
+    assert len(of_kind("locked", MESH, FIGURES)) == summary.locked_inverted
+    fixed = MESH.replace(pinned=np.ones(MESH.n_nodes, bool))
+    assert len(of_kind("locked", fixed, FIGURES)) == summary.inverted
+
+
+def test_every_name_on_the_colour_bar_is_known():
+    for metric in ("q", "q-change"):
+        for one in resolve(ColourScale(metric), FIGURES.q, FIGURES.inverted).apart:
+            assert one.name in KINDS
+            assert of_kind(one.name, MESH, FIGURES).dtype == np.int64
+
+
+def test_a_movement_tells_who_was_inverted_and_is():
+    was = scrambled(MESH, 0.3, 7)
+    before = measure(was.points, was.hexes)
+    movement = Movement(MESH, Moment(was.points, before, "then"), MESH.points, FIGURES)
+    newly, still, mended = (
+        set(of_kind(kind, MESH, FIGURES, movement).tolist()) for kind in ("newly inverted", "still inverted", "mended")
+    )
+    assert newly | still == set(np.flatnonzero(FIGURES.inverted).tolist())
+    assert still | mended == set(np.flatnonzero(before.inverted).tolist())
+    assert newly
+    assert still
+
+
+def test_another_name_is_refused():
+    with pytest.raises(KeyError, match="known are inverted, locked"):
+        of_kind("ugly", MESH, FIGURES)
+
+
+def test_what_is_isolated_is_shown_alone_and_whatever_its_value(qapp):
+    view = View()
+    view.change(quality_range=ValueRange("q", 0.5, 1.0))
+    isolate(view, np.array([], np.int64))
+    assert view.look.quality_range is not None
+    isolate(view, np.array([3, 8]))
+    assert view.look.isolation == Isolation((3, 8), rings=0)
+    assert view.look.quality_range is None
+    assert view.rings == 1  # those that are chosen for the next

@@ -1,0 +1,144 @@
+"""Widgets that lie over others."""
+
+import pytest
+from PySide6.QtCore import QPoint, QPointF, QSettings, QSize, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from hexmend_app.widgets.overlay import Overlay
+
+_LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture(autouse=True)
+def own_settings(tmp_path):
+    for kind in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
+        QSettings.setPath(kind, QSettings.Scope.UserScope, str(tmp_path))
+    QSettings().clear()
+
+
+class Below(QWidget):
+    """What is lain over; it remembers what the mouse did to it."""
+
+    def __init__(self):
+        super().__init__()
+        self.heard = []
+
+    def mousePressEvent(self, event):
+        self.heard.append("press")
+
+    def mouseMoveEvent(self, event):
+        self.heard.append("move")
+
+    def wheelEvent(self, event):
+        self.heard.append("wheel")
+
+
+class Card(QWidget):
+    """A widget of a size of its own, with a text in it."""
+
+    def __init__(self):
+        super().__init__()
+        QVBoxLayout(self).addWidget(QLabel("text"))
+
+    def sizeHint(self):
+        return QSize(100, 300)
+
+
+@pytest.fixture
+def over(shown):
+    return shown(Below(), 600, 500)
+
+
+def laid(over, home=(1.0, 0.5), key="card"):
+    card = Card()
+    place = Overlay(card, over, home, key=key)
+    card.show()
+    return card, place
+
+
+@pytest.mark.parametrize(("home", "corner"), [((1.0, 0.5), (492, 100)), ((0.0, 0.0), (8, 8)), ((0.5, 1.0), (250, 192))])
+def test_it_stands_where_its_shares_say(over, home, corner):
+    card, _ = laid(over, home)
+    assert (card.x(), card.y()) == corner
+    assert card.size() == QSize(100, 300)
+
+
+def test_it_follows_what_it_lies_over_and_shrinks_with_it(over):
+    card, _ = laid(over)
+    over.resize(400, 200)
+    QTest.qWait(20)
+    assert card.geometry().getRect() == (292, 8, 100, 184)
+    over.resize(900, 700)
+    QTest.qWait(20)
+    assert card.geometry().getRect() == (792, 200, 100, 300)
+
+
+def moved(card, by):
+    """Drag a card by its middle, as a hand does."""
+    start = card.mapTo(card.parentWidget(), QPoint(50, 150))
+    window = card.window().windowHandle()
+    QTest.mousePress(window, _LEFT, pos=start)
+    for k in range(1, 9):
+        QTest.mouseMove(window, start + by * (k / 8))
+        QTest.qWait(5)
+    QTest.mouseRelease(window, _LEFT, pos=start + by)
+
+
+def test_a_drag_moves_it_and_nothing_below(over):
+    card, place = laid(over)
+    moved(card, QPoint(-200, 60))
+    assert (card.x(), card.y()) == (292, 160)
+    assert over.heard == []
+    moved(card, QPoint(5000, -5000))
+    assert (card.x(), card.y()) == (492, 8)
+    assert place.place == (1.0, 0.0)
+
+
+def test_its_place_is_kept_as_shares_and_a_double_click_puts_it_back(over):
+    card, place = laid(over)
+    moved(card, QPoint(-242, 0))
+    again, _ = laid(over)
+    assert again.x() == card.x() == 250
+    over.resize(1000, 500)
+    QTest.qWait(20)
+    assert card.x() == 450
+    again.hide()
+    QTest.mouseDClick(card.window().windowHandle(), _LEFT, pos=card.geometry().center())
+    assert place.place == (1.0, 0.5)
+    assert laid(over)[1].place == (1.0, 0.5)
+
+
+@pytest.mark.parametrize("kept", ["", "nonsense", "2 0.5", "nan nan", "0.5"])
+def test_a_place_that_cannot_be_read_is_home(over, kept):
+    QSettings().setValue("overlay/card", kept)
+    assert laid(over)[1].place == (1.0, 0.5)
+
+
+def test_without_a_key_it_stays(over):
+    card, _ = laid(over, key=None)
+    before = card.geometry()
+    moved(card, QPoint(-100, 20))
+    assert card.geometry() == before
+    assert over.heard == []
+
+
+def test_the_wheel_goes_on_to_what_is_below_and_beside_it_all_does(over):
+    card, _ = laid(over)
+    QTest.wheelEvent(card.window().windowHandle(), QPointF(card.geometry().center()), QPoint(0, 120))
+    assert "wheel" in over.heard
+    QTest.mouseClick(over, _LEFT, pos=QPoint(200, 250))
+    assert "press" in over.heard
+
+
+def test_a_text_has_the_height_that_its_width_makes_it(over):
+    text = QLabel("word " * 60)
+    text.setWordWrap(True)
+    Overlay(text, over, (0.5, 0.0), width=400)
+    text.show()
+    assert text.width() == 400
+    assert text.height() == text.heightForWidth(400)
+    over.resize(300, 500)
+    QTest.qWait(20)
+    assert text.width() == 284
+    assert text.height() == text.heightForWidth(284)
