@@ -178,7 +178,7 @@ def test_the_hint_is_there_until_it_is_dismissed_and_again_by_key(window, qtbot)
 # Sharp screens
 
 _SCALED = """
-import sys, tempfile
+import sys
 import numpy as np
 from PySide6.QtCore import QPointF, QSettings
 from PySide6.QtTest import QTest
@@ -187,18 +187,22 @@ from hexmend import gallery, io
 from hexmend_app.shell.program import application
 from hexmend_app.shell.window import Window
 
-QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, tempfile.mkdtemp())
+QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, sys.argv[2])
 app = application()
 window = Window()
 window.setGeometry(0, 0, 1001, 651)
 window.show()
 window.build_canvas()
-path = tempfile.mkdtemp() + "/cube.vtu"
+path = sys.argv[2] + "/cube.vtu"
 io.write(path, gallery.make("cube", size=512))
 window.open(path)
-while not window.document.is_open:
+while window.canvas.colouring is None:
     QTest.qWait(20)
-QTest.qWait(400)
+drawn = []
+window.canvas.interactor.frameSwapped.connect(lambda: drawn.append(True))
+window.canvas.interactor.update()
+while not drawn:
+    QTest.qWait(20)
 view, mesh = window.canvas.interactor, window.document.now.mesh
 ratio = view.devicePixelRatioF()
 corner = view.mapTo(window, view.rect().topLeft()).toPointF() * ratio
@@ -226,8 +230,9 @@ def test_clicks_hit_what_they_point_at_on_sharp_screens(tmp_path, scale):
     environment = os.environ | {"QT_SCALE_FACTOR": scale}
     picture = tmp_path / "picture.png"
     done = subprocess.run(
-        [sys.executable, "-c", _SCALED, str(picture)], env=environment, capture_output=True, text=True, timeout=200
-    )
+        [sys.executable, "-c", _SCALED, str(picture), str(tmp_path)],
+        env=environment, capture_output=True, text=True, timeout=200,
+    )  # fmt: skip
     assert done.returncode == 0, done.stderr
     from PIL import Image
 
