@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable
+import tempfile
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+
+from tests.guards import temporary_files_go, threads_end
 
 os.environ.setdefault("QT_API", "pyside6")
 os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
@@ -35,3 +38,20 @@ def real_mesh() -> Callable[[str], Path]:
         return path
 
     return find
+
+
+@pytest.fixture(scope="session")
+def temporary_folder(tmp_path_factory) -> Iterator[Path]:
+    """Where temporary files go that are not asked of pytest, by this process and those that it starts."""
+    folder = tmp_path_factory.mktemp("temporary")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TMPDIR", str(folder))
+        patch.setattr(tempfile, "tempdir", None)
+        yield folder
+
+
+@pytest.fixture(autouse=True)
+def nothing_is_left_behind(temporary_folder) -> Iterator[None]:
+    """A test that leaves a thread running or temporary files lying about fails."""
+    with threads_end(), temporary_files_go(temporary_folder):
+        yield

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import threading
-
 import pytest
 import shiboken6
 from PySide6.QtCore import QEvent, QSettings
@@ -14,6 +12,7 @@ from hexmend_app.shell.program import application
 from hexmend_app.shell.window import Window
 from hexmend_app.widgets.style import apply_style
 from tests.app.driving import open_and_wait
+from tests.guards import windows_close
 
 
 def pytest_collection_modifyitems(items):
@@ -31,6 +30,17 @@ def qapp(qapp):
     """The application in the program's own look."""
     apply_style(qapp, dark=False)
     return qapp
+
+
+@pytest.fixture(autouse=True)
+def windows_are_closed(nothing_is_left_behind, request):
+    """A test that leaves a window on the screen fails."""
+    if "qapp" not in request.fixturenames:
+        yield
+        return
+    request.getfixturevalue("qapp")
+    with windows_close():
+        yield
 
 
 @pytest.fixture
@@ -81,4 +91,3 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     window.deleteLater()  # with 50 MB that Qt and Mesa have kept for it
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     window.canvas.interactor._forget_context()  # nor for the surface that was drawn on, which is gone too
-    assert [t.name for t in threading.enumerate() if t.name.startswith(("smoother", "reading"))] == []

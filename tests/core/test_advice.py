@@ -20,8 +20,8 @@ MESHES = {
     "bridge, tangled": ("bridge-sharp", {"size": 500, "scramble": 0.4}),
     "five-side": ("five-side", {"size": 500}),
     "five-side, tangled": ("five-side", {"size": 500, "scramble": 1.5}),
-    "plane": ("plane", {"size": 2500}),
-    "plane, tangled": ("plane", {"size": 2500, "scramble": 0.4}),
+    "plane": ("plane", {"size": 700}),
+    "plane, tangled": ("plane", {"size": 700, "scramble": 0.4}),
 }
 LOOSE, SHORT = Stop(tolerance=1e-2), Stop(max_iterations=12)
 RUNS = {

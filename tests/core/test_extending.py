@@ -13,6 +13,13 @@ from hexmend import gallery, io
 
 TEXT = (Path(__file__).resolve().parents[2] / "docs/extending.md").read_text(encoding="utf-8")
 (EXAMPLE,) = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
+PROGRAM = """
+import json, sys
+from hexmend.cli.main import main
+for words in json.loads(sys.argv[1]):
+    status = main(words)
+sys.exit(status)
+"""
 
 
 @pytest.fixture
@@ -29,9 +36,10 @@ def installed(tmp_path):
             (site / f"{name}.py").write_text(text, encoding="utf-8")
         path = os.pathsep.join(filter(None, [str(site), os.environ.get("PYTHONPATH", "")]))
 
-        def run(*words):
+        def run(*commands):
+            """Run commands in one process; the last one's status is the process's."""
             return subprocess.run(
-                [sys.executable, "-m", "hexmend", *map(str, words)],
+                [sys.executable, "-c", PROGRAM, json.dumps([[str(word) for word in words] for words in commands])],
                 env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True,
             )  # fmt: skip
 
@@ -40,10 +48,11 @@ def installed(tmp_path):
     return install
 
 
-def methods(run):
-    done = run("methods", "--json")
+def methods(done):
+    """What `hexmend methods --json`, the first command, printed: by name."""
     assert done.returncode == 0, done.stderr
-    return {one["name"]: one for one in json.loads(done.stdout)}, done.stderr
+    every, _ = json.JSONDecoder().raw_decode(done.stdout)
+    return {one["name"]: one for one in every}
 
 
 @pytest.mark.parametrize(("entry", "module"), [
@@ -53,14 +62,16 @@ def methods(run):
 ], ids=["module", "class", "class-that-does-not-announce-itself"])  # fmt: skip
 def test_the_example_is_a_method_like_any_other(installed, tmp_path, entry, module):
     run = installed(entry, my_module=module)
-    every, said = methods(run)
-    assert said == ""
-    assert "mend" in every
-    assert [one["name"] for one in every["nonlinear-cg"]["parameters"]] == ["p", "delta"]
     mesh, out, report = tmp_path / "mesh.vtk", tmp_path / "out.vtk", tmp_path / "report.json"
     io.write(mesh, gallery.make("five-side", size=500, scramble=0.4, seed=2))
-    done = run("smooth", mesh, "-o", out, "--method", "nonlinear-cg", "--set", "p=3", "--json", report)
-    assert done.returncode == 0, done.stderr
+    done = run(
+        ["methods", "--json"],
+        ["smooth", mesh, "-o", out, "--method", "nonlinear-cg", "--set", "p=3", "--json", report],
+    )
+    every = methods(done)
+    assert done.stderr == ""
+    assert "mend" in every
+    assert [one["name"] for one in every["nonlinear-cg"]["parameters"]] == ["p", "delta"]
     answer = json.loads(report.read_text())
     assert answer["parameters"] == {"p": 3, "delta": 0.05}
     assert answer["outcome"] == "converged"
@@ -74,32 +85,37 @@ def test_the_example_is_short_and_uses_numpy_and_the_face_alone():
     assert names == {"dataclasses", "numpy", "hexmend"}
 
 
-@pytest.mark.parametrize(("entry", "module", "message"), [
-    ("odd = my_module", "import nowhere_at_all", "ModuleNotFoundError: No module named 'nowhere_at_all'"),
-    ("odd = my_module", "raise SystemExit('no licence')", "SystemExit: no licence"),
-    ("odd = my_module", "1 /", "SyntaxError"),
-    ("odd = my_module:Missing", "", "AttributeError"),
-    ("odd = my_module:Path", "from pathlib import Path", "TypeError: Path is no hexmend.Smoother"),
-    ("odd = my_module", EXAMPLE.replace('"nonlinear-cg"', '"mend"'), "ValueError: method 'mend' is registered twice"),
-    ("odd = my_module", EXAMPLE.replace('    source = "', '    comes_from = "'), "ConjugateGradients has no source"),
-])  # fmt: skip
-def test_what_is_wrong_with_one_is_said_in_a_line_and_the_others_go_on(installed, entry, module, message):
-    run = installed(f"{entry}\nsound = sound", my_module=module, sound=EXAMPLE)
-    every, said = methods(run)
-    assert {"mend", "nonlinear-cg"} <= set(every)
-    assert len(said.splitlines()) == 1
-    assert said.startswith("hexmend: the method odd of my-methods is left out: ")
-    assert message in said
+WRONG = {  # entry, module, and what is said of them
+    "absent": ("", "import nowhere_at_all", "ModuleNotFoundError: No module named 'nowhere_at_all'"),
+    "leaving": ("", "raise SystemExit('no licence')", "SystemExit: no licence"),
+    "torn": ("", "1 /", "SyntaxError"),
+    "missing": (":Missing", "", "AttributeError"),
+    "foreign": (":Path", "from pathlib import Path", "TypeError: Path is no hexmend.Smoother"),
+    "twice": ("", EXAMPLE.replace('"nonlinear-cg"', '"mend"'), "ValueError: method 'mend' is registered twice"),
+    "unsourced": ("", EXAMPLE.replace('    source = "', '    comes_from = "'), "ConjugateGradients has no source"),
+}
+
+
+def test_what_is_wrong_with_some_is_said_in_a_line_each_and_the_others_go_on(installed):
+    entries = [f"{name} = module_{name}{what}" for name, (what, _, _) in WRONG.items()]
+    modules = {f"module_{name}": text for name, (_, text, _) in WRONG.items()}
+    done = installed("\n".join([*entries, "sound = sound"]), **modules, sound=EXAMPLE)(["methods", "--json"])
+    assert {"mend", "nonlinear-cg"} <= set(methods(done))
+    said = done.stderr.splitlines()
+    assert len(said) == len(WRONG)
+    for name, (_, _, message) in WRONG.items():
+        (line,) = (line for line in said if line.startswith(f"hexmend: the method {name} of my-methods is left out: "))
+        assert message in line
 
 
 def test_who_names_a_method_of_hexmend_does_not_wait_for_others(installed, tmp_path):
     run = installed("odd = my_module", my_module="1 / 0")
     mesh = tmp_path / "mesh.vtk"
     io.write(mesh, gallery.make("cube", size=27, scramble=0.2))
-    for words in (["info", mesh], ["smooth", mesh, "-o", tmp_path / "out.vtk", "--method", "laplacian"]):
-        done = run(*words)
-        assert (done.returncode, done.stderr) == (0, "")
-    done = run("smooth", mesh, "-o", tmp_path / "out.vtk", "--method", "laplacien")
+    smooth = ["smooth", mesh, "-o", tmp_path / "out.vtk", "--method"]
+    done = run(["info", mesh], [*smooth, "laplacian"])
+    assert (done.returncode, done.stderr) == (0, "")
+    done = run([*smooth, "laplacien"])
     assert done.returncode == 2
     assert "did you mean laplacian?" in done.stderr
     assert "odd of my-methods" in done.stderr

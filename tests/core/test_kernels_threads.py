@@ -1,5 +1,6 @@
 """How loops are shared: how many threads, what they are told by, and that nothing depends on their number."""
 
+import json
 import os
 import subprocess
 import sys
@@ -15,50 +16,81 @@ VARIABLES = ("HEXMEND_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT")
 posix = pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
 
 
-def program(text, **variables):
-    """Run a program with these variables, and none of the others, set; what it printed, as words."""
-    environment = {key: value for key, value in os.environ.items() if key not in VARIABLES} | variables
-    done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
+def program(text, said=None):
+    """Run a program without any of the variables, tell it something, and return what it printed."""
+    environment = {key: value for key, value in os.environ.items() if key not in VARIABLES}
+    done = subprocess.run(
+        [sys.executable, "-c", text], env=environment, input=said, capture_output=True, text=True, timeout=120
+    )
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
-    return done.stdout.split()
+    return done.stdout
 
 
 def available():
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
 
-@pytest.mark.parametrize(("variables", "threads"), [
-    ({}, available()),
-    ({"HEXMEND_THREADS": "3"}, 3),
-    ({"HEXMEND_THREADS": " 5 ", "OMP_NUM_THREADS": "2", "OMP_THREAD_LIMIT": "1"}, 5),
-    ({"HEXMEND_THREADS": ""}, available()),
-    ({"OMP_NUM_THREADS": "3"}, 3),
-    ({"OMP_NUM_THREADS": "4,2"}, 4),
-    ({"OMP_NUM_THREADS": "4", "OMP_THREAD_LIMIT": "2"}, 2),
-    ({"OMP_THREAD_LIMIT": "1"}, 1),
-    ({"OMP_NUM_THREADS": "many"}, available()),  # which is not ours to judge
-])  # fmt: skip
-def test_variables_say_how_many(variables, threads):
-    assert program("from hexmend import kernels; print(kernels.threads())", **variables) == [str(threads)]
+SAID = {
+    "HEXMEND_THREADS=3": 3,
+    "HEXMEND_THREADS= 5 |OMP_NUM_THREADS=2|OMP_THREAD_LIMIT=1": 5,
+    "HEXMEND_THREADS=": available(),
+    "OMP_NUM_THREADS=3": 3,
+    "OMP_NUM_THREADS=4,2": 4,
+    "OMP_NUM_THREADS=4|OMP_THREAD_LIMIT=2": 2,
+    "OMP_THREAD_LIMIT=1": 1,
+    "OMP_NUM_THREADS=many": available(),  # which is not ours to judge
+}
+WRONG = ["0", "-2", "two", "1.5", "²", "9" * 30]
+
+
+@pytest.fixture(scope="module")
+def told():
+    """What the kernels make of each setting of the variables when they are loaded, asked of one process."""
+    text = """
+import importlib, json, os, sys
+from hexmend import kernels
+answers = {"": kernels.threads()}
+for setting in json.loads(sys.stdin.read()):
+    variables = dict(one.split("=") for one in setting.split("|"))
+    os.environ.update(variables)
+    try:
+        answers[setting] = importlib.reload(kernels).threads()
+    except Exception as error:
+        answers[setting] = str(error)
+    for name in variables:
+        del os.environ[name]
+print(json.dumps(answers))
+"""
+    settings = [*SAID, *(f"HEXMEND_THREADS={word}" for word in WRONG)]
+    return json.loads(program(text, said=json.dumps(settings)))
+
+
+@pytest.mark.parametrize(("setting", "threads"), [("", available()), *SAID.items()])
+def test_variables_say_how_many(told, setting, threads):
+    assert told[setting] == threads
+
+
+@pytest.mark.parametrize("word", WRONG)
+def test_a_number_that_is_none_is_refused(told, word):
+    assert told[f"HEXMEND_THREADS={word}"] == (
+        f"HEXMEND_THREADS = {word!r} cannot be used: expected a whole number from 1 to 1024"
+    )
 
 
 @posix
 def test_by_default_there_are_as_many_as_processors_that_the_process_may_use():
     text = "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}); from hexmend import kernels; print(kernels.threads())"
-    assert program(text) == ["1"]
+    assert program(text) == "1\n"
 
 
-@pytest.mark.parametrize("word", ["0", "-2", "two", "1.5", "²", "9" * 30])
-def test_a_number_that_is_none_is_said_plainly(word, tmp_path):
+def test_the_program_says_plainly_what_is_wrong_with_a_number(tmp_path):
     out = tmp_path / "cube.vtk"
     done = subprocess.run(
         [sys.executable, "-m", "hexmend", "gallery", "cube", "--size", "8", "-o", out],
-        env=os.environ | {"HEXMEND_THREADS": word}, capture_output=True, text=True,
+        env=os.environ | {"HEXMEND_THREADS": "two"}, capture_output=True, text=True,
     )  # fmt: skip
     assert done.returncode == 2
-    assert done.stderr == (
-        f"hexmend: HEXMEND_THREADS = {word!r} cannot be used: expected a whole number from 1 to 1024\n"
-    )
+    assert done.stderr == "hexmend: HEXMEND_THREADS = 'two' cannot be used: expected a whole number from 1 to 1024\n"
     assert not out.exists()
 
 
@@ -129,7 +161,7 @@ if child == 0:
 _, status = os.waitpid(child, 0)
 print(os.waitstatus_to_exitcode(status), call() == first)
 """
-    assert program(BEGIN + child) == ["0", "True"]
+    assert program(BEGIN + child).split() == ["0", "True"]
 
 
 def test_threads_that_wait_sleep():
@@ -139,19 +171,18 @@ before = time.process_time()
 time.sleep(0.3)
 print(time.process_time() - before)
 """
-    (spent,) = program(BEGIN + idle)
-    assert float(spent) < 0.03
+    assert float(program(BEGIN + idle)) < 0.03
 
 
 def test_a_process_ends_quietly_while_threads_wait_or_work():
-    assert program(BEGIN) == []
+    assert program(BEGIN) == ""
     beside = """
 import threading
 threading.Thread(target=lambda: [call() for _ in range(10**6)], daemon=True).start()
 time.sleep(0.1)
 print("end")
 """
-    assert program(BEGIN + beside) == ["end"]
+    assert program(BEGIN + beside) == "end\n"
 
 
 @posix
@@ -166,7 +197,7 @@ for delay in (0.01, 0.013, 0.021, 0.034, 0.05):
     except KeyboardInterrupt:
         print("interrupted", call() == first)
 """
-    assert program(BEGIN + interrupted) == ["interrupted", "True"] * 5
+    assert program(BEGIN + interrupted).split() == ["interrupted", "True"] * 5
 
 
 def test_the_bench_says_threads_and_build():

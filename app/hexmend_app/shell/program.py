@@ -42,9 +42,11 @@ def application() -> QApplication:
 def open_window(mesh: str | None = None) -> int:
     """Show the window, open `mesh` (or the demo) in it, and run until it is closed; the exit status."""
     app = application()
+    from hexmend_app.shell.start_report import report_start
     from hexmend_app.shell.window import Window
 
     window = Window()
+    report_start(window)
     report_unexpected_errors(window)
     signal.signal(signal.SIGINT, lambda *_: window.close())
     alive = QTimer()  # lets Python see a Ctrl-C

@@ -180,7 +180,7 @@ def test_the_page_of_keys_lists_every_key_and_finds_letters(window, qtbot):
 # Sharp screens
 
 _SCALED = """
-import sys, tempfile
+import sys
 import numpy as np
 from PySide6.QtCore import QPointF, QSettings
 from PySide6.QtTest import QTest
@@ -189,19 +189,23 @@ from hexmend import gallery, io
 from hexmend_app.shell.program import application
 from hexmend_app.shell.window import Window
 
-QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, tempfile.mkdtemp())
+QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, sys.argv[2])
 app = application()
 window = Window()
 window.setGeometry(0, 0, 1001, 651)
 window.show()
 window.furnish()
 window.build_canvas()
-path = tempfile.mkdtemp() + "/cube.vtu"
+path = sys.argv[2] + "/cube.vtu"
 io.write(path, gallery.make("cube", size=512))
 window.features["open"].open(path)
-while not window.session.document.is_open:
+while window.canvas.colouring is None:
     QTest.qWait(20)
-QTest.qWait(400)
+drawn = []
+window.canvas.interactor.frameSwapped.connect(lambda: drawn.append(True))
+window.canvas.interactor.update()
+while not drawn:
+    QTest.qWait(20)
 view, mesh = window.canvas.interactor, window.session.document.now.mesh
 ratio = view.devicePixelRatioF()
 corner = view.mapTo(window, view.rect().topLeft()).toPointF() * ratio
@@ -229,8 +233,9 @@ def test_clicks_hit_what_they_point_at_on_sharp_screens(tmp_path, scale):
     environment = os.environ | {"QT_SCALE_FACTOR": scale}
     picture = tmp_path / "picture.png"
     done = subprocess.run(
-        [sys.executable, "-c", _SCALED, str(picture)], env=environment, capture_output=True, text=True, timeout=200
-    )
+        [sys.executable, "-c", _SCALED, str(picture), str(tmp_path)],
+        env=environment, capture_output=True, text=True, timeout=200,
+    )  # fmt: skip
     assert done.returncode == 0, done.stderr
     from PIL import Image
 
