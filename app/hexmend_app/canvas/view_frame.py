@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.canvas.captions import Caption, CaptionRow, WipeRow
 from hexmend_app.canvas.wipe_handle import WipeHandle
-from hexmend_app.scene.panes import columns
+from hexmend_app.scene.arrangement import columns
 from hexmend_app.state.views import Wipe
 
 
@@ -58,7 +58,3 @@ class ViewFrame(QVBoxLayout):
         self._edge.setVisible(wipe is not None)
         if wipe is not None:
             self._edge.set_share(wipe.at)
-
-    def fit(self) -> None:
-        """Stand where everything has to: the view's size is another."""
-        self._edge.fit()
