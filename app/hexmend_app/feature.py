@@ -30,6 +30,7 @@ MENUS = (
     "Timeline",
     "View",
     "View/Camera",
+    "View/Up",
     "View/Panels",
     "View/Theme",
     "Hex",

@@ -56,7 +56,7 @@ def turning_ms(window: Window) -> float:
     for _ in range(_FRAMES):
         canvas.panes.turning()
         canvas.viewport.camera.Azimuth(4)
-        canvas.panes.reset_depth()
+        canvas.panes.eye.reset_depth()
         began = perf_counter()
         draw(window)
         times.append(perf_counter() - began)

@@ -6,20 +6,18 @@ from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
-from pyvistaqt import QtInteractor
 
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
+from hexmend_app.canvas.camera_view import CameraView
 from hexmend_app.canvas.captions import HEIGHT
 from hexmend_app.canvas.colour_bar import ColourBar
-from hexmend_app.canvas.flying import Flying
-from hexmend_app.canvas.once_per_frame import OncePerFrame
+from hexmend_app.canvas.pointer import Pointer
 from hexmend_app.canvas.view_frame import ViewFrame
-from hexmend_app.canvas.view_keys import steer
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
@@ -27,24 +25,24 @@ from hexmend_app.scene.export.picture import write_picture
 from hexmend_app.scene.export.views import picture_of
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import BLUE, THEME
-from hexmend_app.scene.panes import ROOM, Panes
+from hexmend_app.scene.picking import Hit
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.views import Wipe
 from hexmend_app.widgets.overlay import Overlay
-from hexmend_app.widgets.style import dress, explain
+from hexmend_app.widgets.style import dress
 
 #: Milliseconds of rest after which the fine still frame is drawn.
 _REST = 300
 
-#: How far the mouse may stray in a click, in pixels; beyond it turns the mesh.
-_STRAY = 3
+#: Width and height in pixels that the view has at least.
+_LEAST = (320, 240)
 
 #: Width in pixels of the ring that marks the focus, and how the focus comes by keys.
 _RING = 2
 _BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason, Qt.FocusReason.ShortcutFocusReason)
 
 
-class Canvas(QWidget):
+class Canvas(CameraView):
     """Draws one mesh.
 
     Signals
@@ -57,18 +55,19 @@ class Canvas(QWidget):
         The user clicked on an element, (hex, its nearest node), or beside the mesh, None.
     dug(hex)
         The user clicked on an element with Ctrl held down.
+    menu_requested(hit, place)
+        The user wants to know what can be done at an element, (hex, its nearest node), or beside the mesh, None; the
+        place, a QPoint of the screen, is that of the menu.
     """
 
     plane_dragged = Signal(object)
     box_dragged = Signal(object, object)
     clicked = Signal(object)
     dug = Signal(int)
+    menu_requested = Signal(object, QPoint)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.interactor = QtInteractor(self, auto_update=False, shape=(1, ROOM), border=False)
-        self.panes = Panes(self.interactor)
-        self.viewport = self.panes.first
         self.plane = PlaneWidget(self.interactor, self.plane_dragged.emit)
         self.box = BoxWidget(self.interactor, self.box_dragged.emit)
         self.colour_bar = ColourBar()
@@ -77,26 +76,21 @@ class Canvas(QWidget):
         layout.setContentsMargins(_RING, _RING, _RING, _RING)
         self.frame = ViewFrame(self.interactor)
         layout.addLayout(self.frame, 1)
-        self._once = OncePerFrame(self.interactor)
-        self._rest = QTimer(self)
-        self._rest.setSingleShot(True)
-        self._rest.setInterval(_REST)
-        self._rest.timeout.connect(self._draw_still)
-        self.interactor.iren.add_observer("InteractionEvent", lambda *_: self._turning())
-        self.interactor.iren.add_observer("EndInteractionEvent", lambda *_: self._rest.start())
         self._handled = False, 0
         self._chosen: tuple[int | None, bool] = (None, False)
-        self._pressed: QPointF | None = None
+        self._watch_pointer()
         self.interactor.installEventFilter(self)
-        explain(self.interactor, "3D view", "")
-        self.interactor.setAccessibleDescription(
-            "Arrow keys turn the mesh, Shift and arrow keys shift it, + and − zoom; F shows all of it."
-        )
         self._ring = False
-        self._flying = Flying(self)
-        self._flying.moved.connect(self._on_flown)
         self._closed = False
         dress(self, self._wear_theme)
+
+    def _watch_pointer(self) -> None:
+        pointer = Pointer(self.interactor)
+        pointer.pressed.connect(self.travel.leave)
+        pointer.clicked.connect(lambda place: self.clicked.emit(self._at(place)))
+        pointer.dug.connect(self._dig)
+        pointer.double_clicked.connect(self._turn_about)
+        pointer.menu_wanted.connect(self._ask_for_menu)
 
     def _wear_theme(self) -> None:
         if self._closed:
@@ -104,7 +98,7 @@ class Canvas(QWidget):
         self.panes.set_dark(THEME.dark)
         self.plane.set_dark(THEME.dark)
         self.box.set_dark(THEME.dark)
-        self._changed()
+        self.changed()
 
     def draw(self, frame: Frame, live: bool = False) -> None:
         """Draw a frame, in views beside the first too; `live` where more is to come, so that no fine frame is due."""
@@ -112,19 +106,20 @@ class Canvas(QWidget):
         self.panes.draw(frame)
         if not frame.is_of(last):
             self._chosen = None, False
+            self.travel.begin_anew()
             for handles in (self.plane, self.box):
                 handles.set_bounds(self.viewport.bounds)
         self._place_handles()
         self._show_colours()
-        self._changed()
+        self.changed()
         if live:
-            self._rest.stop()
+            self.stay_coarse()
 
     def show_handles(self, handles: bool, at: int) -> None:
         """Let the user drag the box, or one of the planes, or nothing."""
         self._handled = handles, at
         self._place_handles()
-        self._draw_soon()
+        self.draw_soon()
 
     def _place_handles(self) -> None:
         """Put the handles into the first view; where a wipe leaves it out, there are none."""
@@ -134,27 +129,14 @@ class Canvas(QWidget):
         self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) and at < len(clip.planes) else None, shown)
         self.box.set(clip if isinstance(clip, BoxClip) else None, shown)
 
-    def fit(self) -> None:
-        """Show what is shown as large as it can be."""
-        self.panes.fit()
-        self._changed()
-
-    def look_along(self, direction: str) -> None:
-        """Look along an axis: +x, -x, ..., iso."""
-        self.panes.look_along(direction)
-        self._changed()
-
-    def set_parallel(self, on: bool) -> None:
-        """Parallel projection or perspective."""
-        self.viewport.eye.set_parallel(on)
-        self._changed()
+    # What is pointed at
 
     def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
         """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
         self._chosen = h, corners
         self.viewport.chosen.select(h, corners, node)
         self._select_beside()
-        self._changed()
+        self.changed()
 
     def _select_beside(self) -> None:
         """Mark the same element in the other views."""
@@ -165,7 +147,7 @@ class Canvas(QWidget):
         """Draw a node's step; None draws none."""
         if not self._closed:
             self.viewport.chosen.show_node_step(step)
-            self._changed()
+            self.changed()
 
     def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
         """Show other places of the same mesh's nodes in views beside the first, or two views over one another.
@@ -182,52 +164,26 @@ class Canvas(QWidget):
         self._place_handles()
         self.frame.set_wipe(wipe)
         self._show_colours()
-        self._changed()
+        self.changed()
 
     def move_wipe(self, wipe: Wipe) -> None:
         """Bring the edge between two views elsewhere."""
         self.frame.set_wipe(wipe)
         self.panes.move_wipe(wipe)
-        self._turning()
-        self._draw_soon()
-
-    def fly_to(self, *hexes: int) -> None:
-        """Bring an element, or several together, before the camera."""
-        self._flying.start(self.viewport.flight_to(*hexes))
-
-    @property
-    def flying(self) -> bool:
-        """Whether the camera flies somewhere."""
-        return self._flying.under_way
-
-    def _on_flown(self) -> None:
-        self.panes.reset_depth()
-        self._turning()
-        self._draw_soon()
+        self.turning()
+        self.draw_soon()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Tell a click from a drag, which turns the mesh; turn it by keys too."""
+        """Mark the focus; give the keyboard's menu key its menu."""
         kind = event.type()
-        if kind == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
-            if steer(self.viewport.camera, event):
-                self._flying.stop()
-                self.panes.reset_depth()
-                self._changed()
-            return True  # VTK has keys of its own, which would draw wires or end it
+        if kind == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Menu:
+            self._ask_for_menu(QPointF(self.interactor.rect().center()))
+        if kind == QEvent.Type.Resize:
+            self.frame.fit()
         if kind in (QEvent.Type.FocusIn, QEvent.Type.FocusOut):
             # Marked where keys brought it here: who clicks knows where.
             self._ring = kind == QEvent.Type.FocusIn and event.reason() in _BY_KEYS
             self.update()
-        if kind == QEvent.Type.Resize:
-            self.frame.fit()
-        if kind == QEvent.Type.MouseButtonPress:
-            self._flying.stop()
-            self._pressed = event.position() if event.button() == Qt.MouseButton.LeftButton else None
-        elif kind == QEvent.Type.MouseButtonRelease and self._pressed is not None:
-            away = event.position() - self._pressed
-            self._pressed = None
-            if max(abs(away.x()), abs(away.y())) <= _STRAY:
-                self._click(event.position(), bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier))
         return super().eventFilter(watched, event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -250,14 +206,28 @@ class Canvas(QWidget):
             around = self.interactor.geometry().adjusted(-_RING, -_RING, _RING, _RING)
             painter.fillRect(around, QColor(str(BLUE)))
 
-    def _click(self, at: QPointF, dig: bool) -> None:
+    def _pick(self, place: QPointF) -> Hit | None:
         ratio = self.devicePixelRatioF()
-        x, y = at.x() * ratio, (self.interactor.height() - 1 - at.y()) * ratio
-        hit = self.panes.pick(x, y)
-        if not dig:
-            self.clicked.emit(None if hit is None else (hit.hex, hit.node))
-        elif hit is not None:
+        return self.panes.pick(place.x() * ratio, (self.interactor.height() - 1 - place.y()) * ratio)
+
+    def _at(self, place: QPointF) -> tuple[int, int] | None:
+        """The hex at a place of the view, and its nearest node."""
+        hit = self._pick(place)
+        return None if hit is None else (hit.hex, hit.node)
+
+    def _dig(self, place: QPointF) -> None:
+        hit = self._pick(place)
+        if hit is not None:
             self.dug.emit(hit.hex)
+
+    def _turn_about(self, place: QPointF) -> None:
+        """Let the camera turn about what is seen at a place."""
+        hit = self._pick(place)
+        if hit is not None:
+            self.fly_around(hit.place)
+
+    def _ask_for_menu(self, place: QPointF) -> None:
+        self.menu_requested.emit(self._at(place), self.interactor.mapToGlobal(place.toPoint()))
 
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
         """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
@@ -267,11 +237,9 @@ class Canvas(QWidget):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""
         self._closed = True
-        self._rest.stop()
-        self._flying.stop()
         self.plane.close()
         self.box.close()
-        self.interactor.close()
+        self.let_go()
         super().closeEvent(event)
 
     @property
@@ -289,23 +257,3 @@ class Canvas(QWidget):
             self.colour_bar.set_apart(
                 [(name, n if alone else 0, colour) for name, n, colour in self.viewport.colours.apart]
             )
-
-    def _changed(self) -> None:
-        self.panes.moving()
-        self._draw_soon()
-
-    def _draw_soon(self) -> None:
-        self._rest.start()
-        self.interactor.update()
-
-    def _turning(self) -> None:
-        self._rest.stop()
-        self.panes.turning()
-
-    def rest(self) -> None:
-        """Draw the fine frame soon: nothing moves for now."""
-        self._rest.start()
-
-    def _draw_still(self) -> None:
-        self.panes.still()
-        self.interactor.update()

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.canvas.captions import Caption, CaptionRow, WipeRow
 from hexmend_app.canvas.wipe_handle import WipeHandle
-from hexmend_app.scene.panes import columns
+from hexmend_app.scene.arrangement import columns
 from hexmend_app.state.views import Wipe
 
 #: Most rows in which views stand.
@@ -66,7 +66,6 @@ class ViewFrame(QVBoxLayout):
 
     def fit(self) -> None:
         """Stand where everything has to: the view's size is another."""
-        self._edge.fit()
         shown = [row for row in self._rows if not row.isHidden()]
         for at, row in enumerate(shown):
             row.stand_at(at / len(shown))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 import pyvista as pv
@@ -22,16 +23,13 @@ _ARROWS = {
 _ZOOMS = {Qt.Key.Key_Plus: _ZOOM, Qt.Key.Key_Equal: _ZOOM, Qt.Key.Key_Minus: 1 / _ZOOM}
 
 
-def steer(camera: pv.Camera, event: QKeyEvent) -> bool:
-    """Lead the camera as a key says; whether it says anything."""
+def move_of(event: QKeyEvent, up: str) -> Callable[[pv.Camera], None] | None:
+    """What a key does to the camera, `up` being the axis that is up; None for a key that says nothing."""
     if event.key() in _ARROWS:
-        right, up = _ARROWS[event.key()]
-        shifted = event.modifiers() & Qt.KeyboardModifier.ShiftModifier
-        move, step = (steering.pan, _PAN) if shifted else (steering.turn, _TURN)
-        move = partial(move, right=step * right, up=step * up)
-    elif event.key() in _ZOOMS:
-        move = partial(steering.zoom, factor=_ZOOMS[event.key()])
-    else:
-        return False
-    move(camera)
-    return True
+        right, above = _ARROWS[event.key()]
+        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            return partial(steering.pan, right=_PAN * right, up=_PAN * above)
+        return partial(steering.turn, right=_TURN * right, up=_TURN * above, axis=up)
+    if event.key() in _ZOOMS:
+        return partial(steering.zoom, factor=_ZOOMS[event.key()])
+    return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, QRect, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QRegion
 from PySide6.QtWidgets import QWidget
 
@@ -40,13 +40,20 @@ class WipeHandle(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         explain(self, "Wipe", "Drag to see more of one view and less of the other; arrow keys do the same.")
         self.hide()
+        over.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Stay where it stands as the view takes another size."""
+        if event.type() == QEvent.Type.Resize:
+            self._fit()
+        return super().eventFilter(watched, event)
 
     def set_share(self, share: float) -> None:
         """Stand at a share of the view's width."""
         self._share = share
-        self.fit()
+        self._fit()
 
-    def fit(self) -> None:
+    def _fit(self) -> None:
         """Stand where it has to: the view's size may be another."""
         share = self._share
         over = self.parentWidget().size()

@@ -38,6 +38,21 @@ class Frame:
         """Whether it shows the very mesh of another frame, its nodes elsewhere or not."""
         return other is not None and self.mesh.hexes is other.mesh.hexes
 
+    def beside(self, first: Frame) -> Frame:
+        """What a view beside that of another frame draws: this mesh as the other frame has its own looked at.
+
+        It compares with the same moment.
+        """
+        movement = first.movement
+        if movement is not None and not same_hexes(movement.mesh, self.mesh):
+            movement = None
+        elif movement is not None:
+            known = self.movement
+            then = movement.before
+            alike = known is not None and known.before.points is then.points and known.before.name == then.name
+            movement = known if alike else movement.until(self.mesh.points, self.figures)
+        return Frame(self.mesh, self.figures, movement, first.look)
+
 
 def same_hexes(one: Mesh, other: Mesh) -> bool:
     """Whether two meshes have the same hexes, so that what is said of one's elements holds for the other's."""

@@ -8,7 +8,6 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.scene.camera.eye import Eye
 from hexmend_app.scene.camera.fitting import bounds_of
-from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.element_colours import ElementColours
 from hexmend_app.scene.filters import Filters
@@ -41,8 +40,6 @@ class Viewport:
     body : Body
     chosen : Chosen
         The marks of what is chosen.
-    eye : Eye
-        The camera.
 
     Parameters
     ----------
@@ -58,7 +55,6 @@ class Viewport:
         self._plotter = plotter
         self.frame: Frame | None = None
         self.filters = filters
-        self.eye = Eye(plotter)
         self._fast = False
         self._dark = False
         plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
@@ -183,13 +179,12 @@ class Viewport:
     @property
     def camera(self) -> pv.Camera:
         """The plotter's camera."""
-        return self.eye.camera
+        return self._plotter.camera
 
     @property
     def bounds(self) -> tuple[float, float, float, float, float, float]:
         """x low, x high, y low, y high, z low, z high of the mesh, unused nodes left out."""
-        mesh = self.frame.mesh
-        return bounds_of(mesh.points[mesh.topology.used])
+        return bounds_of(self.frame.mesh.points[self.frame.mesh.topology.used])
 
     @property
     def places(self) -> np.ndarray:
@@ -199,13 +194,7 @@ class Viewport:
 
     def view(self, direction: str | tuple[float, float, float]) -> None:
         """Look at what is shown from a direction: a name of `VIEWS`, or a vector, with z up where it can be."""
-        self.eye.look_along(direction)
-        self.eye.fit(self.places)
-
-    def flight_to(self, *hexes: int) -> Flight:
-        """The camera's way to a hex, or to a patch of several."""
-        mesh = self.frame.mesh
-        return self.eye.flight_to(mesh.points[mesh.hexes[list(hexes)]])
+        Eye.of(self).look_along(direction)
 
     # Fast frames and fine ones
 

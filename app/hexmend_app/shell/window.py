@@ -92,6 +92,7 @@ class Window(QMainWindow):
         self.canvas = Canvas()
         self.canvas.hide()
         self.docks.view.insertWidget(0, self.canvas, 1)
+        self.canvas.menu_requested.connect(self._open_menu)
         panels = QShortcut(QKeySequence(Qt.Key.Key_Tab), self.canvas, self.toggle_panels)
         panels.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         for feature in self.features.values():

@@ -5,10 +5,11 @@ import pytest
 import pyvista as pv
 
 from hexmend.quality import measure
+from hexmend_app.scene.arrangement import columns, grid
 from hexmend_app.scene.export.figure import Panel, figure
 from hexmend_app.scene.export.picture import picture
 from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.panes import ROOM, Panes, columns, grid
+from hexmend_app.scene.panes import ROOM, Panes
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
 from hexmend_app.state.movement import Moment, Movement
@@ -86,7 +87,7 @@ def test_one_camera_leads_all_views(panes):
     assert all(view.camera is panes.first.camera for view in panes.all)
     before = pixels(panes)
     panes.first.camera.Azimuth(40)
-    panes.reset_depth()
+    panes.eye.reset_depth()
     after = pixels(panes)
     for left, low, right, high in grid(4):
         part = np.s_[round((1 - high) * 160) : round((1 - low) * 160), round(left * 240) : round(right * 240)]
@@ -96,8 +97,8 @@ def test_one_camera_leads_all_views(panes):
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("at", [0.25, 0.5, 0.8])
 def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel):
-    panes.first.eye.set_parallel(parallel)
-    panes.fit()
+    panes.eye.set_parallel(parallel)
+    panes.eye.fit()
     panes._plotter.renderers[0].axes_widget.EnabledOff()
     whole = pixels(panes)
     panes.show([shown(MESH)], Wipe(0, 1, at))

@@ -6,6 +6,7 @@ import pyvista as pv
 
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
+from hexmend_app.scene.camera.eye import Eye
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
 from hexmend_app.scene.frame import Frame
@@ -241,9 +242,9 @@ def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there
     assert 0 < (np.abs(marked - plain).max(axis=2) > 40).sum() < 0.2 * plain[:, :, 0].size
     viewport.chosen.select(inner, True, None)
     np.testing.assert_array_equal(pixels(), marked)  # too small for figures
-    flight = viewport.flight_to(inner)
-    flight.at(1.0)
-    viewport.eye.reset_depth()
+    eye = Eye.of(viewport)
+    eye.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
+    eye.reset_depth()
     centre = MESH.points[MESH.hexes[inner]].mean(axis=0)
     np.testing.assert_allclose(plotter.camera.GetFocalPoint(), centre)
     plotter.camera.Dolly(2.0)

@@ -161,7 +161,7 @@ def _found(view, place):
 def test_a_click_that_turns_the_mesh_a_little_takes_what_is_under_it(window, qtbot, monkeypatch):
     monkeypatch.setattr(body, "MANY", 10)
     view = window.canvas.viewport
-    window.canvas._draw_still()
+    window.canvas.draw_still()
     width, height = view._plotter.render_window.GetSize()
     places = [(width * x, height * y) for x in (0.4, 0.45, 0.5, 0.55) for y in (0.4, 0.5, 0.6)]
     exact = [_found(view, place) for place in places]

@@ -2,35 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from hexmend_app.feature import Action, Feature, Host
+from hexmend_app.feature import Action, Feature, Host, Seen
+from hexmend_app.state.clip import PlaneClip
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
+#: Direction, id, text, keys, icon and word in the tool bar.
 _DIRECTIONS = (
-    ("iso", "&Isometric", "0", "axis-arrow", "Iso"),
-    ("+x", "Along &X", "1", "axis-x-arrow", "X"),
-    ("+y", "Along &Y", "2", "axis-y-arrow", "Y"),
-    ("+z", "Along &Z", "3", "axis-z-arrow", "Z"),
+    ("iso", "view_iso", "&Isometric", "0", "axis-arrow", "Iso"),
+    ("+x", "view_x", "From +&X", "1", "axis-x-arrow", "X"),
+    ("+y", "view_y", "From +&Y", "2", "axis-y-arrow", "Y"),
+    ("+z", "view_z", "From +&Z", "3", "axis-z-arrow", "Z"),
+    ("-x", "view_minus_x", "From −X", "4", "axis-x-arrow", ""),
+    ("-y", "view_minus_y", "From −Y", "5", "axis-y-arrow", ""),
+    ("-z", "view_minus_z", "From −Z", "6", "axis-z-arrow", ""),
 )
+
+#: Degrees that the picture is rolled by at once.
+_ROLL = 15
 
 
 class FeatureCamera(Feature):
-    """Brings the camera elsewhere."""
+    """Brings the camera elsewhere, and back."""
 
     order = 51
 
     def __init__(self, host: Host):
         super().__init__(host)
         self._canvas: Canvas | None = None
+        self._seen = Seen()
         self.session.selection.visited.connect(self._fly)
 
     def actions(self) -> Sequence[Action]:
-        """Fit, the directions, and how depth is drawn."""
-        ready = self._ready
+        """Fit, the directions, back and forward, what is up, and how depth is drawn."""
         return (
             Action(
                 id="fit",
@@ -38,25 +46,48 @@ class FeatureCamera(Feature):
                 menu="View",
                 keys="F",
                 icon="fit-to-page-outline",
-                help="Show all that is shown of the mesh.",
+                help="Show all that is shown of the mesh, as large as it can be.",
                 tool="Fit",
                 handle=lambda: self._canvas.fit(),
-                enabled=ready,
+                enabled=self._ready,
                 in_view=True,
             ),
             *(
                 Action(
-                    id=f"view_{name.strip('+')}",
+                    id=id,
                     text=text,
                     menu="View/Camera",
                     keys=keys,
                     icon=icon,
-                    help="Look from a corner." if name == "iso" else f"Look along the {tool} axis.",
+                    help=f"Look at what is shown from {'a corner' if name == 'iso' else name.replace('-', '−')}.",
                     tool=tool,
                     handle=lambda name=name: self._canvas.look_along(name),
-                    enabled=ready,
+                    enabled=self._ready,
                 )
-                for name, text, keys, icon, tool in _DIRECTIONS
+                for name, id, text, keys, icon, tool in _DIRECTIONS
+            ),
+            self._move("face", "Face the pl&ane", "Shift+C", "Look straight at the plane of the cut.", self._face,
+                       lambda: self._plane is not None, in_view=True),
+            self._move("roll_left", "Roll to the &left", "Shift+[", "Turn the picture counter-clockwise.",
+                       lambda: self._canvas.roll(_ROLL)),
+            self._move("roll_right", "Roll to the ri&ght", "Shift+]", "Turn the picture clockwise.",
+                       lambda: self._canvas.roll(-_ROLL)),
+            self._move("view_back", "View &back", "Alt+Left", "Fly to the view before this one.",
+                       lambda: self._canvas.back_view(), lambda: self._canvas.can_go_back, in_view=True),
+            self._move("view_forward", "View for&ward", "Alt+Right", "Fly to the view that was left by going back.",
+                       lambda: self._canvas.forward_view(), lambda: self._canvas.can_go_forward),
+            *(
+                Action(
+                    id=f"up_{axis}",
+                    text=f"{axis.upper()} is &up" if axis == "z" else f"{axis.upper()} is up",
+                    menu="View/Up",
+                    help=f"Let the {axis.upper()} axis point upwards in every direction that is looked from.",
+                    handle=lambda on, axis=axis: self._canvas.set_up(axis),
+                    enabled=self._ready,
+                    checked=lambda axis=axis: self._canvas is not None and self._canvas.up == axis,
+                    exclusive=True,
+                )
+                for axis in "xyz"
             ),
             Action(
                 id="parallel",
@@ -66,18 +97,62 @@ class FeatureCamera(Feature):
                 keys="P",
                 help="Without perspective, for figures.",
                 handle=lambda on: self._canvas.set_parallel(on),
-                enabled=ready,
-                checked=lambda: self._canvas is not None and bool(self._canvas.viewport.camera.GetParallelProjection()),
+                enabled=self._ready,
+                checked=lambda: self._canvas is not None and self._canvas.parallel,
             ),
-        )
+        )  # fmt: skip
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take the 3D view."""
         self._canvas = canvas
+        canvas.views_changed.connect(self.host.refresh_soon)
+
+    def refresh(self) -> None:
+        """Come back to where the camera was before something was isolated, once it no longer is."""
+        isolated = self.session.view.look.isolation is not None
+        if self._canvas is not None and self._seen.another("isolated", isolated):
+            if isolated:
+                self._canvas.remember_pose()
+            else:
+                self._canvas.return_to_pose()
+
+    def _move(
+        self,
+        id: str,
+        text: str,
+        keys: str,
+        help: str,
+        handle: Callable[[], object],
+        enabled: Callable[[], bool] = lambda: True,
+        in_view: bool = False,
+    ) -> Action:
+        """An action that moves the camera from where it is."""
+        return Action(
+            id=id,
+            text=text,
+            menu="View/Camera",
+            part=1,
+            keys=keys,
+            help=help,
+            handle=handle,
+            enabled=lambda: self._ready() and enabled(),
+            in_view=in_view,
+        )
 
     def _ready(self) -> bool:
         return self._canvas is not None
 
+    @property
+    def _plane(self) -> object:
+        """The plane of the cut that is moved; None where there is none."""
+        clip = self.session.view.look.clip
+        return clip.planes[self.session.view.plane_at] if isinstance(clip, PlaneClip) else None
+
+    def _face(self) -> None:
+        self._canvas.face(self._plane)
+
     def _fly(self, hexes: tuple[int, ...]) -> None:
-        if self._canvas is not None:
+        if self._canvas is not None and self.session.document.is_open:
+            if self.session.view.look.isolation is not None:
+                self._canvas.remember_pose()
             self._canvas.fly_to(*hexes)

@@ -2,26 +2,57 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pyvista as pv
 
-#: Directions to look from: the place of the camera, and what is up.
-VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
-    "iso": ((1.0, -1.3, 0.8), (0.0, 0.0, 1.0)),
-    "+x": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
-    "-x": ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
-    "+y": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
-    "-y": ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
-    "+z": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
-    "-z": ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
+Vector = tuple[float, float, float]
+
+#: What can be up, and what is up in the picture of who looks along that.
+UPS: dict[str, tuple[Vector, Vector]] = {
+    "x": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "y": ((0.0, 1.0, 0.0), (0.0, 0.0, -1.0)),
+    "z": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
 }
 
+#: Where a mesh is seen from as from a corner, by what is up.
+_CORNERS: dict[str, Vector] = {"x": (0.8, 1.0, -1.3), "y": (1.0, 0.8, 1.3), "z": (1.0, -1.3, 0.8)}
 
-def look_along(camera: pv.Camera, direction: str | tuple[float, float, float]) -> None:
-    """Look at the origin from a direction: a name of `VIEWS`, or a vector, with z up where it can be."""
-    if isinstance(direction, str):
-        place, up = VIEWS[direction]
-    else:
-        place, up = direction, (0.0, 0.0, 1.0) if any(direction[:2]) else (0.0, 1.0, 0.0)
+#: Names of directions to look from.
+VIEWS = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
+
+#: Sine of the angle to what is up below which a direction is along it.
+_ALONG = 1e-6
+
+
+def direction_of(name: str | Vector, up: str) -> Vector:
+    """From where to look: a name of `VIEWS`, or a vector, which is taken as it is; `up` is a name of `UPS`."""
+    if not isinstance(name, str):
+        return name
+    if name == "iso":
+        return _CORNERS[up]
+    sign = -1.0 if name.startswith("-") else 1.0
+    return tuple(sign * c for c in UPS[name[1:]][0])
+
+
+def up_in(direction: Vector, up: str) -> Vector:
+    """What is up in the picture of who looks from a direction: the axis that is up, where it can be."""
+    axis, instead = UPS[up]
+    across = np.linalg.norm(np.cross(direction, axis))
+    return axis if across > _ALONG * np.linalg.norm(direction) else instead
+
+
+def look_from(camera: pv.Camera, name: str | Vector, up: str) -> None:
+    """Look at the origin from a direction.
+
+    Parameters
+    ----------
+    camera : pyvista.Camera
+    name : str or (x, y, z)
+        One of `VIEWS`, or a vector.
+    up : str
+        The axis that is up.
+    """
+    direction = direction_of(name, up)
     camera.SetFocalPoint(0, 0, 0)
-    camera.SetPosition(place)
-    camera.SetViewUp(up)
+    camera.SetPosition(direction)
+    camera.SetViewUp(up_in(direction, up))

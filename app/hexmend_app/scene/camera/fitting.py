@@ -47,8 +47,8 @@ def fit(camera: pv.Camera, places: np.ndarray, aspect: float) -> None:
         distance = max(distance, (most - least) / (2 * slope))
         scale = max(scale, np.ptp(u) / 2 / stretch / (1 - _MARGIN))
         aside += ((u.min() + u.max()) if parallel else (most + least)) / 2 * axis
-    if not scale > 0:
-        return  # a point, or a line seen from its end
+    if not scale > 0:  # a point, or a line seen from its end
+        distance, scale = camera.GetDistance(), camera.GetParallelScale()
     target = centre + aside
     camera.SetFocalPoint(target)
     camera.SetPosition(target - distance * ahead)

@@ -4,11 +4,30 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkCommonTransforms import vtkTransform
+
+from hexmend_app.scene.camera.directions import UPS
 
 
-def turn(camera: pv.Camera, right: float, up: float) -> None:
-    """Turn what is seen to the right and up, by degrees, about the point that the camera looks at."""
-    camera.Azimuth(-right)
+def turn(camera: pv.Camera, right: float, up: float, axis: str) -> None:
+    """Turn what is seen about the point that the camera looks at.
+
+    Parameters
+    ----------
+    camera : pyvista.Camera
+    right, up : float
+        Degrees; to the right is about the axis that is up, so that the picture stays upright.
+    axis : str
+        Which that is: x, y or z.
+    """
+    upright = UPS[axis][0]
+    over = -1.0 if np.dot(camera.GetViewUp(), upright) < 0 else 1.0  # the picture stands on its head
+    focus = camera.GetFocalPoint()
+    about = vtkTransform()
+    about.Translate(focus)
+    about.RotateWXYZ(-right * over, upright)
+    about.Translate(*np.negative(focus))
+    camera.ApplyTransform(about)
     camera.Elevation(-up)
     camera.OrthogonalizeViewUp()  # or the next turn over a pole goes wrong
 

@@ -11,10 +11,11 @@ from PIL import Image, ImageDraw
 
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
+from hexmend_app.scene.arrangement import columns
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.panes import ROOM, Panes, columns
+from hexmend_app.scene.panes import ROOM, Panes
 from hexmend_app.state.look import Look
 from hexmend_app.state.movement import Movement
 from hexmend_app.state.views import Wipe
@@ -86,10 +87,10 @@ def figure(
         first, *others = panels
         panes.draw(Frame(first.mesh, first.figures, movement, look))
         panes.show([(other.mesh, other.figures) for other in others], wipe)
-        panes.look_along(view)
+        panes.eye.look_along(view)
         if camera is not None:
             plotter.camera.DeepCopy(camera)
-            panes.reset_depth()
+            panes.eye.reset_depth()
         plotter.camera_set = True
         panes.still()
         plotter.show(auto_close=False, interactive=False)

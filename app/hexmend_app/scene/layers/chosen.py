@@ -17,21 +17,27 @@ from hexmend_app.scene.pane import Pane
 class Chosen:
     """Marks one hex and a node of it, or a node's step, wherever the nodes go.
 
+    Attributes
+    ----------
+    hex : int or None
+        The hex that is marked.
+    highlight : Highlight
+
     Parameters
     ----------
     plotter : pyvista.BasePlotter or Pane
     """
 
     def __init__(self, plotter: pv.BasePlotter | Pane):
-        self._highlight = Highlight(plotter)
+        self.highlight = Highlight(plotter)
         self._node_step = NodeStepMarks(plotter)
-        self._hex: int | None = None
+        self.hex: int | None = None
         self._with_corners = False
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """What draws over the mesh."""
-        return self._highlight.layer, *self._node_step.layers
+        return self.highlight.layer, *self._node_step.layers
 
     @property
     def node_step(self) -> NodeStep | None:
@@ -56,7 +62,7 @@ class Chosen:
 
     def select(self, h: int | None, corners: bool, node: Node | None) -> None:
         """Mark one hex, with the quality at each of its corners or without, and one of its nodes; None marks none."""
-        self._hex, self._with_corners = h, corners
+        self.hex, self._with_corners = h, corners
         self._show_hex()
         if h is not None:
             self._mark_node(node)
@@ -72,18 +78,18 @@ class Chosen:
     def _mark_node(self, node: Node | None) -> None:
         """Mark a node where it is now, and which way the energy around it falls, if it may go there."""
         if node is None:
-            self._highlight.show_node(None)
+            self.highlight.show_node(None)
             return
         steepness = float(np.linalg.norm(node.downhill))
-        corners = self._mesh.points[self._mesh.hexes[self._hex]]
+        corners = self._mesh.points[self._mesh.hexes[self.hex]]
         length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
         goes = node.kind == "free" and steepness > 0
-        self._highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
+        self.highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
 
     def _show_hex(self) -> None:
-        if self._hex is None or self.node_step is not None:
-            self._highlight.hide()
+        if self.hex is None or self.node_step is not None:
+            self.highlight.hide()
             return
-        nodes, points = self._mesh.hexes[self._hex], self._mesh.points
+        nodes, points = self._mesh.hexes[self.hex], self._mesh.points
         values = corner_qualities(points, nodes[None])[0] if self._with_corners else None
-        self._highlight.show(points[nodes], values)
+        self.highlight.show(points[nodes], values)

@@ -20,6 +20,11 @@ _ROOM = 45
 class Highlight:
     """Draws the edges of one hex, light on dark, so that they are seen on every colour, before everything else.
 
+    Attributes
+    ----------
+    box : pyvista.PolyData
+        The edges.
+
     Parameters
     ----------
     plotter : pyvista.BasePlotter
@@ -27,7 +32,7 @@ class Highlight:
 
     def __init__(self, plotter: pv.BasePlotter):
         self._layer = overlay(plotter)
-        self._box = pv.PolyData(np.zeros((8, 3)), lines=_LINES)
+        self.box = pv.PolyData(np.zeros((8, 3)), lines=_LINES)
         self._actors = [self._lines(colour, width) for colour, width in ((_HALO, 5), (_LINE, 2))]
         self._texts = [self._text() for _ in range(8)]
         self._point = self._add(pv.PolyData(np.zeros((1, 3))), _LINE)
@@ -44,7 +49,7 @@ class Highlight:
         return self._layer
 
     def _lines(self, colour: str, width: int) -> vtkActor:
-        actor = self._add(self._box, colour)
+        actor = self._add(self.box, colour)
         actor.GetProperty().SetLineWidth(width)
         return actor
 
@@ -81,7 +86,7 @@ class Highlight:
         values : (8,) float64, optional
             Written beside the corners.
         """
-        self._box.points = corners
+        self.box.points = corners
         self._with_values = values is not None
         self._layer.DrawOn()
         outside = corners + 0.15 * (corners - corners.mean(axis=0))
@@ -110,7 +115,7 @@ class Highlight:
 
     def _pixels(self) -> float:
         """The radius of the hex in the picture."""
-        corners = self._box.points
+        corners = self.box.points
         centre = corners.mean(axis=0)
         return pixels(self._layer, np.sqrt(np.square(corners - centre).sum(axis=1).max()), centre)
 

@@ -182,7 +182,7 @@ def test_results_are_shown_beside_the_mesh_with_their_names_in_the_histogram(com
     assert len(compared.canvas.panes.all) == 4
     for view, name in zip(compared.canvas.panes.all[1:], ("getme", "laplacian", "local-sd"), strict=True):
         state = compared.session.comparison.of(name).state
-        np.testing.assert_array_equal(view.mesh.points, state.mesh.points)
+        np.testing.assert_array_equal(view.frame.mesh.points, state.mesh.points)
 
 
 def test_a_view_is_closed_by_its_button_and_the_rest_by_a_key(compared):
@@ -204,7 +204,7 @@ def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
     assert captions(compared) == ["now", "iteration 7"]
     compared.comparing.show("iteration 7", second)
     assert captions(compared) == ["now", "iteration 7"]
-    assert compared.canvas.panes.all[1].mesh.points is second.mesh.points
+    assert compared.canvas.panes.all[1].frame.mesh.points is second.mesh.points
     assert [one.points for one in compared.counting.kept.all] == [second.mesh.points]
 
 
@@ -236,12 +236,12 @@ def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(com
     chosen = compared.selection.hex
     assert chosen is not None
     for one in canvas.panes.all:
-        assert one._pointing._selected == chosen
+        assert one.chosen.hex == chosen
         np.testing.assert_allclose(
-            one._pointing._highlight._box.points, one.mesh.points[one.mesh.hexes[chosen]], rtol=1e-6
+            one.chosen.highlight.box.points, one.frame.mesh.points[one.frame.mesh.hexes[chosen]], rtol=1e-6
         )
     tick(compared, "laplacian", VIEW)
-    assert canvas.panes.all[2]._pointing._selected == chosen
+    assert canvas.panes.all[2].chosen.hex == chosen
 
 
 def test_cut_and_colours_are_those_of_all_views(compared):
@@ -250,7 +250,7 @@ def test_cut_and_colours_are_those_of_all_views(compared):
     QTest.keyClick(compared, Qt.Key.Key_C)
     compared.view.change(scale=ColourScale(mode=RangeMode.FITTED))
     first, *others = compared.canvas.panes.all
-    assert 0 < first.shown < first.mesh.n_hexes
+    assert 0 < first.shown < first.frame.mesh.n_hexes
     for view in others:
         np.testing.assert_array_equal(view.kept(), first.kept())
         assert (view.colouring.low, view.colouring.high) == (first.colouring.low, first.colouring.high)
@@ -285,8 +285,8 @@ def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):
     with qtbot.waitSignal(compared.smoothing.ended, timeout=PATIENCE):
         click(compared, "Run")
     first, second = compared.canvas.panes.all
-    np.testing.assert_array_equal(first.mesh.points, compared.document.now.mesh.points)
-    np.testing.assert_array_equal(second.mesh.points, compared.session.comparison.of("getme").state.mesh.points)
+    np.testing.assert_array_equal(first.frame.mesh.points, compared.document.now.mesh.points)
+    np.testing.assert_array_equal(second.frame.mesh.points, compared.session.comparison.of("getme").state.mesh.points)
     caption = compared.canvas.frame.captions[0]
     assert (caption.q_min, caption.inverted) == (
         compared.document.now.summary.q_min, compared.document.now.summary.inverted
@@ -356,7 +356,7 @@ def test_either_side_of_the_wipe_is_chosen_by_name(compared):
     assert (left.currentText(), right.currentText()) == ("laplacian", "getme")
     seen = compared.canvas.panes.seen
     np.testing.assert_array_equal(
-        seen[0].mesh.points, compared.session.comparison.of(left.currentText()).state.mesh.points
+        seen[0].frame.mesh.points, compared.session.comparison.of(left.currentText()).state.mesh.points
     )
 
 

@@ -205,8 +205,8 @@ def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtb
     qtbot.waitUntil(lambda: window.session.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     drawn = window.canvas.viewport
     assert drawn.body.faces is before  # nothing depends on quality, so no face is looked for anew
-    corners = drawn._points[drawn.mesh.hexes[chosen]]
-    assert not np.array_equal(drawn._points, window.session.document.start.mesh.points)
+    corners = drawn.frame.mesh.points[drawn.frame.mesh.hexes[chosen]]
+    assert not np.array_equal(drawn.frame.mesh.points, window.session.document.start.mesh.points)
     expected = corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)
     np.testing.assert_allclose(drawn.body.whole.points, expected.reshape(-1, 3), atol=1e-12)
 

@@ -37,8 +37,9 @@ def test_the_box_is_seen_whole_and_reaches_two_opposite_sides(direction, size, a
     np.testing.assert_allclose(ends, [[-0.96, 0.96]] * len(ends), atol=1e-4)
 
 
-def test_a_box_without_size_leaves_the_camera():
+def test_a_point_comes_into_the_middle_from_as_far_as_before():
     camera = pv.Camera()
-    before = camera.GetPosition()
+    far = camera.GetDistance()
     fit(camera, np.array([[1.0, 2.0, 3.0]] * 3), 1.5)
-    assert camera.GetPosition() == before
+    assert camera.GetFocalPoint() == (1.0, 2.0, 3.0)
+    assert camera.GetDistance() == pytest.approx(far)

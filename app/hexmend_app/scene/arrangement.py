@@ -1,0 +1,143 @@
+"""Where several views stand in one window: side by side, or one wiped over the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkActor2D, vtkRenderWindow
+
+from hexmend_app.scene.palette import LINE
+from hexmend_app.state.views import Wipe
+
+if TYPE_CHECKING:
+    from hexmend_app.scene.viewport import Viewport
+
+Rectangle = tuple[float, float, float, float]
+
+
+def columns(views: int) -> int:
+    """How many of so many views stand side by side in a row."""
+    return {1: 1, 2: 2, 3: 3, 4: 2}[views]
+
+
+def grid(views: int) -> list[Rectangle]:
+    """Where views side by side stand, x low, y low, x high, y high as shares of the window, row by row from the top.
+
+    >>> grid(2)
+    [(0.0, 0.0, 0.5, 1.0), (0.5, 0.0, 1.0, 1.0)]
+    >>> grid(4)[1]
+    (0.5, 0.5, 1.0, 1.0)
+    """
+    wide = columns(views)
+    high = views // wide
+    places = (divmod(k, wide) for k in range(views))
+    return [(at / wide, 1 - (row + 1) / high, (at + 1) / wide, 1 - row / high) for row, at in places]
+
+
+class Arrangement:
+    """Gives views their places in a window.
+
+    Parameters
+    ----------
+    window : vtkRenderWindow
+
+    Attributes
+    ----------
+    head : int
+        Pixels of the window that are left free above each of several views side by side, for what is said of it.
+    """
+
+    def __init__(self, window: vtkRenderWindow):
+        self._window = window
+        self._size = (0, 0)
+        self._wiped = False
+        self._seen: Sequence[Viewport] = ()
+        self._centres: dict[Viewport, float] = {}  # of the wipe's halves
+        self._borders: list[tuple[pv.Renderer, vtkActor2D]] = []
+        self._dark = False
+        self.head = 0
+
+    @property
+    def outdated(self) -> bool:
+        """Whether the window has another size than what the places were made for."""
+        return self._window.GetSize() != self._size
+
+    @property
+    def aspect(self) -> float:
+        """Width by height of a view, or of the two of a wipe."""
+        width, height = self._window.GetSize()
+        left, low, right, high = (0, 0, 1, 1) if self._wiped else self._side_by_side(max(len(self._seen), 1))[0]
+        return (right - left) * width / max((high - low) * height, 1)
+
+    def _side_by_side(self, views: int) -> list[Rectangle]:
+        """Where views stand, below what is said of each where there are several."""
+        head = self.head / max(self._window.GetSize()[1], 1) if views > 1 else 0.0
+        return [(left, low, right, max(high - head, low)) for left, low, right, high in grid(views)]
+
+    def arrange(self, views: Sequence[Viewport], seen: Sequence[Viewport], wipe: Wipe | None) -> None:
+        """Give each view its place, and the wipe its edge at a whole pixel of the window as large as it is now.
+
+        Parameters
+        ----------
+        views : sequence of Viewport
+            All, the first before those beside it.
+        seen : sequence of Viewport
+            Those that can be seen.
+        wipe : Wipe, optional
+            Between the two that are seen.
+        """
+        self._size, self._seen, self._wiped = self._window.GetSize(), seen, wipe is not None
+        width = max(self._size[0], 2)
+        if wipe is None:
+            places, self._centres = self._side_by_side(len(seen)), {}
+        else:
+            edge = min(max(round(wipe.at * width), 1), width - 1) / width
+            places = [(0.0, 0.0, edge, 1.0), (edge, 0.0, 1.0, 1.0)]
+            # Each half is what is left of the whole's picture: its frustum lies aside of the camera's axis.
+            self._centres = dict(zip(seen, (1 - 1 / edge, edge / (1 - edge)), strict=True))
+        for view in views:
+            for layer in view.layers:
+                shown = view in seen
+                if shown:
+                    layer.SetViewport(*places[seen.index(view)])
+                if shown != bool(self._window.HasRenderer(layer)):
+                    (self._window.AddRenderer if shown else self._window.RemoveRenderer)(layer)
+        if views[0] in seen:
+            views[0].axes.fit()
+        self._part()
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw what parts views on the dark theme's ground, or on the light one's."""
+        self._dark = dark
+        self._part()
+
+    def _part(self) -> None:
+        """Part views side by side by lines."""
+        for renderer, line in self._borders:
+            renderer.RemoveViewProp(line)
+        self._borders.clear()
+        for view in () if self._wiped else self._seen:
+            renderer = view.layers[0]
+            edges = _inner(renderer.GetViewport())
+            if edges:
+                self._borders.append((renderer, renderer.add_border(LINE.of(self._dark), 1, edges=edges)))
+
+    def at(self, x: float, y: float) -> Viewport:
+        """The view at a place in pixels of the window, from its lower left corner."""
+        width, height = self._window.GetSize()
+        for view in self._seen:
+            left, low, right, high = view.layers[0].GetViewport()
+            if left * width <= x < right * width and low * height <= y < high * height:
+                return view
+        return self._seen[0]
+
+    def centre_of(self, view: Viewport) -> float:
+        """How far aside of the camera's axis a view's part of the picture lies."""
+        return self._centres.get(view, 0.0)
+
+
+def _inner(place: Rectangle) -> list[str]:
+    """The sides of a view at which there is another before it, in its row or below."""
+    return [side for side, share in (("left", place[0]), ("bottom", place[1])) if share > 0]

@@ -1,0 +1,59 @@
+"""The views that there have been, to go back to and forward again."""
+
+from __future__ import annotations
+
+from hexmend_app.scene.camera.pose import Pose
+
+#: Views that are remembered.
+MOST = 50
+
+
+class Poses:
+    """Poses in which the camera has come to rest, and which of them it is in.
+
+    Parameters
+    ----------
+    most : int
+        Of more, the oldest are forgotten.
+    """
+
+    def __init__(self, most: int = MOST):
+        self._most = most
+        self._all: list[Pose] = []
+        self._at = -1
+
+    def add(self, pose: Pose) -> bool:
+        """Take the pose that the camera has come to rest in; another ends what was ahead. Whether it is another."""
+        if self._all and pose.looks_like(self._all[self._at]):
+            return False
+        self._all[self._at + 1 :] = [pose]
+        del self._all[: -self._most]
+        self._at = len(self._all) - 1
+        return True
+
+    def clear(self) -> None:
+        """Forget all."""
+        self._all.clear()
+        self._at = -1
+
+    @property
+    def can_go_back(self) -> bool:
+        """Whether there is one before."""
+        return self._at > 0
+
+    @property
+    def can_go_forward(self) -> bool:
+        """Whether there is one after."""
+        return self._at < len(self._all) - 1
+
+    def back(self) -> Pose | None:
+        """The pose before; None at the first."""
+        return self._go(-1) if self.can_go_back else None
+
+    def forward(self) -> Pose | None:
+        """The pose after; None at the last."""
+        return self._go(1) if self.can_go_forward else None
+
+    def _go(self, way: int) -> Pose:
+        self._at += way
+        return self._all[self._at]
