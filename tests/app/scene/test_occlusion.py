@@ -64,10 +64,11 @@ def test_no_light_comes_into_a_cavity():
     inside = (np.abs(centres(polygons) - 1.5) <= 0.5).all(axis=1)
     assert inside.sum() == 6
     answer = of_faces(light(polygons))
-    assert (answer[inside] == 0).all() and (answer[~inside] == 1).all()
+    assert (answer[inside] == 0).all()
+    assert (answer[~inside] == 1).all()
 
 
-@pytest.mark.parametrize("size, far", [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e4)])
+@pytest.mark.parametrize(("size", "far"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e4)])
 def test_light_knows_neither_unit_nor_origin(size, far):
     mesh = grid(5, 5, 5)
     keep = np.random.default_rng(0).random(mesh.n_hexes) < 0.6
@@ -99,7 +100,8 @@ def test_work_ends_when_the_answer_is_not_wanted():
 
 def test_nothing_needs_no_light():
     nothing = Polygons(np.zeros((0, 3)), np.zeros(1, np.int64), np.zeros(0, np.int64), np.zeros(0, np.int64))
-    assert light(nothing).shape == (0,) and normals(nothing).shape == (0, 3)
+    assert light(nothing).shape == (0,)
+    assert normals(nothing).shape == (0, 3)
 
 
 def test_a_warped_quad_has_the_normal_across_its_diagonals():
