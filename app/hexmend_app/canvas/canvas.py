@@ -17,6 +17,7 @@ from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, Node
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.flying import Flying
+from hexmend_app.canvas.lighting import Lighting
 from hexmend_app.canvas.once_per_frame import OncePerFrame
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.canvas.view_keys import steer
@@ -94,6 +95,8 @@ class Canvas(QWidget):
         self._ring = False
         self._flying = Flying(self)
         self._flying.moved.connect(self._on_flown)
+        self.lighting = Lighting(self.panes, self)
+        self.lighting.lit.connect(self.interactor.update)
         self._closed = False
         dress(self, self._wear_theme)
 
@@ -267,6 +270,7 @@ class Canvas(QWidget):
         self._closed = True
         self._rest.stop()
         self._flying.stop()
+        self.lighting.shut_down()
         self.plane.close()
         self.box.close()
         self.interactor.close()
@@ -307,3 +311,4 @@ class Canvas(QWidget):
     def _draw_still(self) -> None:
         self.panes.still()
         self.interactor.update()
+        self.lighting.start()

@@ -20,7 +20,7 @@ DIRECTIONS = 64
 _AT_ONCE = 16
 
 #: How dark the darkest is drawn: colours have to be told apart there too.
-DARKEST = 0.5
+DARKEST = 0.55
 
 #: Pixels that an edge of an element is to have in the pictures from the light, and the sides that these may have.
 _PIXELS, _SIDES = 5.0, (384, 768)

@@ -284,6 +284,11 @@ class Panes:
         for view in self.seen:
             view.still()
 
+    def shade(self) -> None:
+        """Work out here and now what light reaches a fine frame."""
+        for view in self.seen:
+            view.shade()
+
 
 def _inner(place: Rectangle) -> list[str]:
     """The sides of a view at which there is another before it, in its row or below."""

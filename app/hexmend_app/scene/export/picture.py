@@ -67,6 +67,7 @@ def picture(
             plotter.renderer.ResetCameraClippingRange()
         plotter.camera_set = True
         viewport.still()
+        viewport.shade()
         plotter.show(auto_close=False, interactive=False)
         pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
     finally:
