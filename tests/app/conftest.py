@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QMessageBox
 from hexmend import gallery, io
 from hexmend_app.shell.program import application
 from hexmend_app.shell.window import Window
+from hexmend_app.state.task import running
 from hexmend_app.widgets.style import apply_style
 from tests.app.driving import open_and_wait
 from tests.guards import windows_close
@@ -91,3 +92,4 @@ def window(qtbot, tmp_path, mesh_file, monkeypatch):
     window.deleteLater()  # with 50 MB that Qt and Mesa have kept for it
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     window.canvas.interactor._forget_context()  # nor for the surface that was drawn on, which is gone too
+    assert [task.name for task in running()] == []

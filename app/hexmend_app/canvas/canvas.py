@@ -16,6 +16,7 @@ from hexmend.quality import ElementQuality, Node
 from hexmend_app.canvas.camera_view import CameraView
 from hexmend_app.canvas.captions import HEIGHT
 from hexmend_app.canvas.colour_bar import ColourBar
+from hexmend_app.canvas.lighting import Lighting
 from hexmend_app.canvas.pointer import Pointer
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.colours import Colouring
@@ -81,6 +82,8 @@ class Canvas(CameraView):
         self._watch_pointer()
         self.interactor.installEventFilter(self)
         self._ring = False
+        self.lighting = Lighting(self.panes, self)
+        self.lighting.lit.connect(self.interactor.update)
         self._closed = False
         dress(self, self._wear_theme)
 
@@ -237,6 +240,7 @@ class Canvas(CameraView):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""
         self._closed = True
+        self.lighting.shut_down()
         self.plane.close()
         self.box.close()
         self.let_go()
@@ -257,3 +261,8 @@ class Canvas(CameraView):
             self.colour_bar.set_apart(
                 [(name, n if alone else 0, colour) for name, n, colour in self.viewport.colours.apart]
             )
+
+    def draw_still(self) -> None:
+        """Draw the fine frame, and work out what light reaches it."""
+        super().draw_still()
+        self.lighting.start()

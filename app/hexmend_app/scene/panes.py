@@ -200,3 +200,8 @@ class Panes:
         """Prepare for a fine frame."""
         for view in self.seen:
             view.still()
+
+    def shade(self) -> None:
+        """Work out here and now what light reaches a fine frame."""
+        for view in self.seen:
+            view.shade()

@@ -6,6 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from hexmend_app.scene import occlusion
 from hexmend_app.scene.camera.eye import Eye
 from hexmend_app.scene.camera.fitting import bounds_of
 from hexmend_app.scene.colours import Colouring
@@ -214,6 +215,12 @@ class Viewport:
         self._plotter.render_window.SetMultiSamples(4)
         self._set_fast(False)
         self.body.come_to_rest()
+
+    def shade(self) -> None:
+        """Work out here and now what light reaches a fine frame, if that is wanted and not known."""
+        scene = self.body.unlit
+        if scene is not None:
+            self.body.shine(scene, occlusion.light(scene))
 
     def _set_fast(self, fast: bool) -> None:
         if fast == self._fast:

@@ -196,6 +196,10 @@ class Look:
         What the colours show.
     edges : bool
         Draw the elements' edges.
+    shading : bool
+        Draw what light from all around hardly reaches darker, in fine frames.
+    neutral : bool
+        Draw the outside white and what is opened in one colour, instead of the colours of the scale.
     structure : Structure
         What is drawn of the mesh's structure.
     traces : Traces
@@ -211,5 +215,7 @@ class Look:
     quality_range: ValueRange | None = None
     scale: ColourScale = ColourScale()
     edges: bool = True
+    shading: bool = True
+    neutral: bool = False
     structure: Structure = Structure()
     traces: Traces = Traces()

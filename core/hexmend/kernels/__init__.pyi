@@ -16,6 +16,7 @@ from hexmend.kernels import laplacian as laplacian
 from hexmend.kernels import local as local
 from hexmend.kernels import metrics as metrics
 from hexmend.kernels import objective as objective
+from hexmend.kernels import occlusion as occlusion
 from hexmend.kernels import ordering as ordering
 from hexmend.kernels import plain as plain
 from hexmend.kernels import polygons as polygons

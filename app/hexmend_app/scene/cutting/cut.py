@@ -25,7 +25,7 @@ def sections(
 
     The section by each plane is seen as far as the others leave it open. Only hexes that a plane crosses or touches
     there are handed to VTK, a few in a hundred. To VTK a node on the plane lies beyond it: of two hexes whose common
-    face lies in the plane, the one that is kept gives the polygon.
+    face lies in the plane, the one that is kept gives the polygon. All are counter-clockwise as seen from beyond.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def sections(
         if len(chosen):
             part, owner = _section(points, hexes, chosen, plane)
             left = part.before(*_half_spaces((*planes[:at], *planes[at + 1 :]), beyond=clip.notch))
-            seen.append(left)
+            seen.append(left.facing(np.array(plane.normal)))
             owners.append(owner[left.owner])
     if not sum(map(len, seen)):
         return pv.PolyData()

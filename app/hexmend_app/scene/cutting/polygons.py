@@ -8,7 +8,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from hexmend.kernels import polygons
+from hexmend.kernels import occlusion, polygons
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +42,14 @@ class Polygons:
     def __len__(self) -> int:
         return len(self.owner)
 
+    def same(self, other: Polygons) -> bool:
+        """Whether others have the same corners at the same places."""
+        return self is other or (
+            np.array_equal(self.points, other.points)
+            and np.array_equal(self.places, other.places)
+            and np.array_equal(self.start, other.start)
+        )
+
     def before(self, normals: np.ndarray, offsets: np.ndarray) -> Polygons:
         """What lies before all of some planes, where x . normal <= offset.
 
@@ -52,6 +60,18 @@ class Polygons:
         """
         points, start, owner = polygons.before(self.points, self.start, self.places, self.owner, normals, offsets)
         return Polygons(points, start, np.arange(len(points)), owner)
+
+    def facing(self, direction: np.ndarray) -> Polygons:
+        """The same, each counter-clockwise as seen from far along a direction, (3,)."""
+        if not len(self):
+            return self
+        normals = np.empty((len(self), 3))
+        occlusion.normals(self.points, self.start, self.places, normals)
+        counts = np.diff(self.start)
+        at = np.arange(len(self.places))
+        mirrored = np.repeat(self.start[:-1] + self.start[1:] - 1, counts) - at
+        places = self.places[np.where(np.repeat(normals @ direction < 0, counts), mirrored, at)]
+        return Polygons(self.points, self.start, places, self.owner)
 
     def data(self) -> pv.PolyData:
         """A dataset of them."""

@@ -93,6 +93,7 @@ def figure(
             panes.eye.reset_depth()
         plotter.camera_set = True
         panes.still()
+        panes.shade()
         plotter.show(auto_close=False, interactive=False)
         pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
         colouring, apart = (

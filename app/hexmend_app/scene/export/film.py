@@ -71,6 +71,7 @@ def pictures(
             if first:
                 _place(plotter, viewport, view, camera)
             viewport.still()
+            viewport.shade()
             plotter.renderer.ResetCameraClippingRange()
             plotter.render()
             seen = Image.fromarray(np.asarray(plotter.screenshot(return_img=True)))

@@ -72,6 +72,7 @@ def picture(
             plotter.renderer.ResetCameraClippingRange()
         plotter.camera_set = True
         viewport.still()
+        viewport.shade()
         plotter.show(auto_close=False, interactive=False)
         pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
     finally:

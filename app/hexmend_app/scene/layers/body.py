@@ -7,11 +7,13 @@ import pyvista as pv
 
 from hexmend.mesh import Mesh
 from hexmend_app.scene.cutting import cut
+from hexmend_app.scene.cutting.polygons import Polygons, together
 from hexmend_app.scene.element_colours import ElementColours
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.coarse import MANY, coarse
+from hexmend_app.scene.layers.fine import fine, shaded
 from hexmend_app.scene.layers.halo import Halo
-from hexmend_app.scene.layers.surface import Surface, hexes_of, quads, set_colours, set_points
+from hexmend_app.scene.layers.surface import Surface, colours_of, hexes_of, quads, recoloured, set_colours, set_points
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.skin import Faces, Skin
 
@@ -44,6 +46,9 @@ class Body:
         )
         self._coarse: pv.PolyData | None = None  # of the skin, drawn while the camera moves
         self._steady = False  # nothing but the camera has moved since the last fine frame
+        self._shading = True
+        self._scene: Polygons | None = None  # all that stands in the light; None before the first fine frame of it
+        self._lit: tuple[Polygons, np.ndarray] | None = None  # a scene, and what reaches its corners
         self.fast = False
         self.faces: Faces | None = None
 
@@ -81,8 +86,10 @@ class Body:
         return self._skin.visible(keep)
 
     def _draw(self, frame: Frame, keep: np.ndarray | None, colours: ElementColours) -> None:
-        self._steady, self._coarse = False, None
-        self.skin.stand_in(None)
+        self._steady, self._coarse, self._scene = False, None, None
+        self._shading = frame.look.shading
+        for surface in (self.skin, self.section):
+            surface.stand_in(None)
         # Faces seen from behind are a third of the frame, but an inverted element may turn them to us.
         self._inverted = frame.figures.n_inverted
         self.skin.cull(self._inverted == 0)
@@ -112,17 +119,69 @@ class Body:
         """Draw a large skin coarsely, where nothing but the camera moves; frames are of so many views like this."""
         if self._steady and self.skin.poly is self.whole and len(self.faces.quads) * views > MANY:
             if self._coarse is None:
-                self._coarse = coarse(self.whole)
+                self._coarse = self._coarsened()
             self.skin.stand_in(self._coarse)
 
+    def _coarsened(self) -> pv.PolyData:
+        light = self._light
+        if light is None:
+            return coarse(self.whole)
+        of_faces = light[: self.skin.corners].reshape(-1, 4).mean(axis=1)
+        return coarse(recoloured(self.whole, shaded(colours_of(self.whole), of_faces)))
+
+    # Fine frames, and the light in them
+
     def come_to_rest(self) -> None:
-        """Draw the skin as it is, and coarsely from now on while the camera turns."""
+        """Draw what is shown as it is, and coarsely from now on while the camera turns."""
         self.show_fine()
         self._steady = True
 
     def show_fine(self) -> None:
-        """Draw the skin as it is."""
-        self.skin.stand_in(None)
+        """Draw what is shown as it is, under the light that is known to reach it."""
+        if self._scene is None:
+            drawn = [Polygons.of(surface.poly) for surface in self._shown]
+            self._scene = together(drawn) if drawn else Polygons.of(pv.PolyData())
+            self._refine()
+        for surface in self._shown:
+            surface.show_fine()
+
+    @property
+    def _shown(self) -> list[Surface]:
+        return [surface for surface in (self.skin, self.section) if surface.shown]
+
+    @property
+    def _light(self) -> np.ndarray | None:
+        """What reaches the corners of the scene; None where that is not known, or not wanted."""
+        if not self._shading or self._lit is None or self._scene is None:
+            return None
+        scene, light = self._lit
+        return light if scene.same(self._scene) else None
+
+    def _refine(self) -> None:
+        light, begin = self._light, 0
+        for surface in self._shown:
+            end = begin + surface.corners
+            surface.refine(fine(surface.poly, None if light is None else light[begin:end]))
+            begin = end
+
+    @property
+    def unlit(self) -> Polygons | None:
+        """What stands in a fine frame without the light that is wanted; None where there is nothing to work out."""
+        if self._scene is None or not self._shading or self._light is not None:
+            return None
+        return self._scene
+
+    def draws(self, scene: Polygons) -> bool:
+        """Whether it is this scene that is drawn; any thread may ask."""
+        return scene is self._scene
+
+    def shine(self, scene: Polygons, light: np.ndarray) -> bool:
+        """Take the light that reaches the corners of a scene, (c,) float64; False where it is no longer drawn."""
+        if not self.draws(scene):
+            return False
+        self._lit, self._coarse = (scene, light), None
+        self._refine()
+        return True
 
     def nodes_in_sight(self, mesh: Mesh) -> np.ndarray:
         """True for nodes of faces that are seen, and of elements that are cut through, (n,) bool."""

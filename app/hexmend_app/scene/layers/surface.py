@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
 
-_EDGE = "#1b1f2a"
+from hexmend_app.scene.layers.edges import EDGE, tone_edges
+
 _COLOURS = "colours"
 _HEX = "hex"
+
+#: The colours of the points of polygons that are drawn finely.
+SHADED = "shaded"
 
 
 class Surface:
@@ -17,9 +22,11 @@ class Surface:
     ----------
     plotter : pyvista.BasePlotter
     name : str
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, name: str):
+    def __init__(self, plotter: pv.BasePlotter, name: str, pen: float = 1.0):
         self.poly = pv.PolyData()
         self._edges, self._without_edges = True, False
         self.actor = plotter.add_mesh(
@@ -27,9 +34,9 @@ class Surface:
             name=name,
             color="white",
             show_edges=True,
-            edge_color=_EDGE,
+            edge_color=EDGE,
             edge_opacity=0.5,
-            line_width=1,
+            line_width=pen,
             lighting=True,
             ambient=0.58,
             diffuse=0.47,
@@ -39,39 +46,45 @@ class Surface:
             pickable=False,
             render=False,
         )
-        mapper = self.actor.mapper
-        mapper.SetScalarModeToUseCellFieldData()
-        mapper.SelectColorArray(_COLOURS)
-        mapper.SetColorModeToDirectScalars()
-        mapper.ScalarVisibilityOn()
+        tone_edges(self.actor)
+        self.actor.GetProperty().SetInterpolationToPhong()  # of polygons that have normals
+        self._plain, self._fine = self.actor.mapper, vtkPolyDataMapper()
+        self._plain.SetScalarModeToUseCellFieldData()
+        self._fine.SetScalarModeToUsePointFieldData()
+        for mapper, colours in ((self._plain, _COLOURS), (self._fine, SHADED)):
+            mapper.SelectColorArray(colours)
+            mapper.SetColorModeToDirectScalars()
+            mapper.ScalarVisibilityOn()
         self.actor.SetVisibility(False)
 
     def replace(self, poly: pv.PolyData) -> None:
         """Draw other polygons; they carry their colours (see `coloured`)."""
         self.poly = poly
-        self.actor.mapper.SetInputData(poly)
+        self._plain.SetInputData(poly)
+        self.actor.SetMapper(self._plain)
         self.actor.SetVisibility(poly.GetNumberOfCells() > 0)
-
-    def move(self, points: np.ndarray, colours: np.ndarray) -> None:
-        """Move the points and recolour the polygons that are drawn: the cheapest change.
-
-        Parameters
-        ----------
-        points : (u, 3) float64
-        colours : (k, 3) uint8
-        """
-        set_points(self.poly, points)
-        set_colours(self.poly, colours)
-
-    def recolour(self, colours: np.ndarray) -> None:
-        """Recolour the polygons, (k, 3) uint8."""
-        set_colours(self.poly, colours)
 
     def stand_in(self, poly: pv.PolyData | None) -> None:
         """Draw other polygons for a while, without edges; None draws the own again."""
-        self.actor.mapper.SetInputData(self.poly if poly is None else poly)
+        self._plain.SetInputData(self.poly if poly is None else poly)
+        self.actor.SetMapper(self._plain)
         self._without_edges = poly is not None
         self._fit_edges()
+
+    def refine(self, poly: pv.PolyData) -> None:
+        """Take the polygons as `hexmend_app.scene.layers.fine.fine` has made them."""
+        self._fine.SetInputData(poly)
+
+    def show_fine(self) -> None:
+        """Draw them so, until there are others."""
+        self.actor.SetMapper(self._fine)
+        self._without_edges = False
+        self._fit_edges()
+
+    @property
+    def corners(self) -> int:
+        """How many corners the polygons have together."""
+        return self.poly.GetPolys().GetNumberOfConnectivityIds()
 
     def hide(self) -> None:
         """Draw nothing."""
@@ -106,6 +119,13 @@ def coloured(data: pv.DataSet, colours: np.ndarray, hexes: np.ndarray) -> pv.Dat
         data.cell_data[_COLOURS] = colours
         data.cell_data[_HEX] = hexes.astype(np.int32, copy=False)
     return data
+
+
+def recoloured(poly: pv.PolyData, colours: np.ndarray) -> pv.PolyData:
+    """The same polygons in other colours, (k, 3) uint8; nothing else is copied."""
+    answer = poly.copy(deep=False)
+    answer.cell_data[_COLOURS] = colours
+    return answer
 
 
 def hex_of(data: pv.DataSet, cell: int) -> int:
