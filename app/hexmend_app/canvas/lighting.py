@@ -1,4 +1,4 @@
-"""Light in fine frames, worked out beside the window: the frame stands first, and gets its shades when they are known."""
+"""Light in fine frames, worked out beside the window: a frame is there first, its shades when they are known."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ class Arrangement:
         """Width by height of a view, or of the two of a wipe."""
         width, height = self._window.GetSize()
         left, low, right, high = (0, 0, 1, 1) if self._wiped else self._side_by_side(max(len(self._seen), 1))[0]
-        return (right - left) * width / max((high - low) * height, 1)
+        return (right - left) * width / max((high - low) * height, 1) if width else 1.0  # before it is laid out
 
     def _side_by_side(self, views: int) -> list[Rectangle]:
         """Where views stand, below what is said of each where there are several."""
