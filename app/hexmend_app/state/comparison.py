@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from PySide6.QtCore import QObject, QThread, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.quality import measure
 from hexmend.run import Run, Stop
@@ -15,7 +14,7 @@ from hexmend.smoothers import Smoother
 from hexmend.study import compare
 from hexmend.study.row import Row, run_one
 from hexmend_app.state.document import Document, State
-from hexmend_app.state.standing_back import stand_back
+from hexmend_app.state.task import Task
 
 #: Milliseconds between two looks at how far the methods are.
 _PERIOD = 100
@@ -48,23 +47,20 @@ class Progress:
     seconds: float = 0.0
 
 
-class _Worker(QThread):
-    """Runs methods one after another on one mesh; what is done is in `done`, in their order."""
+class _Work:
+    """Methods one after another on one mesh; what is done is in `done`, in their order."""
 
     def __init__(self, state: State, smoothers: Sequence[Smoother], stop: Stop):
-        super().__init__()
-        self.setObjectName("smoother comparison")
+        self.task = Task("smoother comparison", self._run, yields=True)
         self.done: list[Compared] = []
         self.progress = Progress(smoothers[0].name, 0, len(smoothers))
-        self.ended = threading.Event()
         self._order = (state, smoothers, stop)
 
-    def run(self) -> None:
+    def _run(self, task: Task) -> None:
         """What the thread does; a method that fails has its row, and the others go on."""
-        stand_back()
         state, smoothers, stop = self._order
         for at, smoother in enumerate(smoothers):
-            if self.ended.is_set():
+            if task.cancelled.is_set():
                 break
             self.progress = Progress(smoother.name, at, len(smoothers))
             row, _ = run_one(state.mesh, smoother, stop, self._watch)
@@ -73,7 +69,7 @@ class _Worker(QThread):
     def _watch(self, run: Run) -> bool:
         was, last = self.progress, run.last
         self.progress = Progress(was.method, was.at, was.of, last.number, last.seconds)
-        return not self.ended.is_set()
+        return not self.task.cancelled.is_set()
 
 
 def _compared(row: Row) -> Compared:
@@ -99,7 +95,7 @@ class Comparison(QObject):
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
-        self._worker: _Worker | None = None
+        self._work: _Work | None = None
         self._stop = Stop()
         self._asked = 0
         self.initial: State | None = None
@@ -112,17 +108,17 @@ class Comparison(QObject):
     @property
     def busy(self) -> bool:
         """Whether methods are at work."""
-        return self._worker is not None
+        return self._work is not None
 
     @property
     def progress(self) -> Progress | None:
         """How far the work is; None where there is none."""
-        return self._worker and self._worker.progress
+        return self._work and self._work.progress
 
     @property
     def ending(self) -> bool:
         """Whether the work ends with the iteration at hand."""
-        return self._worker is not None and self._worker.ended.is_set()
+        return self._work is not None and self._work.task.cancelled.is_set()
 
     @property
     def interrupted(self) -> bool:
@@ -137,15 +133,15 @@ class Comparison(QObject):
             return
         self.initial, self.results = self._document.now, ()
         self._stop, self._asked = stop, len(smoothers)
-        self._worker = _Worker(self.initial, tuple(smoothers), stop)
-        self._worker.start()
+        self._work = _Work(self.initial, tuple(smoothers), stop)
+        self._work.task.start()
         self._timer.start()
         self.changed.emit()
 
     def cancel(self) -> None:
         """End the work after the iteration at hand; what the method reached is its result, and the others have none."""
-        if self._worker is not None:
-            self._worker.ended.set()
+        if self._work is not None:
+            self._work.task.cancel()
             self.progressed.emit()
 
     def of(self, method: str) -> Compared | None:
@@ -161,10 +157,10 @@ class Comparison(QObject):
     def shut_down(self) -> None:
         """End the work and wait until its thread is gone; nothing is emitted any more."""
         self._timer.stop()
-        if self._worker is not None:
-            self._worker.ended.set()
-            self._worker.wait()
-            self._worker = None
+        if self._work is not None:
+            self._work.task.cancel()
+            self._work.task.wait()
+            self._work = None
 
     def _empty(self) -> None:
         self.shut_down()
@@ -172,13 +168,15 @@ class Comparison(QObject):
         self.changed.emit()
 
     def _look(self) -> None:
-        worker = self._worker
-        over = worker.isFinished()
-        done = tuple(worker.done)
+        work = self._work
+        over = work.task.over
+        done = tuple(work.done)
         if over:
             self._timer.stop()
-            worker.wait()
-            self._worker = None
+            work.task.wait()
+            self._work = None
+            if work.task.error is not None:
+                raise work.task.error
         if over or len(done) != len(self.results):
             self.results = done
             self.changed.emit()

@@ -2,31 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QObject, QThread, Signal
+from PySide6.QtCore import QObject, Signal
 
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep, explain
 from hexmend.smoothers import Smoother
-from hexmend_app.state.standing_back import stand_back
-
-
-class _Explaining(QThread):
-    """Works out one step."""
-
-    def __init__(self, mesh: Mesh, smoother: Smoother, node: int):
-        super().__init__()
-        self.setObjectName(f"reading the step of node {node}")
-        self.question = mesh, smoother, node
-        self.step: NodeStep | None = None
-        self.error: Exception | None = None
-
-    def run(self) -> None:
-        """What the thread does; everything that goes wrong ends in `error`."""
-        try:
-            stand_back()
-            self.step = explain(*self.question)
-        except Exception as error:  # whatever it is, the window has to say it
-            self.error = error
+from hexmend_app.state.task import Task
 
 
 class Explainer(QObject):
@@ -41,7 +22,7 @@ class Explainer(QObject):
     ----------
     step : NodeStep or None
         The answer; None while there is none.
-    error : Exception or None
+    error : BaseException or None
     """
 
     answered = Signal()
@@ -49,9 +30,10 @@ class Explainer(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.step: NodeStep | None = None
-        self.error: Exception | None = None
+        self.error: BaseException | None = None
         self._wanted: tuple[Mesh, Smoother, int] | None = None
-        self._explaining: _Explaining | None = None
+        self._asked: tuple[Mesh, Smoother, int] | None = None
+        self._task: Task | None = None
 
     @property
     def busy(self) -> bool:
@@ -62,7 +44,7 @@ class Explainer(QObject):
         """Ask what the method would do to a free node; what was asked before is forgotten."""
         self.forget()
         self._wanted = mesh, smoother, node
-        if self._explaining is None:
+        if self._task is None:
             self._begin()
 
     def forget(self) -> None:
@@ -72,26 +54,23 @@ class Explainer(QObject):
     def shut_down(self) -> None:
         """Wait until the thread is gone; nothing is answered any more."""
         self.forget()
-        if self._explaining is not None:
-            self._explaining.finished.disconnect(self._finish)
-            self._explaining.wait()
-            self._explaining = None
+        if self._task is not None:
+            self._task.wait()
+            self._task = None
 
     def _begin(self) -> None:
-        self._explaining = _Explaining(*self._wanted)
-        self._explaining.finished.connect(self._finish)
-        self._explaining.start()
+        self._asked = question = self._wanted
+        self._task = Task(f"reading the step of node {question[2]}", lambda _: explain(*question), yields=True)
+        self._task.ended.connect(self._finish)
+        self._task.start()
 
     def _finish(self) -> None:
-        done, self._explaining = self._explaining, None
-        if done is None:
-            return  # it was waited for, while this was on its way
-        done.wait()
+        task, self._task = self._task, None
         if self._wanted is None:
             return
-        if done.question != self._wanted:
+        if self._asked != self._wanted:
             self._begin()
             return
         self._wanted = None
-        self.step, self.error = done.step, done.error
+        self.step, self.error = task.result, task.error
         self.answered.emit()

@@ -2,46 +2,31 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QThread, Signal
+from PySide6.QtCore import QObject, Signal
 
 from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend_app.state.document import Document, State
+from hexmend_app.state.task import Task
 
 
-class _Reading(QThread):
-    """Reads, measures and prepares one mesh.
-
-    Signals
-    -------
-    began(str)
-        The next part of the work has begun; says which.
-    """
-
-    began = Signal(str)
-
-    def __init__(self, path: Path):
-        super().__init__()
-        self.setObjectName(f"reading {path.name}")
-        self.path = path
-        self.state: State | None = None
-        self.error: Exception | None = None
-
-    def run(self) -> None:
-        """What the thread does."""
-        try:
-            self.began.emit(f"Reading {self.path.name}…")
-            mesh = read(self.path)
-            self.began.emit(f"Measuring {self.path.name}, {mesh.n_hexes:,} hexes…")
-            self.state = State.of(mesh)
-            self.began.emit(f"Preparing the view of {self.path.name}…")
-            _ = self.state.mesh.topology.face_neighbours, self.state.mesh.topology.layers  # what the view draws from
-        except HexmendError as error:
-            self.error = error
-        except Exception as error:  # a reader that fails in a way of its own must not take the window down
-            self.error = HexmendError(f"{self.path.name}: cannot be read ({type(error).__name__}: {error}).")
+def _read(path: Path, task: Task) -> State:
+    """Read, measure and prepare one mesh, and tell which of them has begun; what goes wrong is a `HexmendError`."""
+    try:
+        task.tell(f"Reading {path.name}…")
+        mesh = read(path)
+        task.tell(f"Measuring {path.name}, {mesh.n_hexes:,} hexes…")
+        state = State.of(mesh)
+        task.tell(f"Preparing the view of {path.name}…")
+        _ = state.mesh.topology.face_neighbours, state.mesh.topology.layers  # what the view draws from
+    except HexmendError:
+        raise
+    except Exception as error:  # a reader that fails in a way of its own must not take the window down
+        raise HexmendError(f"{path.name}: cannot be read ({type(error).__name__}: {error}).") from error
+    return state
 
 
 class Opener(QObject):
@@ -61,7 +46,7 @@ class Opener(QObject):
     """
 
     began = Signal(object)
-    told = Signal(str)
+    told = Signal(object)
     ended = Signal(object)
     cancelled = Signal(object)
     failed = Signal(object, object)
@@ -69,56 +54,52 @@ class Opener(QObject):
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
-        self._reading: _Reading | None = None
+        self._path: Path | None = None  # what is being read
+        self._task: Task | None = None
         self._next: Path | None = None
-        self._dropped: list[_Reading] = []
+        self._dropped: list[Task] = []
 
     @property
     def busy(self) -> bool:
         """Whether a mesh is being read."""
-        return self._reading is not None
+        return self._task is not None
 
     def open(self, path: str | Path) -> None:
         """Begin to read; of several asked for while one is read, the last is opened next."""
+        path = Path(path)
         if self.busy:
-            self._next = Path(path)
+            self._next = path
             return
-        self._reading = _Reading(Path(path))
-        self._reading.finished.connect(self._finish)
-        self._reading.began.connect(self.told)
-        self.began.emit(self._reading.path)
-        self._reading.start()
+        self._path = path
+        self._task = Task(f"reading {path.name}", partial(_read, path))
+        self._task.told.connect(self.told)
+        self._task.ended.connect(self._finish)
+        self.began.emit(path)
+        self._task.start()
 
     def cancel(self) -> None:
         """Stop waiting: a thread cannot be ended from outside, but what it reads is dropped, and others can be read."""
-        if self._reading is None:
+        if self._task is None:
             return
-        reading, self._reading, self._next = self._reading, None, None
-        reading.began.disconnect(self.told)
-        self._dropped.append(reading)
-        self.cancelled.emit(reading.path)
+        task, self._task, self._next = self._task, None, None
+        task.drop()
+        self._dropped = [one for one in self._dropped if not one.over] + [task]
+        self.cancelled.emit(self._path)
 
     def shut_down(self) -> None:
-        """Wait until the thread is gone; nothing is opened any more."""
+        """Wait until the threads are gone; nothing is opened any more."""
         self.cancel()
-        for reading in self._dropped:
-            reading.finished.disconnect(self._finish)
-            reading.wait()
+        for task in self._dropped:
+            task.wait()
         self._dropped.clear()
 
     def _finish(self) -> None:
-        for dropped in [one for one in self._dropped if one.isFinished()]:
-            dropped.wait()
-            self._dropped.remove(dropped)
-        if self._reading is None or not self._reading.isFinished():
-            return  # what has finished was dropped
-        reading, self._reading = self._reading, None
-        reading.wait()
+        task, self._task = self._task, None
         if self._next is not None:
             path, self._next = self._next, None
             self.open(path)
-        elif reading.error is not None:
-            self.failed.emit(reading.path, reading.error)
+        elif task.error is not None:
+            self.failed.emit(self._path, task.error)
         else:
-            self._document.replace(reading.state, reading.path)
-            self.ended.emit(reading.path)
+            self._document.replace(task.result, self._path)
+            self.ended.emit(self._path)

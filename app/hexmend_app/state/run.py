@@ -100,7 +100,7 @@ class Smoothing(QObject):
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
         self._worker.grant(iterations)
         self._set_phase(Phase.PREPARING)
-        self._worker.start()
+        self._worker.task.start()
         self._timer.start()
 
     def want(self, metrics: Iterable[str]) -> None:
@@ -160,7 +160,7 @@ class Smoothing(QObject):
         """End the run and wait for the iteration at hand; what was reached is recorded as usual."""
         if self._worker is not None:
             self._worker.end()
-            self._worker.wait()
+            self._worker.task.wait()
             self._finish(self._worker)
 
     def shut_down(self) -> None:
@@ -168,7 +168,7 @@ class Smoothing(QObject):
         self._timer.stop()
         if self._worker is not None:
             self._worker.end()
-            self._worker.wait()
+            self._worker.task.wait()
             self._worker = None
             self._history.finish(self.record, None, None, "")
             self._set_phase(Phase.IDLE)
@@ -177,7 +177,7 @@ class Smoothing(QObject):
         worker = self._worker
         if worker is None:
             return
-        over, waits = worker.isFinished(), worker.waiting  # before the mailbox is emptied
+        over, waits = worker.task.over, worker.waiting  # before the mailbox is emptied
         frame = worker.mailbox.take()
         if frame is not None and not over:
             self._show(frame)
@@ -202,22 +202,22 @@ class Smoothing(QObject):
 
     def _finish(self, worker: Worker) -> None:
         self._timer.stop()
-        worker.wait()
+        worker.task.wait()
         self._worker = None
-        if worker.error is not None:
-            self._history.finish(self.record, None, None, f"Failed: {worker.error}.")
+        if worker.task.error is not None:
+            self._history.finish(self.record, None, None, f"Failed: {worker.task.error}.")
             self._document.preview(self._before)
             self._set_phase(Phase.IDLE)
-            self.failed.emit(worker.error)
+            self.failed.emit(worker.task.error)
             return
         last = worker.last
         reached = None if last is None else Moment(self.record, last.iteration.number)
-        self._history.finish(self.record, reached, last and last.state, worker.result.message)
+        self._history.finish(self.record, reached, last and last.state, worker.task.result.message)
         if last is not None:
             self._document.commit(self._title, last.state, show=self.following)
             self.iterated.emit(last)
         self._set_phase(Phase.FINISHED)
-        self.ended.emit(worker.result)
+        self.ended.emit(worker.task.result)
 
     def _set_phase(self, phase: Phase) -> None:
         if phase is not self.phase:

@@ -6,8 +6,6 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from PySide6.QtCore import QThread
-
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
@@ -17,7 +15,7 @@ from hexmend.smoothers import Smoother
 from hexmend_app.state.breakpoints import Breakpoints, Hit
 from hexmend_app.state.document import State
 from hexmend_app.state.measured import values
-from hexmend_app.state.standing_back import stand_back
+from hexmend_app.state.task import Task
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +49,7 @@ class Mailbox:
             return frame
 
 
-class Worker(QThread):
+class Worker:
     """Runs a smoother or a recipe on one mesh, one iteration at a time as the gate lets it.
 
     Parameters
@@ -62,15 +60,22 @@ class Worker(QThread):
         None for the recipe's own.
     keep : callable
         Called with every iteration, number 0 first, in the thread.
+
+    Attributes
+    ----------
+    task : Task
+        Its result is the run's, or None where it failed.
+    mailbox : Mailbox
+    last : Frame or None
+        The newest.
+    prepared : threading.Event
+        The method has been set up, or has failed to be.
     """
 
     def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None, keep: Callable[[Iteration], object]):
-        super().__init__()
-        self.setObjectName(f"smoother {smoother.name}")
+        self.task = Task(f"smoother {smoother.name}", self._run, yields=True)
         self.mailbox = Mailbox()
-        self.result: Result | None = None
         self.last: Frame | None = None
-        self.error: Exception | None = None
         self.prepared = threading.Event()
         self.metrics: frozenset[str] = frozenset()  # what the window will ask of every iteration
         self.breakpoints = Breakpoints()
@@ -78,7 +83,6 @@ class Worker(QThread):
         self._keep = keep
         self._gate = threading.Condition()
         self._granted: float = 0  # iterations that may still be made; infinite while running
-        self._ended = False
         self._waits = False  # at the gate
         self._change: Stage | None = None  # how the rest of the stage is to be done
 
@@ -102,7 +106,7 @@ class Worker(QThread):
     def end(self) -> None:
         """End the run after the iteration at hand, paused or not."""
         with self._gate:
-            self._ended = True
+            self.task.cancel()
             self._gate.notify_all()
 
     @property
@@ -110,10 +114,8 @@ class Worker(QThread):
         """Whether the worker has used up its grant, and made its last iteration."""
         return self._waits and self._granted <= 0
 
-    def run(self) -> None:
-        """What the thread does; everything that goes wrong ends in `error`."""
+    def _run(self, _: Task) -> Result:
         try:
-            stand_back()
             mesh, smoother, stop = self._order
             run = iterate(mesh, smoother, stop)
             self._keep(run.start)
@@ -127,9 +129,7 @@ class Worker(QThread):
             run.close()
             if run.reached is not run.last:
                 self._report(run.reached)
-            self.result = run.result()
-        except Exception as error:  # whatever it is, the window has to say it
-            self.error = error
+            return run.result()
         finally:
             self.prepared.set()
 
@@ -151,12 +151,12 @@ class Worker(QThread):
     def _may_go_on(self, run: Run) -> bool:
         with self._gate:
             self._waits = True
-            while run.outcome is None and not self._ended and self._granted <= 0:
+            while run.outcome is None and not self.task.cancelled.is_set() and self._granted <= 0:
                 self._gate.wait()
             self._waits = False
             self._granted -= 1
             change, self._change = self._change, None
-            ended = self._ended
+            ended = self.task.cancelled.is_set()
         if change is not None and run.outcome is None and not ended:
             run.go_on_with(change.smoother, change.stop)  # which may take a while: the window must not wait for it
         return run.outcome is None and not ended

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
-import warnings
+import logging
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +12,7 @@ from hexmend.io.carry import LOWER, Grid, from_mesh, to_mesh
 from hexmend.io.format import FORMATS, Format
 from hexmend.mesh import Mesh
 
+log = logging.getLogger(__name__)
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 #: meshlane's names of the cells that it tells us of, and VTK's numbers.
 _NUMBERS = {"hexahedron": 12, "voxel": 11, **{kind: number for number, (kind, _) in LOWER.items()}}
@@ -22,21 +21,27 @@ _NUMBERS = {"hexahedron": 12, "voxel": 11, **{kind: number for number, (kind, _)
 def read(path: Path) -> Mesh:
     """Read a VTU file."""
     _check_head(path)
-    said = io.StringIO()
     try:
-        # The parser prints and exits on what it cannot read, and each of its failures is another exception.
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            from meshlane import vtu
-
-            found = vtu.read(str(path))
-    except (MemoryError, KeyboardInterrupt):
+        found = _parser().read(str(path))
+    except MemoryError:
         raise
-    except (Exception, SystemExit) as error:
+    except Exception as error:  # each of the parser's failures is another one
         _check_xml(path)
-        detail = " ".join(str(error).split()) or " ".join(said.getvalue().split()) or type(error).__name__
+        detail = " ".join(str(error).split()) or type(error).__name__
         raise FileError(path, f"its arrays cannot be decoded ({detail[:200]})", _DAMAGED) from None
     return to_mesh(path, _grid(path, found))
+
+
+def _parser():
+    """meshlane's module for VTU, which logs here what it would print to the terminal."""
+    from meshlane.vtu import _vtu
+
+    _vtu.warn = _vtu.info = _say
+    return _vtu
+
+
+def _say(text: str, **_) -> None:
+    log.info("meshlane: %s", text)
 
 
 def _check_head(path: Path) -> None:
@@ -92,7 +97,6 @@ def _grid(path: Path, found) -> Grid:
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write VTU, compressed with zlib; in decimals meshlane would round to 12 digits."""
     import meshlane
-    from meshlane import vtu
 
     grid = from_mesh(mesh)
     kinds = {number: kind for kind, number in _NUMBERS.items()}
@@ -113,7 +117,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         point_data={name: _native(values) for name, values in grid.node_data.items()},
         cell_data={name: [values[part] for part in parts] for name, values in native.items()},
     )
-    vtu.write(str(path), content, binary=True, compression="zlib")
+    _parser().write(str(path), content, binary=True, compression="zlib")
 
 
 def _native(values: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PIL import Image
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QThread, QUrl
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMessageBox, QPushButton, QToolButton
@@ -16,6 +16,7 @@ from hexmend_app.shell.program import report_unexpected_errors
 from hexmend_app.state.document import State
 from hexmend_app.state.look import ColourScale, RangeMode, ValueRange
 from hexmend_app.state.run import Phase
+from hexmend_app.state.task import running
 from tests.app.driving import LEFT, click, drag, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
@@ -337,10 +338,9 @@ def test_closing_while_running_leaves_no_thread(window, qtbot):
     endless(window)
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
-    worker = window.session.smoothing._worker
-    assert isinstance(worker, QThread)
+    assert [task.name for task in running()] == ["smoother local-sd"]
     window.close()
-    assert worker.isFinished()
+    assert running() == ()
     assert not window.isVisible()
 
 

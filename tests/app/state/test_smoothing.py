@@ -1,6 +1,5 @@
 """Runs in the worker thread, without a window."""
 
-import threading
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +13,7 @@ from hexmend_app.state import measured
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History
 from hexmend_app.state.run import Phase, Smoothing
+from hexmend_app.state.task import running
 from hexmend_app.state.worker import Mailbox
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -44,10 +44,6 @@ def smoothing(document):
     smoothing = Smoothing(document, History())
     yield smoothing
     smoothing.shut_down()
-
-
-def threads():
-    return [thread for thread in threading.enumerate() if thread.name.startswith("smoother")]
 
 
 def phase_is(smoothing, phase):
@@ -111,11 +107,9 @@ def test_stop_ends_a_paused_run(document, smoothing, qtbot):
 def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
     smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
     qtbot.wait(50)
-    worker = smoothing._worker
     smoothing.shut_down()
-    assert worker.isFinished()
     assert not smoothing.busy
-    assert threads() == []
+    assert running() == ()
 
 
 def test_a_method_that_raises_leaves_the_document_as_it_was(document, smoothing, qtbot):

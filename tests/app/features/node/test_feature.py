@@ -18,6 +18,7 @@ from hexmend_app.scene.palette import SEARCH, UPHILL
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation
 from hexmend_app.state.run import Phase
+from hexmend_app.state.task import running
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.theming import Choice
 from tests.app.driving import LEFT, click, phase, pixels
@@ -401,7 +402,7 @@ def test_closing_while_a_step_is_worked_out_leaves_no_thread(window, qtbot):
     key(window, Qt.Key.Key_D)
     qtbot.waitUntil(lambda: window.session.explainer.busy, timeout=5000)
     window.close()
-    assert window.session.explainer._explaining is None
+    assert running() == ()
 
 
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])

@@ -18,6 +18,7 @@ from hexmend_app.shell.palette import CommandPalette
 from hexmend_app.shell.program import application
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Look, Structure
+from hexmend_app.state.task import running
 from tests.app.driving import LEFT, click, open_and_wait
 from tests.app.driving import pixels as drawn
 from tests.core.grids import grid
@@ -239,9 +240,8 @@ def test_nothing_is_cut_off(five, qtbot, size):
 
 def begin_searching(window):
     """Not waited for: a small mesh's search may be over between two looks at it."""
-    window.session.finder._soon.stop()
-    window.session.finder._begin()
-    assert window.session.finder._finding is not None
+    window.session.finder.search()
+    assert window.session.finder.busy
 
 
 @pytest.mark.parametrize("searching", [False, True])
@@ -253,7 +253,7 @@ def test_closing_before_it_is_found_leaves_no_thread(window, qtbot, mesh_file, s
         begin_searching(window)
     window.close()
     qtbot.wait(150)
-    assert window.session.finder._finding is None
+    assert running() == ()
     assert window.session.finder.structure is None
 
 

@@ -1,0 +1,123 @@
+"""Work beside the window: a callable in a thread that has a name, can be called off, and reports once."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from PySide6.QtCore import QObject, Qt, Signal
+
+from hexmend_app.state.standing_back import stand_back
+
+#: Tasks that have begun and whose owners have neither heard of their end nor waited for it. It keeps them alive, so
+#: that none is taken down by the thread that it runs in.
+_BEGUN: set[Task] = set()
+
+
+def running() -> tuple[Task, ...]:
+    """The tasks whose threads have not ended, by name."""
+    return tuple(sorted((task for task in _BEGUN if not task.over), key=lambda task: task.name))
+
+
+class Task(QObject):
+    """Does one piece of work in a thread of its own.
+
+    It belongs to the thread that makes it, and so do its signals: they are queued there, whoever listens.
+
+    Parameters
+    ----------
+    name : str
+        The thread's, as `threading.enumerate` and a debugger show it.
+    work : callable
+        Called in the thread with this task. What it returns is `result`, what it raises is `error`; once `cancelled` is
+        set it should return soon, which nobody else can make it do.
+    yields : bool
+        Whether the window goes first, as it should where the work takes seconds.
+
+    Attributes
+    ----------
+    name : str
+    cancelled : threading.Event
+    result
+        What the work returned; None until it is over.
+    error : BaseException or None
+        What the work raised.
+
+    Signals
+    -------
+    told(object)
+        What the work has told, in that order.
+    ended
+        The work is over. The last signal, and the only one where the work told nothing.
+    """
+
+    told = Signal(object)
+    ended = Signal()
+    _tells = Signal(object)
+    _ends = Signal()
+
+    def __init__(self, name: str, work: Callable[[Task], Any], *, yields: bool = False):
+        super().__init__()
+        self.name = name
+        self.cancelled = threading.Event()
+        self.result: Any = None
+        self.error: BaseException | None = None
+        self._work: Callable[[Task], Any] | None = work
+        self._yields = yields
+        self._listened_to = True
+        self._thread = threading.Thread(target=self._run, name=name)
+        self._tells.connect(self._pass_on, Qt.ConnectionType.QueuedConnection)
+        self._ends.connect(self._finish, Qt.ConnectionType.QueuedConnection)
+
+    @property
+    def over(self) -> bool:
+        """Whether the thread has begun and ended."""
+        return self._thread.ident is not None and not self._thread.is_alive()
+
+    def start(self) -> None:
+        """Begin; once."""
+        _BEGUN.add(self)
+        self._thread.start()
+
+    def tell(self, message: Any) -> None:
+        """Say something to whoever listens to `told`; from the work, and seldom: every message is delivered."""
+        self._tells.emit(message)
+
+    def cancel(self) -> None:
+        """Ask the work to end; its end is told as usual."""
+        self.cancelled.set()
+
+    def drop(self) -> None:
+        """Ask the work to end, and hear no more of it."""
+        self.cancel()
+        self._listened_to = False
+
+    def wait(self) -> None:
+        """Wait until the thread has ended, which it must be about to; no signal comes after that."""
+        self._listened_to = False
+        self._end()
+
+    def _end(self) -> None:
+        self._thread.join()
+        self._work = None  # which may know this task: no circle is left for another thread to collect
+        _BEGUN.discard(self)
+
+    def _run(self) -> None:
+        try:
+            if self._yields:
+                stand_back()
+            self.result = self._work(self)
+        except BaseException as error:  # whatever it is, the window has to say it
+            self.error = error
+        finally:
+            self._ends.emit()
+
+    def _pass_on(self, message: Any) -> None:
+        if self._listened_to:
+            self.told.emit(message)
+
+    def _finish(self) -> None:
+        self._end()
+        if self._listened_to:
+            self.ended.emit()
