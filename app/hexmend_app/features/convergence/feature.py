@@ -8,9 +8,9 @@ from pathlib import Path
 from PySide6.QtCore import QTimer
 
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
+from hexmend_app.features.convergence.curves import Columns, Curve, beginning, free_slot
 from hexmend_app.features.convergence.file import write_convergence
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.state.convergence import Columns, Curve, beginning, free_slot
 from hexmend_app.state.history import Record
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.questions import ask_convergence
