@@ -20,7 +20,7 @@ CORE = [
     {"topology"},
     {"mesh"},
     {"quality", "structure"},
-    {"energy", "gallery"},
+    {"energy", "gallery", "movement"},
     {"optimise"},
     {"smoothers"},
     {"recipe"},

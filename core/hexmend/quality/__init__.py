@@ -8,7 +8,7 @@ import pkgutil
 
 from hexmend.quality.element import Element, Node, element, node, worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked, measure
-from hexmend.quality.metric import METRICS, Metric
+from hexmend.quality.metric import METRICS, ElementFigure, Metric
 from hexmend.quality.q import Q
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
 from hexmend.quality.spread import Spread, spreads
@@ -22,6 +22,7 @@ __all__ = [
     "METRICS",
     "SCALED_JACOBIAN",
     "Element",
+    "ElementFigure",
     "ElementQuality",
     "Metric",
     "Node",

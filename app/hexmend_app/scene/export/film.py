@@ -15,7 +15,6 @@ from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, st
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look, Since
-from hexmend_app.state.movement import Moment, Movement
 from hexmend_app.state.shots import Shot
 
 #: What can be written, by suffix: all are shown by browsers.
