@@ -11,6 +11,7 @@ from PIL import Image, ImageDraw
 
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
+from hexmend.movement import Moment, Movement
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
