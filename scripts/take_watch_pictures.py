@@ -10,9 +10,9 @@ from pathlib import Path
 
 from take_screenshots import take, turn, until
 
+from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.scene.palette import Choice
 from hexmend_app.shell.window import Window
-from hexmend_app.state.breakpoints import Breakpoints
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, Since, Traces
 from hexmend_app.state.run import Phase

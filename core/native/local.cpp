@@ -19,6 +19,23 @@ template <bool soft> Visit seen(Patch<Lanes> &patch, double delta, double p) {
     return patch.value_and_gradient<soft>(delta, p);
 }
 
+// Writes down what becomes of the one node that is visited.
+struct Record {
+    Verdict verdict;
+    Chosen chosen{};
+    double alpha = 0;
+    Point place{};
+    Made<double, 3> trials;
+
+    void tries(double alpha, double value, double bound) {
+        for (double number : {alpha, value, bound}) trials.values.push_back(number);
+    }
+    void stays(Verdict why, const Chosen &how = {}) { verdict = why, chosen = how; }
+    void moves(std::int32_t, const Point &there, const Chosen &how, double far) {
+        verdict = MOVED, chosen = how, alpha = far, place = there;
+    }
+};
+
 }  // namespace
 
 void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
@@ -36,23 +53,17 @@ std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Po
     return {factor, at.value, {at.gradient.x, at.gradient.y, at.gradient.z}, {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}};
 }
 
-std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(Points points, Hexes hexes,
-                                                                                Indices star, double factor,
-                                                                                int direction, double delta, double p,
-                                                                                double first, double shrink, double c1,
-                                                                                int cuts) {
+std::tuple<int, std::array<double, 3>, double, bool, double, double, std::array<double, 3>, Made<double, 3>> visit(
+    Points points, Hexes hexes, Indices star, int direction, double delta, double p, double first, double shrink,
+    double c1, int cuts) {
     LocalStep how{direction, delta, p, first, shrink, c1, cuts};
-    auto patch = patch_of(star);
-    patch.load(points, hexes, star, factor);
-    Visit at = delta != 0 ? seen<true>(patch, delta, p) : seen<false>(patch, delta, p);
-    Chosen chosen = choose(patch, at, how);
-    Made<double, 3> trials;
-    auto tell = [&](double alpha, double value) {
-        for (double number : {alpha, value, at.value + c1 * alpha * chosen.slope}) trials.values.push_back(number);
-    };
-    double alpha = delta != 0 ? back_line_search<true>(patch, at, chosen, how, tell)
-                              : back_line_search<false>(patch, at, chosen, how, tell);
-    return {{chosen.d.x, chosen.d.y, chosen.d.z}, chosen.slope, chosen.fallback, alpha, std::move(trials)};
+    Patch<Lanes> patch[]{patch_of(star)};
+    Record record;
+    delta != 0 ? visit<true>(patch, points, hexes, {star}, how, record)
+               : visit<false>(patch, points, hexes, {star}, how, record);
+    const auto &[d, slope, shift, fallback] = record.chosen;
+    return {record.verdict, {d.x, d.y, d.z}, slope,        fallback,
+            shift,          record.alpha,    record.place, std::move(record.trials)};
 }
 
 void along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction, double delta,

@@ -9,6 +9,9 @@ namespace hexmend {
 
 enum Direction { STEEPEST_DESCENT, NEWTON, MODIFIED_NEWTON };
 
+// What becomes of a node that is visited.
+enum Verdict { MOVED, NO_DESCENT, FLAT, INFINITE };
+
 // What a method does at a node; lengths are in mean edge lengths of the patch.
 struct LocalStep {
     int direction;
@@ -22,11 +25,9 @@ void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners,
 std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Points points, Hexes hexes, Indices star,
                                                                               double factor, double delta, double p);
 
-std::tuple<std::array<double, 3>, double, bool, double, Made<double, 3>> search(Points points, Hexes hexes,
-                                                                                Indices star, double factor,
-                                                                                int direction, double delta, double p,
-                                                                                double first, double shrink, double c1,
-                                                                                int cuts);
+std::tuple<int, std::array<double, 3>, double, bool, double, double, std::array<double, 3>, Made<double, 3>> visit(
+    Points points, Hexes hexes, Indices star, int direction, double delta, double p, double first, double shrink,
+    double c1, int cuts);
 
 void along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction, double delta,
            double p, std::span<std::array<double, 2>> curve);

@@ -8,7 +8,7 @@ namespace hexmend {
 
 struct Chosen {
     V3<double> d;
-    double slope;
+    double slope, shift;
     bool fallback;
 };
 
@@ -18,19 +18,25 @@ inline V3<double> steepest_descent(double f, const V3<double> &gradient, double 
     return factor * gradient;
 }
 
-// Algorithms A.3 and A.4: H p_k = -grad f, in A.4 after the least eigenvalue was raised.
-inline V3<double> newton(Symmetric hessian, const V3<double> &gradient, bool modified) {
-    if (modified) {
-        auto [least, greatest] = extreme_eigenvalues(hessian);
-        if (least < 0.001 * greatest) hessian.raise(0.001 * greatest - least);
-    }
+// Algorithm A.4: what is added to the eigenvalues, so that the least is at least a thousandth of the greatest.
+inline double shift_of(const Symmetric &hessian) {
+    auto [least, greatest] = extreme_eigenvalues(hessian);
+    return least < 0.001 * greatest ? 0.001 * greatest - least : 0.0;
+}
+
+// Algorithms A.3 and A.4: H p_k = -grad f, in A.4 after the eigenvalues were raised.
+inline V3<double> newton(Symmetric hessian, const V3<double> &gradient, double shift) {
+    if (shift > 0) hessian.raise(shift);
     return solve(hessian, -gradient);
 }
 
 template <class T> inline Chosen choose(const Patch<T> &patch, const Visit &at, const LocalStep &how) {
     Chosen chosen{};
-    if (how.direction != STEEPEST_DESCENT)
-        chosen.d = newton(patch.hessian(), at.gradient, how.direction == MODIFIED_NEWTON);
+    if (how.direction != STEEPEST_DESCENT) {
+        Symmetric hessian = patch.hessian();
+        if (how.direction == MODIFIED_NEWTON) chosen.shift = shift_of(hessian);
+        chosen.d = newton(hessian, at.gradient, chosen.shift);
+    }
     chosen.slope = dot(at.gradient, chosen.d);
     if (!(chosen.slope < 0)) {  // no direction of descent
         chosen.fallback = how.direction != STEEPEST_DESCENT;
@@ -40,26 +46,30 @@ template <class T> inline Chosen choose(const Patch<T> &patch, const Visit &at, 
     return chosen;
 }
 
-// Algorithm A.5 along d: the accepted step; 0 if none of `cuts` + 1 trials descends enough. `tell(alpha, value)` hears
-// of each trial.
-template <bool soft, class T, class Tell>
+// Algorithm A.5 along d: the accepted step; 0 if none of `cuts` + 1 trials descends enough. `hear` is
+// told of each trial.
+template <bool soft, class T, class Hearer>
 inline double back_line_search(Patch<T> &patch, const Visit &at, const Chosen &chosen, const LocalStep &how,
-                               Tell &&tell) {
+                               Hearer &hear) {
     patch.aim(chosen.d);
     double alpha = how.first;
     for (int cut = 0; cut <= how.cuts; ++cut, alpha *= how.shrink) {
         double trial = patch.template value_along<soft>(alpha, how.delta, how.p);
-        tell(alpha, trial);
-        if (trial < at.value + how.c1 * alpha * chosen.slope) return alpha;
+        double bound = at.value + how.c1 * alpha * chosen.slope;
+        hear.tries(alpha, trial, bound);
+        if (trial < bound) return alpha;
     }
     return 0;
 }
 
-// Several nodes that share no hex, moved as a method moves them, stage by stage: while one waits for its roots and
-// quotients the processor works on another.
-template <bool soft, class T, int nodes>
-inline void visit(Patch<T> (&patch)[nodes], std::span<Point> points, Hexes hexes, const Star (&star)[nodes],
-                  const LocalStep &how) {
+// The node that a star belongs to.
+inline std::int32_t node_of(Hexes hexes, Star star) { return hexes[star[0] / 8][star[0] % 8]; }
+
+// Visit nodes that share no hex, stage by stage: while one waits for its roots and quotients the processor works on
+// another. `hear` is told what becomes of each: its trials, and what was chosen, taken and reached at the end.
+template <bool soft, class T, int nodes, class Hearer>
+inline void visit(Patch<T> (&patch)[nodes], Points points, Hexes hexes, const Star (&star)[nodes], const LocalStep &how,
+                  Hearer &&hear) {
     double scale[nodes];
     Visit at[nodes];
     for (int k = 0; k < nodes; ++k) scale[k] = patch[k].load(points, hexes, star[k]);
@@ -67,16 +77,38 @@ inline void visit(Patch<T> (&patch)[nodes], std::span<Point> points, Hexes hexes
     for (int k = 0; k < nodes; ++k) at[k] = patch[k].template value_and_gradient<soft>(how.delta, how.p);
     for (int k = 0; k < nodes; ++k) {
         const V3<double> &g = at[k].gradient;
-        if (scale[k] == 0 || !(0 < at[k].value && at[k].value < INF) || (g.x == 0 && g.y == 0 && g.z == 0)) continue;
+        if (scale[k] == 0 || at[k].value == 0 || (g.x == 0 && g.y == 0 && g.z == 0)) {
+            hear.stays(FLAT);
+            continue;
+        }
+        if (!(at[k].value < INF)) {
+            hear.stays(INFINITE);
+            continue;
+        }
         Chosen chosen = choose(patch[k], at[k], how);
-        double alpha = back_line_search<soft>(patch[k], at[k], chosen, how, [](double, double) {});
-        if (alpha == 0) continue;
-        Point &node = points[hexes[star[k][0] / 8][star[k][0] % 8]];
-        node[0] += alpha * chosen.d.x / scale[k];
-        node[1] += alpha * chosen.d.y / scale[k];
-        node[2] += alpha * chosen.d.z / scale[k];
+        double alpha = back_line_search<soft>(patch[k], at[k], chosen, how, hear);
+        if (alpha == 0) {
+            hear.stays(NO_DESCENT, chosen);
+            continue;
+        }
+        std::int32_t node = node_of(hexes, star[k]);
+        const Point &from = points[node];
+        const V3<double> &d = chosen.d;
+        hear.moves(
+            node,
+            {from[0] + alpha * d.x / scale[k], from[1] + alpha * d.y / scale[k], from[2] + alpha * d.z / scale[k]},
+            chosen, alpha);
     }
 }
+
+// Moves the nodes that are visited.
+struct Mover {
+    std::span<Point> points;
+
+    void tries(double, double, double) {}
+    void stays(Verdict, const Chosen & = {}) {}
+    void moves(std::int32_t node, const Point &place, const Chosen &, double) { points[node] = place; }
+};
 
 // The most hexes that meet at one of `nodes`.
 inline std::int64_t most_at(Indices start, Indices nodes) {
@@ -105,8 +137,8 @@ void sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corne
             std::int64_t k = begin;
             if constexpr (width<T> > 1)
                 for (; k + TOGETHER <= end; k += TOGETHER)
-                    visit<soft>(several, points, hexes, {star(k), star(k + 1)}, how);
-            for (; k < end; ++k) visit<soft>(alone, points, hexes, {star(k)}, how);
+                    visit<soft>(several, points, hexes, {star(k), star(k + 1)}, how, Mover{points});
+            for (; k < end; ++k) visit<soft>(alone, points, hexes, {star(k)}, how, Mover{points});
         });
     }
 }

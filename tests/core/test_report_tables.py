@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import FileError
+from hexmend.figures import significant
 from hexmend.report import Table, comparison_table, latex, made_folder, markdown, table_of, write_csv, write_documents
-from hexmend.report.comparison import FIGURES
+from hexmend.report.comparison import LINES
 from hexmend.report.documents import write_document
-from hexmend.report.tables import significant
 
 AWKWARD = "a_b & 50 % of #1 {x} ~ $y$ ^ \\ | <i>*[z]*</i> `c`"
 TABLE = Table(AWKWARD, ["", AWKWARD, "µ"], [[AWKWARD, "1", "–"], ["q min", "0.5", AWKWARD]], [AWKWARD])
@@ -66,14 +66,14 @@ def test_a_published_figure_stands_below_ours_and_a_missing_one_is_a_dash():
     assert ours == ["0.2500", "0.5000"]
     assert table.rows[at + 1] == ["– thesis", "–", "0.7500"]
     assert rows["time, s"][1] == ["–", "–"]
-    assert [row[0] for row in table.rows if row[0] != "– thesis"] == [figure.label for figure in FIGURES]
+    assert [row[0] for row in table.rows if row[0] != "– thesis"] == [figure.label for figure in LINES]
 
 
 def test_many_methods_turn_the_table_on_its_side_and_lose_nothing():
     columns = {f"method-{k}": record(q_min=k / 100) for k in range(9)}
     table = comparison_table("T", columns)
     assert [row[0] for row in table.rows] == list(columns)
-    assert list(table.head[1:]) == [figure.label for figure in FIGURES]
+    assert list(table.head[1:]) == [figure.label for figure in LINES]
     assert [row[table.head.index("q min")] for row in table.rows] == [f"{k / 100:.4f}" for k in range(9)]
     assert table.transposed.transposed == table
 

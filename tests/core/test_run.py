@@ -8,8 +8,9 @@ import pytest
 from hexmend.errors import ParameterError
 from hexmend.gallery import make
 from hexmend.optimise import Outcome
+from hexmend.optimise.figures import HISTORY
 from hexmend.quality import measure, summarise
-from hexmend.report import HISTORY, record, to_json, write_history, write_json
+from hexmend.report import record, to_json, write_history, write_json
 from hexmend.run import Stop, iterate, smooth
 from tests.core.grids import grid, scrambled
 

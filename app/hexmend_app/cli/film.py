@@ -40,10 +40,10 @@ class Film:
         look = looks.look_of(args, mesh)
         prepare_off_screen()
         from hexmend_app.scene.export.film import format_of, pictures, write_film
+        from hexmend_app.scene.export.shots import chosen as shown
+        from hexmend_app.scene.export.shots import shots
         from hexmend_app.state.document import State
         from hexmend_app.state.history import History
-        from hexmend_app.state.shots import chosen as shown
-        from hexmend_app.state.shots import shots
 
         format_of(path)  # an unknown suffix is said before the work, not after
         run, history = iterate(mesh, what, stop), History()

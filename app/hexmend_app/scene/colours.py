@@ -8,10 +8,10 @@ from functools import cache
 
 import numpy as np
 
+from hexmend.movement import MOVEMENTS, NOTHING, named
 from hexmend_app.scene.palette import INVERTED as MAGENTA
 from hexmend_app.scene.values import better, declared_range
 from hexmend_app.state.look import ColourScale, RangeMode
-from hexmend_app.state.movement import MOVEMENTS, NOTHING, named
 
 #: The maps on offer, each perceptually uniform; the first is the default. None diverges: that would need a value in the
 #: middle that means something, and the one there might be, zero, parts off the inverted, which have their own colour.

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hexmend.mesh import Mesh
+from hexmend.movement import Movement
 from hexmend.quality import ElementQuality
 from hexmend_app.state.look import Look
-from hexmend_app.state.movement import Movement
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.movement import named
 from hexmend.quality import METRICS
 from hexmend_app.state.look import RangeMode, ValueRange
-from hexmend_app.state.movement import named
 
 
 def within(values: np.ndarray, inverted: np.ndarray, chosen: ValueRange) -> np.ndarray:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QPoint, QSettings, Qt, QTimer
+from PySide6.QtCore import QEvent, QPoint, Qt, QTimer
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMainWindow, QWidget
 
 from hexmend_app.shell.docks import Docks
+from hexmend_app.state import settings
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.overlay import Overlay
@@ -192,9 +193,8 @@ class Window(QMainWindow):
         if not self.may_leave():
             event.ignore()
             return
-        settings = QSettings()
-        settings.setValue("geometry", self.saveGeometry())
-        settings.setValue("panels", self.docks.state())
+        settings.GEOMETRY.set(self.saveGeometry())
+        settings.PANELS.set(self.docks.state())
         self.hide()  # threads may take a while to end
         for feature in self.features.values():
             feature.close()
@@ -217,8 +217,5 @@ class Window(QMainWindow):
         self.resize(min(1600, round(room.width() * 0.94)), min(1000, round(room.height() * 0.92)))
 
     def _restore(self) -> None:
-        settings = QSettings()
-        if settings.contains("geometry"):
-            self.restoreGeometry(settings.value("geometry"))
-        if settings.contains("panels"):
-            self.docks.restore(settings.value("panels"))
+        self.restoreGeometry(settings.GEOMETRY.get())  # nothing happens where nothing was kept
+        self.docks.restore(settings.PANELS.get())

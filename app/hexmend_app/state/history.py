@@ -12,9 +12,10 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration
 from hexmend_app.state.document import State
+from hexmend_app.state.settings import HISTORY_MEGABYTES
 
 #: Bytes that positions may take unless the user says otherwise: 400 iterations of 110,000 hexes.
-LIMIT = 512 << 20
+LIMIT = HISTORY_MEGABYTES.default << 20
 
 
 class Record:

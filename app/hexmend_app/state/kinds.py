@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh import Mesh
+from hexmend.movement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Movement
 from hexmend.quality import ElementQuality, locked
 from hexmend_app.state.look import Isolation
-from hexmend_app.state.movement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Movement
 from hexmend_app.state.view import View
 
 #: Those that a movement tells apart.

@@ -31,7 +31,7 @@ class ColourScale:
     Parameters
     ----------
     metric : str
-        A name of `hexmend.quality.METRICS`, or of `hexmend_app.state.movement.MOVEMENTS`.
+        A name of `hexmend.quality.METRICS`, or of `hexmend.movement.MOVEMENTS`.
     map : str
         A name of `hexmend_app.scene.colours.MAPS`.
     mode : RangeMode

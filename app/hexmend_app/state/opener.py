@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from enum import Enum
 from functools import partial
 from pathlib import Path
 
@@ -13,14 +15,31 @@ from hexmend_app.state.document import Document, State
 from hexmend_app.state.task import Task
 
 
+class Doing(Enum):
+    """What is being done to a mesh that is opened."""
+
+    READING = "reading"
+    MEASURING = "measuring"
+    PREPARING = "preparing"
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far the opening of a file is; `hexes` is 0 as long as nobody knows."""
+
+    doing: Doing
+    path: Path
+    hexes: int = 0
+
+
 def _read(path: Path, task: Task) -> State:
     """Read, measure and prepare one mesh, and tell which of them has begun; what goes wrong is a `HexmendError`."""
     try:
-        task.tell(f"Reading {path.name}…")
+        task.tell(Progress(Doing.READING, path))
         mesh = read(path)
-        task.tell(f"Measuring {path.name}, {mesh.n_hexes:,} hexes…")
+        task.tell(Progress(Doing.MEASURING, path, mesh.n_hexes))
         state = State.of(mesh)
-        task.tell(f"Preparing the view of {path.name}…")
+        task.tell(Progress(Doing.PREPARING, path, mesh.n_hexes))
         _ = state.mesh.topology.face_neighbours, state.mesh.topology.layers  # what the view draws from
     except HexmendError:
         raise
@@ -35,7 +54,7 @@ class Opener(QObject):
     Signals
     -------
     began(Path)
-    told(str)
+    told(Progress)
         What is being done now.
     ended(Path)
         The mesh is the document's.

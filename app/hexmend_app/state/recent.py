@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QSettings, Signal
+from PySide6.QtCore import QObject, Signal
+
+from hexmend_app.state.settings import RECENT
 
 #: Files that are remembered.
 MOST = 10
@@ -23,7 +24,7 @@ class Recent(QObject):
 
     def files(self) -> list[Path]:
         """The files, whether they are still there or not."""
-        return [Path(path) for path in json.loads(QSettings().value("recent", "[]"))]
+        return list(RECENT.get())
 
     def add(self, path: Path) -> None:
         """Remember a file that was opened."""
@@ -35,5 +36,5 @@ class Recent(QObject):
         self._keep([])
 
     def _keep(self, files: list[Path]) -> None:
-        QSettings().setValue("recent", json.dumps([str(path) for path in files]))
+        RECENT.set(tuple(files))
         self.changed.emit()

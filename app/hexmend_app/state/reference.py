@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from hexmend.movement import Moment, Movement
 from hexmend_app.state import history
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History
 from hexmend_app.state.look import Since
-from hexmend_app.state.movement import Moment, Movement
 
 
 class References:

@@ -12,8 +12,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from hexmend.optimise import Result
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
+from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import Smoother
-from hexmend_app.state.breakpoints import Breakpoints
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History, Moment, Record
 from hexmend_app.state.worker import Frame, Worker

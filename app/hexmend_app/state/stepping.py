@@ -49,10 +49,7 @@ class Stepping(QObject):
     @property
     def title(self) -> str | None:
         """What undo would take back; None while no sweep is under way."""
-        if self.sweep is None:
-            return None
-        count = self.sweep.done
-        return f"sweep of {self.sweep.smoother.name}, {count:,} node{'s' * (count != 1)}"
+        return self.sweep and self.sweep.title
 
     def advance(self, smoother: LocalDescent, count: int = 1) -> None:
         """Visit that many more nodes of the sweep under way, or of a new one."""

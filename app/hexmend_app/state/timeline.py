@@ -7,9 +7,10 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from hexmend_app.state.document import Document
 from hexmend_app.state.history import History, Moment, Record
 from hexmend_app.state.run import Phase, Smoothing
+from hexmend_app.state.settings import ITERATIONS_PLAYED
 
 #: Iterations a second at which a run is played.
-SPEED = 10
+SPEED = ITERATIONS_PLAYED.default
 
 
 class Timeline(QObject):

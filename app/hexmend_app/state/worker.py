@@ -11,8 +11,8 @@ from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import Run, Stop, iterate
+from hexmend.run.breakpoints import Breakpoints, Hit
 from hexmend.smoothers import Smoother
-from hexmend_app.state.breakpoints import Breakpoints, Hit
 from hexmend_app.state.document import State
 from hexmend_app.state.measured import values
 from hexmend_app.state.task import Task

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QSettings, QSize, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QSize, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QWidget
+
+from hexmend_app.state.settings import place_of
 
 _MARGIN = 8
 _MOUSE = (
@@ -46,8 +48,8 @@ class Overlay(QObject):
     ):
         super().__init__(widget)
         self._widget, self._over, self._home, self._width = widget, over, home, width
-        self._key = key and f"overlay/{key}"
-        self._place = self._kept() if key else home
+        self._setting = place_of(key, home) if key else None
+        self._place = self._setting.get() if key else home
         self._grip: QPoint | None = None  # where on the widget the mouse holds it
         widget.setParent(over)
         if key:
@@ -102,7 +104,7 @@ class Overlay(QObject):
 
     def _follow(self, event: QMouseEvent) -> None:
         """Move as the mouse does; what is not the mouse's to move stays."""
-        if self._key is None:
+        if self._setting is None:
             return
         kind, at = event.type(), event.globalPosition()
         if kind == QEvent.Type.MouseButtonPress and event.button() == Qt.MouseButton.LeftButton:
@@ -128,15 +130,6 @@ class Overlay(QObject):
 
     def _keep(self) -> None:
         if self._place == self._home:
-            QSettings().remove(self._key)
+            self._setting.forget()
         else:
-            QSettings().setValue(self._key, " ".join(f"{share:.4f}" for share in self._place))
-
-    def _kept(self) -> tuple[float, float]:
-        """The place in the settings; home where there is none that can be read."""
-        try:
-            x, y = (float(share) for share in str(QSettings().value(self._key, "")).split())
-        except ValueError:
-            return self._home
-        inside = all(0 <= share <= 1 for share in (x, y))
-        return (x, y) if inside else self._home
+            self._setting.set(self._place)

@@ -6,10 +6,10 @@ import re
 from enum import Enum
 from pathlib import Path
 
-from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from hexmend.io import readable_suffixes, writable_suffixes
+from hexmend_app.state.settings import FOLDER
 
 
 class Answer(Enum):
@@ -74,12 +74,12 @@ def ask_comparison(parent: QWidget, stem: str) -> str:
 
 def remember_folder(path: Path) -> None:
     """Begin the next dialog, of whatever kind, where this file lies."""
-    QSettings().setValue("folder", str(path.resolve().parent))
+    FOLDER.set(path.resolve().parent)
 
 
 def folder() -> Path:
     """Where dialogs begin: the folder of the file that was last opened or saved, as long as there is one."""
-    kept = Path(str(QSettings().value("folder", "")))
+    kept = FOLDER.get()
     return kept if kept.is_dir() else Path.home()
 
 

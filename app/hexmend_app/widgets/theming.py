@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from enum import Enum
 
-from PySide6.QtCore import QSettings, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
+from hexmend_app.state.settings import THEME
 from hexmend_app.widgets.style import apply_style
 
 
@@ -27,13 +28,13 @@ _SCHEMES = {
 
 def chosen() -> Choice:
     """What the user chose; at first, to do as the desktop does."""
-    kept = QSettings().value("theme", Choice.DESKTOP.value)
+    kept = THEME.get()
     return Choice(kept) if kept in [choice.value for choice in Choice] else Choice.DESKTOP
 
 
 def choose(choice: Choice) -> None:
     """Wear another theme, at once and at the next start."""
-    QSettings().setValue("theme", choice.value)
+    THEME.set(choice.value)
     wear()
 
 

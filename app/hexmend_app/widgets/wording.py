@@ -6,6 +6,8 @@ import math
 import re
 from pathlib import Path
 
+from PySide6.QtCore import QLocale
+
 _GREEK = {"alpha": "α", "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "rho": "ρ", "sigma": "σ", "tau": "τ"}
 _SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
@@ -80,13 +82,13 @@ def position(place: float, extent: float, digits: int = 4) -> str:
     return f"{0.0 if abs(place) < 1e-4 * extent else place:.{digits}g}".replace("-", "−")
 
 
-def megabytes(bytes: int) -> str:
+def size(bytes: int) -> str:
     """An amount of memory.
 
-    >>> megabytes(123 << 20), megabytes(1 << 30), megabytes(10_000)
-    ('123 MB', '1 GB', '0 MB')
+    >>> size(123 << 20), size(1 << 30), size(3 << 29)
+    ('123 MiB', '1 GiB', '1.5 GiB')
     """
-    return f"{bytes / (1 << 30):g} GB" if bytes and bytes % (1 << 30) == 0 else f"{round(bytes / (1 << 20)):,} MB"
+    return QLocale.c().formattedDataSize(bytes, 1).replace(".0 ", " ")
 
 
 def counted(number: int, noun: str, plural: str = "") -> str:

@@ -8,41 +8,23 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from hexmend.quality import Spread, Summary
 
-#: Rows of a summary: field, label.
-ROWS = (
-    ("hexes", "Hexes"),
-    ("nodes", "Nodes"),
-    ("free_nodes", "Free nodes"),
-    ("inverted", "Inverted hexes"),
-    ("locked_inverted", "  locked by fixed nodes"),
-    ("q_min", "q min"),
-    ("q_mean", "q mean"),
-    ("q_max", "q max"),
-    ("q_std", "q std"),
-    ("q_norm", "q norm"),
-    ("scaled_jacobian_min", "Scaled Jacobian min"),
-    ("objective", "Objective Σ η²"),
-)
-
-
-def figure(value: float | int | None) -> str:
-    """A figure as people read it: thousands in commas, four places, a dash for what is infinite."""
-    if value is None:
-        return "–"
-    if isinstance(value, int):
-        return f"{value:,}"
-    return f"{value:.4f}" if abs(value) < 1e4 else f"{value:.6g}"
-
 
 def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summary]) -> None:
     """Print one or several summaries side by side."""
+    from hexmend.quality import FIGURES
+
     print(title)
-    rows = [[label, *(figure(getattr(summary, field)) for summary in summaries)] for field, label in ROWS]
+    records = [summary.to_dict() for summary in summaries]
+    rows = [
+        [f"  {figure.label}" if figure.part_of else figure.title, *(figure.of(record) for record in records)]
+        for figure in FIGURES.values()
+    ]
     print_columns(["", *heads] if len(heads) > 1 else None, rows)
 
 
 def print_spreads(spreads: Mapping[str, Spread]) -> None:
     """Print what every metric's values are, and how many hexes have one that is not acceptable."""
+    from hexmend.figures import count
     from hexmend.quality import METRICS
 
     rows = []
@@ -50,7 +32,7 @@ def print_spreads(spreads: Mapping[str, Spread]) -> None:
         low, high = METRICS[name].acceptable
         values = ("–" if value is None else f"{value:.3g}" for value in (spread.min, spread.mean, spread.max))
         acceptable = f"{low:g} to {high:g}".replace("inf", "∞")
-        rows.append([name, *values, acceptable, figure(spread.unacceptable), figure(spread.infinite)])
+        rows.append([name, *values, acceptable, count(spread.unacceptable), count(spread.infinite)])
     print_columns(["Metric", "Min", "Mean", "Max", "Acceptable", "Outside", "Infinite"], rows)
 
 

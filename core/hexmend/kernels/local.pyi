@@ -13,6 +13,14 @@ NEWTON: int = 1
 
 MODIFIED_NEWTON: int = 2
 
+MOVED: int = 0
+
+NO_DESCENT: int = 1
+
+FLAT: int = 2
+
+INFINITE: int = 3
+
 def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: int, delta: float, p: float, first: float, shrink: float, c1: float, cuts: int) -> None:
     """
     Move every node of `nodes` once, in place: one pass of Algorithm 3.2.
@@ -31,12 +39,14 @@ def look(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='
     0 if the patch has no extent; the value; its gradient; second derivatives xx xy xz yy yz zz.
     """
 
-def search(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, direction: int, delta: float, p: float, first: float, shrink: float, c1: float, cuts: int) -> tuple[list[float], float, bool, float, Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+def visit(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: int, delta: float, p: float, first: float, shrink: float, c1: float, cuts: int) -> tuple[int, list[float], float, bool, float, float, list[float], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """
-    The direction and the line search of a visit of `sweep`.
+    What `sweep` does at one node, that the corners `star` (8 * hex + corner) share; it moves nothing.
 
-    Returns the direction, its slope, whether it fell back to steepest descent, the accepted step (0: none),
-    and alpha, energy and bound of each trial, (trials, 3).
+    Returns the verdict (MOVED, NO_DESCENT, FLAT, INFINITE); the direction, its slope, whether it fell back to
+    steepest descent, what A.4 added to the eigenvalues; the accepted step and the place that it leads to; and
+    alpha, energy and bound of each trial, (trials, 3). Where the verdict is FLAT or INFINITE, there is no
+    direction; a place only where it is MOVED. The direction is in lengths so that the patch's mean edge is 1.
     """
 
 def along(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, direction: Sequence[float], delta: float, p: float, curve: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu')]) -> None:

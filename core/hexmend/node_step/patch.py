@@ -1,4 +1,4 @@
-"""A node's patch, ready to be asked: what `kernels.local.sweep` works out of it, one thing at a time."""
+"""A node's patch, ready to be asked for its energy at other places of the node."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import numpy as np
 
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
-from hexmend.node_step.record import Trial
 
 #: Places at which a curve is drawn, and how far it reaches: so many times the step that was accepted, or a little more
 #: than the first trial.
@@ -47,19 +46,6 @@ class Patch:
         self.gradient = np.array(gradient)
         xx, xy, xz, yy, yz, zz = second
         self.hessian = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-
-    def search(
-        self, direction: int, first: float, shrink: float, c1: float, cuts: int
-    ) -> tuple[np.ndarray, float, bool, float, tuple[Trial, ...]]:
-        """The search direction, in `unit`, its slope, whether it fell back to steepest descent; alpha; its trials."""
-        d, slope, fallback, alpha, trials = local.search(
-            *self._where, direction, self.delta, self.p, first, shrink, c1, cuts
-        )
-        return np.array(d), slope, fallback, alpha, tuple(Trial(*row) for row in trials.tolist())
-
-    def moved(self, before: np.ndarray, direction: np.ndarray, alpha: float) -> np.ndarray:
-        """Where alpha of a direction, in `unit`, leads from `before`, (3,) in the mesh's unit."""
-        return before + alpha * direction / self._factor
 
     def curve(self, direction: np.ndarray, reach: float) -> np.ndarray:
         """The energy along a direction, in `unit`, from alpha = 0 to `reach`: alpha, energy, (PLACES, 2)."""

@@ -66,6 +66,11 @@ class Sweep(Iterator[NodeStep]):
         """Where the nodes are by now, (n, 3) float64; a copy."""
         return self._points.copy()
 
+    @property
+    def title(self) -> str:
+        """What it has changed, in short."""
+        return f"sweep of {self.smoother.name}, {self.done:,} node{'s' * (self.done != 1)}"
+
     def look(self, node: int) -> NodeStep:
         """What the method would do to a node if its turn were now."""
         return local_step(self.smoother, self.mesh, self._points, node, self.delta)

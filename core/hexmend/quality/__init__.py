@@ -8,19 +8,21 @@ import pkgutil
 
 from hexmend.quality.element import Element, Node, element, node, worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked, measure
-from hexmend.quality.metric import METRICS, Metric
+from hexmend.quality.metric import METRICS, ElementFigure, Metric
 from hexmend.quality.q import Q
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
 from hexmend.quality.spread import Spread, spreads
-from hexmend.quality.summary import Summary, objective, summarise
+from hexmend.quality.summary import FIGURES, Summary, objective, summarise
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
 __all__ = [
+    "FIGURES",
     "METRICS",
     "SCALED_JACOBIAN",
     "Element",
+    "ElementFigure",
     "ElementQuality",
     "Metric",
     "Node",

@@ -15,8 +15,8 @@ Values = Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]
 
 
 @dataclass(frozen=True)
-class Metric:
-    """A figure of every hex.
+class ElementFigure:
+    """What is declared of a figure that every hex has.
 
     Parameters
     ----------
@@ -30,9 +30,6 @@ class Metric:
         1 where higher values are better, -1 where lower ones are, 0 where neither is.
     meaning : str
         What a bad value means for a solver, in a sentence.
-    of : callable
-        Gives the values, (m,) float64, from `points` (n, 3), `hexes` (m, 8) and the `ElementQuality` measured of them.
-        None is NaN if the points are finite.
     unit : str
         "" for a mere number.
     """
@@ -45,13 +42,26 @@ class Metric:
     acceptable: tuple[float, float]
     better: int
     meaning: str
-    of: Values
     unit: str = ""
 
     def unacceptable(self, values: np.ndarray) -> np.ndarray:
         """True for each value that is worse than the acceptable range, or outside it where neither way is better."""
         low, high = self.acceptable
         return ~(values >= low) & (self.better >= 0) | ~(values <= high) & (self.better <= 0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Metric(ElementFigure):
+    """A figure of every hex of one mesh.
+
+    Parameters
+    ----------
+    of : callable
+        Gives the values, (m,) float64, from `points` (n, 3), `hexes` (m, 8) and the `ElementQuality` measured of them.
+        None is NaN if the points are finite.
+    """
+
+    of: Values
 
 
 def by_kernel(kernel: Callable[..., None], rows: int, row: int, worst: float) -> Values:

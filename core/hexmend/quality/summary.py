@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from hexmend.figures import Figure, count, quality
+from hexmend.figures import objective as energy
 from hexmend.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, locked, measure
+
+
+def _figure(label: str, help: str, text: Callable[[Any], str], better: int = 0, part_of: str = "") -> Any:
+    return dataclasses.field(
+        metadata={"label": label, "help": help, "text": text, "better": better, "part_of": part_of}
+    )
 
 
 @dataclass(frozen=True)
@@ -20,22 +30,66 @@ class Summary:
     is inverted.
     """
 
-    hexes: int
-    nodes: int
-    free_nodes: int
-    inverted: int
-    locked_inverted: int
-    q_min: float
-    q_mean: float
-    q_max: float
-    q_std: float
-    q_norm: float
-    scaled_jacobian_min: float
-    objective: float | None
+    hexes: int = _figure("hexes", "Number of hexahedral elements.", count)
+    nodes: int = _figure("nodes", "Number of nodes that an element uses.", count)
+    free_nodes: int = _figure(
+        "free nodes",
+        "Nodes that smoothing may move; the others, such as those of the surface, are fixed.",
+        count,
+    )
+    inverted: int = _figure(
+        "inverted",
+        "Elements turned inside out at a corner: one of their eight corner tetrahedra has a determinant σ ≤ 0 (2.8). "
+        "A solver cannot use them.",
+        count,
+        -1,
+    )
+    locked_inverted: int = _figure(
+        "of these locked",
+        "Inverted elements with a corner tetrahedron of σ ≤ 0 whose four nodes are all fixed. No method that keeps "
+        "those nodes can mend them.",
+        count,
+        -1,
+        part_of="inverted",
+    )
+    q_min: float = _figure(
+        "q min",
+        "Quality of the worst element. q(H) is the mean over the eight corner tetrahedra of 3 σ^⅔ / |S|², and 0 for "
+        "those with σ ≤ 0 (2.9, 2.10): 1 for a cube, 0 for a flat element.",
+        quality,
+        1,
+    )
+    q_mean: float = _figure("q mean", "Mean quality over all elements (2.11).", quality, 1)
+    q_max: float = _figure("q max", "Quality of the best element.", quality)
+    q_std: float = _figure("q std", "Standard deviation of the elements' quality: how widely it spreads.", quality)
+    q_norm: float = _figure(
+        "q norm",
+        "1 / √(mean of 1/q²) (2.12): a mean in which bad elements count most; 0 as soon as one q is 0.",
+        quality,
+        1,
+    )
+    scaled_jacobian_min: float = _figure(
+        "scaled Jacobian min",
+        "The least σ / (|e₁| |e₂| |e₃|) over all corners: 1 for right angles, 0 for a flat corner, negative for an "
+        "inverted one. Other programs print it.",
+        quality,
+        1,
+    )
+    objective: float | None = _figure(
+        "objective Σ η²",
+        "Sum of η(H)² over all elements, what smoothing minimises (3.3): 0 for cubes, infinite while any element is "
+        "inverted.",
+        energy,
+        -1,
+    )
 
     def to_dict(self) -> dict[str, float | int | None]:
         """Figures by name."""
         return dataclasses.asdict(self)
+
+
+#: The fields of a summary, in order.
+FIGURES: dict[str, Figure] = {field.name: Figure(field.name, **field.metadata) for field in dataclasses.fields(Summary)}
 
 
 def summarise(mesh: Mesh, figures: ElementQuality | None = None) -> Summary:

@@ -12,21 +12,20 @@ from hexmend.report.markdown import markdown
 if _TYPE_CHECKING:
     from hexmend.report.comparison import comparison_rows, comparison_table, table_of, write_comparison
     from hexmend.report.documents import made_folder, write_csv, write_documents, write_text
-    from hexmend.report.records import HISTORY, record, to_json, write_history, write_json
+    from hexmend.report.records import record, to_json, write_history, write_json
     from hexmend.report.tables import Table
     from hexmend.report.thesis import write_experiment, write_study
 
 _HOMES = {
     "comparison": ("comparison_rows", "comparison_table", "table_of", "write_comparison"),
     "documents": ("made_folder", "write_csv", "write_documents", "write_text"),
-    "records": ("HISTORY", "record", "to_json", "write_history", "write_json"),
+    "records": ("record", "to_json", "write_history", "write_json"),
     "tables": ("Table",),
     "thesis": ("write_experiment", "write_study"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
-    "HISTORY",
     "Table",
     "comparison_rows",
     "comparison_table",

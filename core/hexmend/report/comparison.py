@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from hexmend.figures import Figure, count, micro, milli, significant
+from hexmend.quality.summary import FIGURES
 from hexmend.report.documents import write_document
-from hexmend.report.tables import Figure, Table, count, micro, milli, objective, of, quality, significant
+from hexmend.report.tables import Table
 
 #: How a run ended, where the record's own word is not the clearest.
 _ENDED = {
@@ -19,19 +21,25 @@ _ENDED = {
 }
 
 #: The lines of the table: those of the thesis, and what tells how far they can be believed.
-FIGURES = (
-    Figure("inverted", "inverted", count),
-    Figure("q_min", "q min", quality),
-    Figure("q_mean", "q mean", quality),
-    Figure("q_std", "q std", quality),
-    Figure("q_max", "q max", quality),
-    Figure("q_norm", "q norm", quality),
-    Figure("objective", "objective Σ η²", objective),
-    Figure("seconds", "time, s", significant),
-    Figure("iterations", "iterations", count),
-    Figure("seconds_per_iteration", "ms per iteration", milli),
-    Figure("seconds_per_iteration_and_node", "µs per iteration, node", micro),
-    Figure("outcome", "ended", lambda key: _ENDED.get(key, key)),
+LINES: tuple[Figure, ...] = (
+    *(FIGURES[key] for key in ("inverted", "q_min", "q_mean", "q_std", "q_max", "q_norm", "objective")),
+    Figure(
+        "seconds",
+        "time, s",
+        "Seconds in the method, without its preparation and without measuring.",
+        significant,
+        -1,
+    ),
+    Figure("iterations", "iterations", "Iterations until the run ended.", count, -1),
+    Figure("seconds_per_iteration", "ms per iteration", "Milliseconds of an iteration, on average.", milli, -1),
+    Figure(
+        "seconds_per_iteration_and_node",
+        "µs per iteration, node",
+        "Microseconds of an iteration for each node that may move.",
+        micro,
+        -1,
+    ),
+    Figure("outcome", "ended", "Why the run ended.", lambda key: _ENDED.get(key, key)),
 )
 
 #: The thesis's widest table has this many columns of figures; a wider one is turned on its side.
@@ -56,11 +64,11 @@ def comparison_table(
     notes : sequence of str
     """
     rows = []
-    for figure in FIGURES:
-        rows.append([figure.label, *(of(record, figure) for record in columns.values())])
+    for figure in LINES:
+        rows.append([figure.label, *(figure.of(record) for record in columns.values())])
         theirs = [(published or {}).get(head, {}) for head in columns]
         if any(record.get(figure.key) is not None for record in theirs):
-            rows.append(["– thesis", *(of(record, figure) for record in theirs)])
+            rows.append(["– thesis", *(figure.of(record) for record in theirs)])
     table = Table(title, ["", *columns], rows, [*notes, *_explained(columns.values())])
     return table if len(columns) <= _WIDEST or published else table.transposed
 

@@ -12,12 +12,10 @@ from hexmend.io.atomic import replacing
 if TYPE_CHECKING:
     from hexmend.optimise import Result
 
-#: Columns of a history, in order.
-HISTORY = ("iteration", "seconds", "objective", "q_min", "q_mean", "inverted", "largest_move")
-
 
 def record(result: Result) -> dict[str, Any]:
     """The report of `hexmend smooth --json`; `stages` is there for a recipe alone."""
+    from hexmend.optimise.figures import HISTORY
     from hexmend.recipe import Recipe
 
     report = {
@@ -48,6 +46,8 @@ def write_json(path: str | Path, data: Any) -> None:
 
 def write_history(path: str | Path, result: Result) -> None:
     """Write the history as CSV, an empty field where the objective is infinite."""
+    from hexmend.optimise.figures import HISTORY
+
     with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         rows = csv.DictWriter(file, HISTORY, extrasaction="ignore")
         rows.writeheader()

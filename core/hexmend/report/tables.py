@@ -1,10 +1,9 @@
-"""Tables of text, and how figures become text."""
+"""Tables of text."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 
 @dataclass(frozen=True)
@@ -52,70 +51,3 @@ class Table:
                 left -= wide
             head, *rows = zip(*taken, strict=True)
             yield replace(self, head=head, rows=rows)
-
-
-@dataclass(frozen=True)
-class Figure:
-    """A line of a table of results: which figure, what it is called, and how it is written."""
-
-    key: str
-    label: str
-    text: Callable[[Any], str]
-
-
-def of(record: Mapping[str, Any], figure: Figure) -> str:
-    """The figure's text, a dash where the record does not have it."""
-    value = record.get(figure.key)
-    return "–" if value is None else figure.text(value)
-
-
-def count(value: int) -> str:
-    """
-    >>> count(31760)
-    '31,760'
-    """
-    return f"{value:,}"
-
-
-def quality(value: float) -> str:
-    """
-    >>> quality(0.56741)
-    '0.5674'
-    """
-    return f"{value:.4f}"
-
-
-def significant(value: float, digits: int = 4) -> str:
-    """So many significant figures, never with an exponent.
-
-    >>> [significant(value) for value in (0.0012345, 19.522, 83960.9, 0)]
-    ['0.001234', '19.52', '83,960', '0']
-    """
-    return f"{float(f'{value:.{digits}g}'):,.10f}".rstrip("0").rstrip(".")
-
-
-def objective(value: float) -> str:
-    """With the digits in which two optima may differ.
-
-    >>> objective(157.80185041)
-    '157.8019'
-    """
-    return significant(value, digits=7)
-
-
-def milli(seconds: float) -> str:
-    """Seconds as milliseconds.
-
-    >>> milli(0.01463)
-    '14.63'
-    """
-    return significant(seconds * 1e3)
-
-
-def micro(seconds: float) -> str:
-    """Seconds as microseconds.
-
-    >>> micro(6.755e-4)
-    '675.5'
-    """
-    return significant(seconds * 1e6)

@@ -11,6 +11,10 @@ void bind_local(nb::module_ &m) {
     m.attr("STEEPEST_DESCENT") = static_cast<int>(STEEPEST_DESCENT);
     m.attr("NEWTON") = static_cast<int>(NEWTON);
     m.attr("MODIFIED_NEWTON") = static_cast<int>(MODIFIED_NEWTON);
+    m.attr("MOVED") = static_cast<int>(MOVED);
+    m.attr("NO_DESCENT") = static_cast<int>(NO_DESCENT);
+    m.attr("FLAT") = static_cast<int>(FLAT);
+    m.attr("INFINITE") = static_cast<int>(INFINITE);
     m.def("sweep", &sweep, "points"_a, "hexes"_a, "start"_a, "corners"_a, "groups"_a, "nodes"_a, "direction"_a,
           "delta"_a, "p"_a, "first"_a, "shrink"_a, "c1"_a, "cuts"_a, Unlocked(),
           "Move every node of `nodes` once, in place: one pass of Algorithm 3.2.\n\n"
@@ -22,11 +26,13 @@ void bind_local(nb::module_ &m) {
           "What a visit of `sweep` begins with, at the node that the corners `star` (8 * hex + corner) share.\n\n"
           "Lengths are multiplied by `factor`; if that is 0, so that the patch's mean edge is 1. Returns the factor,\n"
           "0 if the patch has no extent; the value; its gradient; second derivatives xx xy xz yy yz zz.");
-    m.def("search", &search, "points"_a, "hexes"_a, "star"_a, "factor"_a, "direction"_a, "delta"_a, "p"_a, "first"_a,
-          "shrink"_a, "c1"_a, "cuts"_a, Unlocked(),
-          "The direction and the line search of a visit of `sweep`.\n\n"
-          "Returns the direction, its slope, whether it fell back to steepest descent, the accepted step (0: none),\n"
-          "and alpha, energy and bound of each trial, (trials, 3).");
+    m.def("visit", &visit, "points"_a, "hexes"_a, "star"_a, "direction"_a, "delta"_a, "p"_a, "first"_a, "shrink"_a,
+          "c1"_a, "cuts"_a, Unlocked(),
+          "What `sweep` does at one node, that the corners `star` (8 * hex + corner) share; it moves nothing.\n\n"
+          "Returns the verdict (MOVED, NO_DESCENT, FLAT, INFINITE); the direction, its slope, whether it fell back to\n"
+          "steepest descent, what A.4 added to the eigenvalues; the accepted step and the place that it leads to; and\n"
+          "alpha, energy and bound of each trial, (trials, 3). Where the verdict is FLAT or INFINITE, there is no\n"
+          "direction; a place only where it is MOVED. The direction is in lengths so that the patch's mean edge is 1.");
     m.def("along", &along, "points"_a, "hexes"_a, "star"_a, "factor"_a, "direction"_a, "delta"_a, "p"_a, "curve"_a,
           Unlocked(), "Write the patch's energy at curve[:, 0] times a direction to curve[:, 1].");
 }

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import pyvista as pv
 
+from hexmend.movement import Moment, Movement
 from hexmend.quality import measure
 from hexmend_app.scene.arrangement import columns, grid
 from hexmend_app.scene.export.figure import Panel, figure
@@ -12,7 +13,6 @@ from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.panes import ROOM, Panes
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
-from hexmend_app.state.movement import Moment, Movement
 from hexmend_app.state.views import Wipe
 from tests.core.grids import grid as hexes
 from tests.core.grids import scrambled

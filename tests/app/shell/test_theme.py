@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication
 
 from hexmend.quality import element, measure, node, summarise
 from hexmend_app.canvas.colour_bar import ColourBar
+from hexmend_app.features.convergence.curves import Columns, Curve
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.cut.clip_panel import ClipPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
@@ -27,7 +28,6 @@ from hexmend_app.scene.export.picture import picture
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import THEME, Role
 from hexmend_app.shell.palette import CommandPalette
-from hexmend_app.state.convergence import Columns, Curve
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Record
 from hexmend_app.state.look import ValueRange

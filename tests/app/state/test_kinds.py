@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from hexmend.movement import Moment, Movement
 from hexmend.quality import measure, summarise
 from hexmend_app.scene.colours import resolve
 from hexmend_app.state.kinds import KINDS, isolate, of_kind
 from hexmend_app.state.look import ColourScale, Isolation, ValueRange
-from hexmend_app.state.movement import Moment, Movement
 from hexmend_app.state.view import View
 from tests.core.grids import grid, scrambled
 

@@ -9,9 +9,8 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
-from hexmend.report.comparison import FIGURES
-from hexmend.report.tables import Figure, of
-from hexmend_app.features.quality.statistics import ROWS
+from hexmend.figures import Figure
+from hexmend.report.comparison import LINES
 from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
 
 METHOD, VIEW, _FIRST = 0, 1, 2
@@ -19,18 +18,6 @@ METHOD, VIEW, _FIRST = 0, 1, 2
 #: What the row of the mesh as it was is called.
 INITIAL = "initial"
 
-#: Which way each figure is better; those that are not here are neither.
-_BETTER = {row.key: row.better for row in ROWS} | dict.fromkeys(
-    ("seconds", "iterations", "seconds_per_iteration", "seconds_per_iteration_and_node"), -1
-)
-_HELP = {row.key: row.help for row in ROWS} | {
-    "q_max": "Quality of the best element.",
-    "seconds": "Seconds in the method, without its preparation and without measuring.",
-    "iterations": "Iterations until the run ended.",
-    "seconds_per_iteration": "Milliseconds of an iteration, on average.",
-    "seconds_per_iteration_and_node": "Microseconds of an iteration for each node that may move.",
-    "outcome": "Why the run ended; the row's tooltip says it in words.",
-}
 _RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
 _LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 _Role, _Flag = Qt.ItemDataRole, Qt.ItemFlag
@@ -48,7 +35,7 @@ class Entry:
     help : str
         What the row's tooltip says.
     record : mapping
-        The figures, by the keys of `hexmend.report.comparison.FIGURES`; empty while there are none.
+        The figures, by the keys of `hexmend.report.comparison.LINES`; empty while there are none.
     has_mesh : bool
         Whether there is a mesh to be shown or taken.
     shown : bool
@@ -66,10 +53,10 @@ def best(entries: Sequence[Entry], figure: Figure) -> set[str]:
     """Names of the methods whose figure is the best; none where there is nothing to choose.
 
     >>> rows = [Entry("a", "", {"q_min": 0.1}), Entry("b", "", {"q_min": 0.3}), Entry("c", "", {})]
-    >>> best(rows, next(one for one in FIGURES if one.key == "q_min"))
+    >>> best(rows, next(one for one in LINES if one.key == "q_min"))
     {'b'}
     """
-    sense = _BETTER.get(figure.key, 0)
+    sense = figure.better
     known = {
         one.name: sense * one.record[figure.key]
         for one in entries
@@ -101,7 +88,7 @@ class ComparisonModel(QAbstractTableModel):
         self.ticks = set(ticks)
         self.full = self.busy = False
         self._order = (METHOD, Qt.SortOrder.AscendingOrder)
-        self._best: list[set[str]] = [set() for _ in FIGURES]
+        self._best: list[set[str]] = [set() for _ in LINES]
 
     def fill(self, entries: Sequence[Entry], full: bool, busy: bool) -> None:
         """Take rows, whether there is no room for another view, and whether methods are at work."""
@@ -110,7 +97,7 @@ class ComparisonModel(QAbstractTableModel):
         if not same:
             self.beginResetModel()
         self.entries, self.full, self.busy = entries, full, busy
-        self._best = [best(entries, figure) for figure in FIGURES]
+        self._best = [best(entries, figure) for figure in LINES]
         if same:  # the view keeps what is chosen, and where it is scrolled to
             self.dataChanged.emit(self.index(0, 0), self.index(len(entries) - 1, self.columnCount() - 1))
         else:
@@ -140,13 +127,13 @@ class ComparisonModel(QAbstractTableModel):
     def _value(self, entry: Entry, column: int) -> Any:
         if column == METHOD:  # those that have run first
             return not entry.record, entry.name
-        return entry.shown if column == VIEW else entry.record.get(FIGURES[column - _FIRST].key)
+        return entry.shown if column == VIEW else entry.record.get(LINES[column - _FIRST].key)
 
     def rowCount(self, parent: QModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else len(self.entries)
 
     def columnCount(self, parent: QModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else _FIRST + len(FIGURES)
+        return 0 if parent is not None and parent.isValid() else _FIRST + len(LINES)
 
     def flags(self, index: QModelIndex) -> Qt.ItemFlag:
         entry, plain = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
@@ -159,9 +146,9 @@ class ComparisonModel(QAbstractTableModel):
 
     def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
         entry, column = self.entries[index.row()], index.column()
-        figure = FIGURES[column - _FIRST] if column >= _FIRST else None
+        figure = LINES[column - _FIRST] if column >= _FIRST else None
         if role == _Role.DisplayRole:
-            return entry.name if column == METHOD else of(entry.record, figure) if figure and entry.record else ""
+            return entry.name if column == METHOD else figure.of(entry.record) if figure and entry.record else ""
         if role == _Role.CheckStateRole:
             return self._check(entry, column)
         if role == _Role.TextAlignmentRole:
@@ -185,7 +172,7 @@ class ComparisonModel(QAbstractTableModel):
             font.setBold(True)
             return font
         if role == _Role.AccessibleTextRole and is_best:
-            return f"{of(entry.record, figure)}, best"
+            return f"{figure.of(entry.record)}, best"
         if role == _Role.ForegroundRole:
             wrong = figure.key == "inverted" and entry.record.get("inverted")
             colour = WORSE if wrong else BETTER if is_best else None
@@ -207,7 +194,7 @@ class ComparisonModel(QAbstractTableModel):
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = _Role.DisplayRole) -> Any:
         if orientation != Qt.Orientation.Horizontal:
             return None
-        figure = FIGURES[section - _FIRST] if section >= _FIRST else None
+        figure = LINES[section - _FIRST] if section >= _FIRST else None
         if role == _Role.DisplayRole:
             return figure.label if figure else ("Method", "View")[section]
         if role == _Role.TextAlignmentRole:
@@ -215,7 +202,7 @@ class ComparisonModel(QAbstractTableModel):
         if role == _Role.ForegroundRole:
             return QBrush(QColor(str(MUTED)))
         if role == _Role.ToolTipRole:
-            words = _HELP[figure.key] if figure else (
+            words = figure.help if figure else (
                 "What is ticked runs. A click on a column's head sorts by it.",
                 "What is ticked is seen in a view of its own beside the mesh as it is now.",
             )[section]  # fmt: skip

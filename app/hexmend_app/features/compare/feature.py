@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from hexmend.recipe import Stage
 from hexmend.report import write_comparison
-from hexmend.report.comparison import FIGURES
+from hexmend.report.comparison import LINES
 from hexmend.smoothers import METHODS
 from hexmend_app.canvas.captions import Caption
 from hexmend_app.canvas.wipe_handle import STEP
@@ -245,7 +245,7 @@ class FeatureCompare(Feature):
         if compared is None:
             return Entry(name, f"<b>{method.title}</b><br>{method.help}", {})
         row, state = compared.row, compared.state
-        figures = {one.key: getattr(row, one.key, None) for one in FIGURES}
+        figures = {one.key: getattr(row, one.key, None) for one in LINES}
         record = figures | (row.after.to_dict() if row.after else {})
         shown = state is not None and self._views.shows(state)
         return Entry(name, f"<b>{method.title}</b><br>{row.message}", record, state is not None, shown)

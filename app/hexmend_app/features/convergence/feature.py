@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QTimer
+from superqt.utils import QSignalThrottler
 
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
+from hexmend_app.features.convergence.curves import Columns, Curve, beginning, free_slot
 from hexmend_app.features.convergence.file import write_convergence
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.state.convergence import Columns, Curve, beginning, free_slot
 from hexmend_app.state.history import Record
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.questions import ask_convergence
@@ -35,8 +35,9 @@ class FeatureConvergence(Feature):
         self._hidden: set[Record] = set()
         self._seen = Seen()
         panel = self.panel = ConvergencePanel()
-        self._soon = QTimer(panel, singleShot=True, interval=_PERIOD)
-        self._soon.timeout.connect(self._show)
+        self._soon = QSignalThrottler(parent=panel)
+        self._soon.setTimeout(_PERIOD)
+        self._soon.triggered.connect(self._show)
         panel.choice_changed.connect(self._show)
         panel.toggled.connect(self._on_toggled)
         panel.forget_requested.connect(timeline.forget)
@@ -66,8 +67,8 @@ class FeatureConvergence(Feature):
                 self._show()
         elif not self._timeline.live:
             self._mark()
-        if self._smoothing.phase is Phase.RUNNING and not self._soon.isActive():
-            self._soon.start()
+        if self._smoothing.phase is Phase.RUNNING:
+            self._soon.throttle()
 
     def _on_toggled(self, record: Record, on: bool) -> None:
         (self._hidden.discard if on else self._hidden.add)(record)

@@ -10,10 +10,10 @@ from hexmend.io.suffixes import suffix_for
 from hexmend.report.convergence import DrawnChart, DrawnCurve, write_convergence_figure
 from hexmend.report.documents import write_csv
 from hexmend.report.plots import FIGURE_SUFFIXES
+from hexmend_app.features.convergence.curves import Curve
 from hexmend_app.features.convergence.line import colour_of
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.convergence.plot import ConvergencePlot
-from hexmend_app.state.convergence import Curve
 
 
 def write_convergence(path: Path, panel: ConvergencePanel, title: str) -> None:

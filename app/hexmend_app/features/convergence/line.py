@@ -9,8 +9,8 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 
+from hexmend_app.features.convergence.curves import Curve
 from hexmend_app.scene.palette import KEPT, Role
-from hexmend_app.state.convergence import Curve
 from hexmend_app.widgets.style import BLUE
 
 #: Colours of runs, by slot; after the last, the first again.

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend_app.state.convergence import Chart, Curve
+from hexmend_app.features.convergence.charts import Chart
+from hexmend_app.features.convergence.curves import Curve
 from hexmend_app.widgets.wording import counted, figure
 
 

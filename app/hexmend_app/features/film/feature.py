@@ -10,7 +10,7 @@ from PySide6.QtCore import QTimer
 
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.state.shots import chosen, shots
+from hexmend_app.scene.export.shots import chosen, shots
 from hexmend_app.widgets.questions import ask_film
 
 if TYPE_CHECKING:

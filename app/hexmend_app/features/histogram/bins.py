@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.quality.binning import bin_counts
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.scene.values import within
-from hexmend_app.state.binning import bin_counts
 from hexmend_app.state.look import ValueRange
 
 #: Bins at first, and how few and how many there can be.

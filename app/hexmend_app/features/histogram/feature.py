@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.movement import MOVEMENTS
 from hexmend.quality import measure
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.histogram.file import write_histogram
@@ -15,7 +16,6 @@ from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept
 from hexmend_app.state.kinds import isolate, of_kind
 from hexmend_app.state.measured import values
-from hexmend_app.state.movement import MOVEMENTS
 from hexmend_app.widgets.questions import ask_histogram
 
 

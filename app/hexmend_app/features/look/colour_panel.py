@@ -10,12 +10,12 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
+from hexmend.movement import MOVEMENTS, named
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
 from hexmend_app.scene.colours import DIVERGING, MAPS, range_label, table
 from hexmend_app.scene.values import better, declared_range
 from hexmend_app.state.look import ColourScale, RangeMode
-from hexmend_app.state.movement import MOVEMENTS, named
 from hexmend_app.widgets.metrics import metrics_offered
 from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.segmented import Segmented

@@ -6,12 +6,12 @@ import dataclasses
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from hexmend.movement import MOVEMENTS, Movement
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.look.colour_panel import ColourPanel
 from hexmend_app.scene.frame import Frame
 from hexmend_app.state.kinds import isolate, of_kind
 from hexmend_app.state.look import Arrows, Look
-from hexmend_app.state.movement import MOVEMENTS, Movement
 from hexmend_app.state.run import Phase
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hexmend.movement import MOVEMENTS, NEWLY_INVERTED, Movement
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.movement.movement_panel import MovementPanel
-from hexmend_app.state.movement import MOVEMENTS, NEWLY_INVERTED, Movement
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas

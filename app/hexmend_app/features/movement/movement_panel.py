@@ -8,9 +8,9 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
+from hexmend.movement import MOVEMENTS, Counts
 from hexmend_app.scene.layers.arrows import MOST
 from hexmend_app.state.look import Arrows, Since, Traces
-from hexmend_app.state.movement import Counts
 from hexmend_app.widgets.segmented import Segmented
 from hexmend_app.widgets.style import explain, note, tabular
 from hexmend_app.widgets.wording import counted, figure, short_number
@@ -26,10 +26,14 @@ _SINCE = [
 ]
 _COLOURS = [
     ("", "Quality", "Colour by the metric that the panel of colours names."),
-    ("moved-most", "Displacement", "Colour each element by the longest way that one of its nodes has gone."),
+    (
+        "moved-most",
+        MOVEMENTS["moved-most"].label,
+        "Colour each element by the longest way that one of its nodes has gone.",
+    ),
     (
         "q-change",
-        "Δq",
+        MOVEMENTS["q-change"].label,
         "Colour each element by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
         "elements have colours of their own.",
     ),

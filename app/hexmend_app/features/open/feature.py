@@ -12,7 +12,9 @@ from hexmend.errors import FileError
 from hexmend_app.feature import Action, Feature, Host, Panel, Place
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.features.open.welcome import Welcome
+from hexmend_app.features.open.words import said
 from hexmend_app.resources import demo_mesh
+from hexmend_app.state.opener import Doing, Progress
 from hexmend_app.state.recent import Recent
 from hexmend_app.widgets.questions import ask_mesh, remember_folder
 
@@ -33,7 +35,7 @@ class FeatureOpen(Feature):
         self.welcome.demo_requested.connect(self.open_demo)
         self.welcome.recent_requested.connect(self.open)
         opener = self._opener
-        opener.began.connect(lambda path: self._tell(f"Reading {path.name}…"))
+        opener.began.connect(lambda path: self._tell(Progress(Doing.READING, path)))
         opener.told.connect(self._tell)
         opener.ended.connect(self._on_ended)
         opener.cancelled.connect(self._on_cancelled)
@@ -101,9 +103,9 @@ class FeatureOpen(Feature):
             return True
         return super().eventFilter(watched, event)
 
-    def _tell(self, what: str) -> None:
+    def _tell(self, progress: Progress) -> None:
         if self._opener.busy:
-            self.host.busy.show_work(what, "Cancel", "Do not open this mesh (Esc).", self._opener.cancel)
+            self.host.busy.show_work(said(progress), "Cancel", "Do not open this mesh (Esc).", self._opener.cancel)
 
     def _on_ended(self, path: Path) -> None:
         self.host.busy.done()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
@@ -18,78 +17,23 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from hexmend.figures import Figure
+from hexmend.quality import FIGURES
 from hexmend_app.widgets.link_table import LinkTable
 from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, tabular
 from hexmend_app.widgets.wording import figure
 
-
-@dataclass(frozen=True)
-class Row:
-    """A figure: attribute of the summary, title, what it means, and which way is better (+1 up, -1 down, 0 neither)."""
-
-    key: str
-    title: str
-    help: str
-    better: int = 0
-
-
-ROWS = (
-    Row("hexes", "Hexes", "Number of hexahedral elements."),
-    Row("nodes", "Nodes", "Number of nodes that an element uses."),
-    Row(
-        "free_nodes",
-        "Free nodes",
-        "Nodes that smoothing may move; the others, such as those of the surface, are fixed.",
-    ),
-    Row(
-        "inverted",
-        "Inverted",
-        "Elements turned inside out at a corner: one of their eight corner tetrahedra has a determinant σ ≤ 0 (2.8). "
-        "A solver cannot use them.",
-        -1,
-    ),
-    Row(
-        "locked_inverted",
-        "– of these locked",
-        "Inverted elements with a corner tetrahedron of σ ≤ 0 whose four nodes are all fixed. No method that keeps "
-        "those nodes can mend them.",
-        -1,
-    ),
-    Row(
-        "q_min",
-        "q min",
-        "Quality of the worst element. q(H) is the mean over the eight corner tetrahedra of 3 σ^⅔ / |S|², and 0 for "
-        "those with σ ≤ 0 (2.9, 2.10): 1 for a cube, 0 for a flat element.",
-        1,
-    ),
-    Row("q_mean", "q mean", "Mean quality over all elements (2.11).", 1),
-    Row(
-        "q_norm",
-        "q norm",
-        "1 / √(mean of 1/q²) (2.12): a mean in which bad elements count most; 0 as soon as one q is 0.",
-        1,
-    ),
-    Row("q_std", "q std", "Standard deviation of the elements' quality: how widely it spreads."),
-    Row(
-        "scaled_jacobian_min",
-        "Scaled Jacobian min",
-        "The least σ / (|e₁| |e₂| |e₃|) over all corners: 1 for right angles, 0 for a flat corner, negative for an "
-        "inverted one. Other programs print it.",
-        1,
-    ),
-    Row(
-        "objective",
-        "Objective",
-        "Sum of η(H)² over all elements, what smoothing minimises (3.3): 0 for cubes, infinite, shown as –, while any "
-        "element is inverted.",
-        -1,
-    ),
-)
+#: What has a row: all but the quality of the best element, which says nothing.
+ROWS = tuple(one for one in FIGURES.values() if one.key != "q_max")
 _COLUMNS = ("", "start", "now", "change")
 _START, _NOW, _CHANGE = 1, 2, 3
 
 
-def change(row: Row, start: float | None, now: float | None) -> tuple[str, int]:
+def _name(row: Figure) -> str:
+    return f"– {row.label}" if row.part_of else row.title
+
+
+def change(row: Figure, start: float | None, now: float | None) -> tuple[str, int]:
     """Text of a change and whether it is for the better (1), for the worse (-1) or neither (0).
 
     >>> change(ROWS[3], 36, 0)
@@ -172,7 +116,7 @@ class StatisticsTable(QWidget):
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         for at, row in enumerate(ROWS):
             for column in range(len(_COLUMNS)):
-                item = QTableWidgetItem(row.title if column == 0 else "")
+                item = QTableWidgetItem(_name(row) if column == 0 else "")
                 item.setToolTip(_help(row))
                 if column:
                     item.setTextAlignment(right)
@@ -234,7 +178,7 @@ class StatisticsTable(QWidget):
         lines = ["figure\tstart\tnow"]
         for row in ROWS:
             cells = (None if summary is None else getattr(summary, row.key) for summary in self._summaries)
-            lines.append("\t".join([row.title.removeprefix("– "), *("" if c is None else str(c) for c in cells)]))
+            lines.append("\t".join([row.title, *("" if c is None else str(c) for c in cells)]))
         return "\n".join(lines) + "\n"
 
     def copy(self) -> None:
@@ -254,11 +198,11 @@ class StatisticsTable(QWidget):
         return size.grownBy(margins)
 
     def _title_width(self) -> int:
-        return max(self._table.fontMetrics().horizontalAdvance(row.title) for row in ROWS) + 9
+        return max(self._table.fontMetrics().horizontalAdvance(_name(row)) for row in ROWS) + 9
 
     def _figures_width(self) -> int:
         return sum(self._table.columnWidth(column) for column in (_START, _NOW, _CHANGE))
 
 
-def _help(row: Row) -> str:
-    return f"<qt><b>{row.title.removeprefix('– ')}</b><br>{row.help}</qt>"
+def _help(row: Figure) -> str:
+    return f"<qt><b>{row.title}</b><br>{row.help}</qt>"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QSpinBox, QWidget
 
-from hexmend_app.state.breakpoints import Breakpoints
+from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.widgets.style import explain, tabular
 
 _INVERTS = "Pause after an iteration in which an element that was sound inverts, and choose it."

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QSettings
-
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
-from hexmend_app.state.history import LIMIT, Record
-from hexmend_app.state.timeline import SPEED
+from hexmend_app.state import settings
+from hexmend_app.state.history import Record
 
 _STEPS = (
     ("first", "Be&fore the run", "Alt+Home", "skip-backward", "Show the mesh as it was before the run."),
@@ -44,9 +42,8 @@ class FeatureTimeline(Feature):
         bar.pressed.connect(lambda name: self._on_pressed()[name]())
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
-        settings = QSettings()
-        session.history.limit = int(settings.value("history_megabytes", LIMIT >> 20)) << 20
-        timeline.speed = int(settings.value("iterations_played", SPEED))
+        session.history.limit = settings.HISTORY_MEGABYTES.get() << 20
+        timeline.speed = settings.ITERATIONS_PLAYED.get()
         self._show_settings()
 
     def actions(self) -> Sequence[Action]:
@@ -107,14 +104,14 @@ class FeatureTimeline(Feature):
 
     def _set_limit(self, megabytes: int) -> None:
         self.session.history.limit = megabytes << 20
-        QSettings().setValue("history_megabytes", megabytes)
+        settings.HISTORY_MEGABYTES.set(megabytes)
         self._show_settings()
         self._seen.forget()
         self.host.refresh_soon()
 
     def _set_speed(self, speed: int) -> None:
         self._timeline.set_speed(speed)
-        QSettings().setValue("iterations_played", speed)
+        settings.ITERATIONS_PLAYED.set(speed)
         self._show_settings()
 
     def _show_settings(self) -> None:

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton
 
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.widgets.style import explain, icon, tabular
-from hexmend_app.widgets.wording import counted, megabytes
+from hexmend_app.widgets.wording import counted, size
 
 #: What the positions of iterations may take, in MB, and how many are played a second.
 LIMITS, SPEEDS = (128, 256, 512, 1024, 2048, 4096), (2, 5, 10, 20, 30)
@@ -111,7 +111,7 @@ class TimelineBar(QWidget):
         tip = f"<qt>{counted(newest, 'iteration')}.{some}{pauses}</qt>"
         if tip != self._slider.toolTip():
             self._slider.setToolTip(tip)
-        self._used.setText(f"Now {megabytes(used)}")
+        self._used.setText(f"Now {size(used)}")
 
     def set_number(self, number: int | None, live: bool) -> None:
         """Show where one is: at an iteration, at what comes, or at nothing that this run knows."""
@@ -163,7 +163,7 @@ class TimelineBar(QWidget):
     def _menu(self) -> QMenu:
         menu = QMenu(self)
         menu.addSection("Memory for the positions of iterations")
-        self._limits = self._choices(menu, LIMITS, lambda mb: megabytes(mb << 20), self.limit_changed)
+        self._limits = self._choices(menu, LIMITS, lambda mb: size(mb << 20), self.limit_changed)
         self._used = menu.addAction("")
         self._used.setEnabled(False)
         menu.addSection("Played a second")

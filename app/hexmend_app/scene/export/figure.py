@@ -10,6 +10,7 @@ import pyvista as pv
 from PIL import Image, ImageDraw
 
 from hexmend.mesh import Mesh
+from hexmend.movement import Movement
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.arrangement import columns
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
@@ -17,7 +18,6 @@ from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.panes import ROOM, Panes
 from hexmend_app.state.look import Look
-from hexmend_app.state.movement import Movement
 from hexmend_app.state.views import Wipe
 
 #: Height of a row of captions, by that of the colour bar.

@@ -11,12 +11,12 @@ from PIL import Image, ImageDraw
 
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
+from hexmend.movement import Moment, Movement
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
+from hexmend_app.scene.export.shots import Shot
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look, Since
-from hexmend_app.state.movement import Moment, Movement
-from hexmend_app.state.shots import Shot
 
 #: What can be written, by suffix: all are shown by browsers.
 FORMATS = {".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}

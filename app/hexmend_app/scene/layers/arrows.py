@@ -6,13 +6,13 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
+from hexmend.movement import NOTHING, Movement
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.overlay import overlay
 from hexmend_app.scene.layers.structure import uncut
 from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.state.look import Arrows
-from hexmend_app.state.movement import NOTHING, Movement
 
 #: Arrows that are drawn at most, the longest first: so many cost 20 ms of a moving frame without a graphics card.
 MOST = 5_000

@@ -11,7 +11,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QPushButton, QToolButton
 
-from hexmend.report.comparison import FIGURES
+from hexmend.report.comparison import LINES
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
@@ -24,7 +24,7 @@ from hexmend_app.state.look import ColourScale, RangeMode
 from tests.app.driving import LEFT, click, drag, open_and_wait, pixels, seen_at
 from tests.patience import PATIENCE
 
-COLUMN = {figure.key: at for at, figure in enumerate(FIGURES, 2)}
+COLUMN = {figure.key: at for at, figure in enumerate(LINES, 2)}
 
 
 def model(window):

@@ -5,9 +5,10 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
+from hexmend_app.features.convergence.charts import CHARTS
+from hexmend_app.features.convergence.curves import Columns, Curve
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.convergence.words import describe
-from hexmend_app.state.convergence import CHARTS, Columns, Curve
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Moment, Record
 from tests.core.grids import grid
@@ -151,7 +152,7 @@ def test_what_is_under_the_mouse_is_told_and_what_was_thinned_out(panel):
         "getme 10: q min 0.2381, q mean 0.9000 (nearest kept: 8)",
         "local-sd 2: q min 0.1111, q mean 0.9000 (nearest kept: 0)",
     ]
-    assert describe(CHARTS["objective"], BOTH[:1], 0, by_time=False) == "getme 0: objective infinite"
+    assert describe(CHARTS["objective"], BOTH[:1], 0, by_time=False) == "getme 0: objective Σ η² infinite"
     assert describe(CHARTS["delta"], BOTH[:1], 4, by_time=False) == "getme 4: delta not told"
     assert describe(CHARTS["inverted"], BOTH, 40, by_time=False) == ""
     paused = record("mend", 5)

@@ -3,9 +3,9 @@
 import pytest
 from PySide6.QtWidgets import QLabel
 
+from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.plot import ConvergencePlot
 from hexmend_app.features.convergence.words import titled, why_blank
-from hexmend_app.state.convergence import CHARTS
 from tests.app.features.convergence.test_panel import curve, record
 
 OBJECTIVE, DELTA = CHARTS["objective"], CHARTS["delta"]

@@ -19,7 +19,7 @@ _LEFT = Qt.MouseButton.LeftButton
 def unbounded(monkeypatch):
     """A metric without an upper end, of which less is better."""
     bounds = (1.0, float("inf"))
-    metric = Metric("long", "Long", "long / short", "nobody", bounds, bounds, -1, "None.", lambda *_: None)
+    metric = Metric("long", "Long", "long / short", "nobody", bounds, bounds, -1, "None.", of=lambda *_: None)
     monkeypatch.setitem(METRICS._entries, "long", metric)
     return metric
 

@@ -11,9 +11,9 @@ from PySide6.QtTest import QTest
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.scene.export.film import pictures
+from hexmend_app.scene.export.shots import shots
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, RangeMode, Since
-from hexmend_app.state.shots import shots
 from tests.app.driving import LEFT, open_and_wait, pixels
 from tests.patience import PATIENCE
 

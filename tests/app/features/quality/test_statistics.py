@@ -95,7 +95,7 @@ def test_control_c_copies_full_precision_for_a_spreadsheet(table):
     by_title = {line[0]: line[1:] for line in lines}
     assert by_title["q min"] == ["0.0123456789", "0.5"]
     assert by_title["Hexes"] == ["32735", "32735"]
-    assert by_title["Objective"] == ["", "9.5"]
+    assert by_title["Objective Σ η²"] == ["", "9.5"]
 
 
 def test_the_context_menu_copies(table, qtbot):

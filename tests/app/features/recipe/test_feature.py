@@ -10,8 +10,8 @@ from hexmend import io
 from hexmend.optimise import Stop
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import smooth
+from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS
-from hexmend_app.state.breakpoints import Breakpoints
 from hexmend_app.state.chain import Chain
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, click, open_and_wait, phase

@@ -198,7 +198,7 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     window.session.history.limit = 4 * each
     menu = window.features["timeline"].panel._more.menu()
     choices = {action.text(): action for action in menu.actions()}
-    choices["128 MB"].trigger()
+    choices["128 MiB"].trigger()
     choices["30 iterations"].trigger()
     assert window.session.history.limit == 128 << 20
     assert window.session.timeline.speed == 30

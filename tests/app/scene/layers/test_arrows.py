@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 import pyvista as pv
 
+from hexmend.movement import Moment, Movement
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers import arrows as layer
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
-from hexmend_app.state.movement import Moment, Movement
 from tests.core.grids import grid, scrambled
 
 MESH = grid(6)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from hexmend.kernels import corner_values
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality, Metric
+from hexmend.quality import METRICS, ElementFigure, ElementQuality
 
 #: Changes of q, and ways in mean edge lengths, that are rounding.
 NOTHING = 1e-9
@@ -17,41 +18,85 @@ NOTHING = 1e-9
 _MOVED = "of where each node is and where it was, in mean edge lengths of the mesh as it was opened"
 
 
-def _of_two(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
-    raise TypeError("a movement is measured between two moments: see Movement.values")
+@dataclass(frozen=True, kw_only=True)
+class Change(ElementFigure):
+    """A figure of every hex between two moments of one mesh.
+
+    Parameters
+    ----------
+    label : str
+        A word for a button.
+    since : str
+        What it is called before "since" and the earlier moment.
+    of : callable
+        Gives the values, (m,) float64, of a `Movement`.
+    """
+
+    label: str
+    since: str
+    of: Callable[[Movement], np.ndarray]
+
+
+def _moved(movement: Movement, of_corners: Callable[..., None]) -> np.ndarray:
+    values = np.empty(movement.mesh.n_hexes)
+    of_corners(movement.mesh.hexes, movement.distances / movement.unit, values)
+    return values
 
 
 #: What colours can show of a movement, beside `METRICS`.
-MOVEMENTS: dict[str, Metric] = {
+MOVEMENTS: dict[str, Change] = {
     one.name: one
     for one in (
-        Metric(
-            "moved-most", "Largest displacement", f"greatest distance, over the nodes of an element, {_MOVED}",
-            "Hexmend", (0.0, np.inf), (0.0, np.inf), 0, "Where the mesh has changed.", _of_two, "mean edge lengths",
+        Change(
+            name="moved-most",
+            title="Largest displacement",
+            label="Displacement",
+            since="mean edge lengths moved",
+            formula=f"greatest distance, over the nodes of an element, {_MOVED}",
+            source="Hexmend",
+            full_range=(0.0, np.inf),
+            acceptable=(0.0, np.inf),
+            better=0,
+            meaning="Where the mesh has changed.",
+            unit="mean edge lengths",
+            of=lambda movement: _moved(movement, corner_values.largest),
         ),
-        Metric(
-            "moved-mean", "Mean displacement", f"mean distance, over the nodes of an element, {_MOVED}",
-            "Hexmend", (0.0, np.inf), (0.0, np.inf), 0, "Where the mesh has changed.", _of_two, "mean edge lengths",
+        Change(
+            name="moved-mean",
+            title="Mean displacement",
+            label="Mean displacement",
+            since="mean edge lengths moved on average",
+            formula=f"mean distance, over the nodes of an element, {_MOVED}",
+            source="Hexmend",
+            full_range=(0.0, np.inf),
+            acceptable=(0.0, np.inf),
+            better=0,
+            meaning="Where the mesh has changed.",
+            unit="mean edge lengths",
+            of=lambda movement: _moved(movement, corner_values.mean),
         ),
-        Metric(
-            "q-change", "Change of q(H)", "q(H) now, less q(H) then", "Hexmend",
-            (-1.0, 1.0), (-np.inf, np.inf), 1, "Which elements have paid for what others have gained.", _of_two,
+        Change(
+            name="q-change",
+            title="Change of q(H)",
+            label="Δq",
+            since="change of q(H)",
+            formula="q(H) now, less q(H) then",
+            source="Hexmend",
+            full_range=(-1.0, 1.0),
+            acceptable=(-np.inf, np.inf),
+            better=1,
+            meaning="Which elements have paid for what others have gained.",
+            of=lambda movement: movement.figures.q - movement.before.figures.q,
         ),
     )
-}  # fmt: skip
-
-_SHORT = {
-    "moved-most": "mean edge lengths moved",
-    "moved-mean": "mean edge lengths moved on average",
-    "q-change": "change of q(H)",
 }
 
 #: What the colours of `q-change` set apart, in this order: numbers of `Movement.kinds`.
 NEWLY_INVERTED, STILL_INVERTED, MENDED = 1, 2, 3
 
 
-def named(name: str) -> Metric:
-    """What colours show under a name: a metric, or a movement."""
+def named(name: str) -> ElementFigure:
+    """What colours show under a name: a metric, or a change."""
     return MOVEMENTS.get(name) or METRICS[name]
 
 
@@ -99,7 +144,7 @@ class Movement:
 
     def title(self, name: str) -> str:
         """What colours show under one of the names of `MOVEMENTS`, in short."""
-        return f"{_SHORT[name]} since {self.before.name}"
+        return f"{MOVEMENTS[name].since} since {self.before.name}"
 
     @cached_property
     def distances(self) -> np.ndarray:
@@ -114,12 +159,7 @@ class Movement:
     def values(self, name: str) -> np.ndarray:
         """What colours show, (m,) float64; one of `MOVEMENTS`."""
         if name not in self._known:
-            if name == "q-change":
-                self._known[name] = self.figures.q - self.before.figures.q
-            else:
-                of_corners = corner_values.mean if name == "moved-mean" else corner_values.largest
-                self._known[name] = np.empty(self.mesh.n_hexes)
-                of_corners(self.mesh.hexes, self.distances / self.unit, self._known[name])
+            self._known[name] = MOVEMENTS[name].of(self)
         return self._known[name]
 
     @cached_property

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend_app.state.binning import bin_counts
+from hexmend.quality.binning import bin_counts
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40), st.booleans(), st.booleans())

@@ -5,7 +5,8 @@ import pytest
 
 from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
-from hexmend_app.state.convergence import CHARTS, Columns, Curve, beginning, free_slot, thinned
+from hexmend_app.features.convergence.charts import CHARTS
+from hexmend_app.features.convergence.curves import Columns, Curve, beginning, free_slot, thinned
 from hexmend_app.state.document import State
 from hexmend_app.state.history import History, Moment, Record
 from tests.core.grids import grid, scrambled

@@ -1,4 +1,4 @@
-"""The figures of runs as curves: what can be plotted, against what, and where each run begins."""
+"""The figures of runs as curves: against what they are plotted, and where each run begins."""
 
 from __future__ import annotations
 
@@ -7,94 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
 from hexmend_app.state.history import Record
 
-
-@dataclass(frozen=True)
-class Quantity:
-    """A figure of every iteration.
-
-    Parameters
-    ----------
-    key : str
-        Its name in `Record.rows`, or one that `Columns` knows how to find.
-    title, help : str
-    log : bool
-        Whether its logarithm says more than itself.
-    whole : bool
-        Whether it is a count.
-    """
-
-    key: str
-    title: str
-    help: str
-    log: bool = False
-    whole: bool = False
-
-
-@dataclass(frozen=True)
-class Chart:
-    """Quantities that are plotted over one another."""
-
-    key: str
-    title: str
-    quantities: tuple[Quantity, ...]
-
-    @property
-    def help(self) -> str:
-        """What its quantities are."""
-        return " ".join(one.help for one in self.quantities)
-
-
-def _alone(key: str, title: str, help: str, **how: bool) -> Chart:
-    return Chart(key, title, (Quantity(key, title, help, **how),))
-
-
-#: What can be plotted, in the order in which it is offered.
-CHARTS: dict[str, Chart] = {
-    chart.key: chart
-    for chart in (
-        _alone(
-            "objective",
-            "objective",
-            "Sum of η(H)² over all elements (3.3), what smoothing minimises; infinite, a gap, while any is inverted.",
-            log=True,
-        ),
-        Chart(
-            "quality",
-            "quality",
-            (
-                Quantity("q_min", "q min", "Quality q(H) of the worst element: 1 for a cube, 0 for a flat one."),
-                Quantity("q_mean", "q mean", "Mean quality over all elements (2.11)."),
-            ),
-        ),
-        _alone("inverted", "inverted elements", "Elements turned inside out at a corner.", log=True, whole=True),
-        _alone(
-            "largest_move",
-            "largest move",
-            "How far the node went that went furthest, in mean edge lengths: what Algorithm A.1 stops at.",
-            log=True,
-        ),
-        _alone("gradient_norm", "gradient norm", "Norm of the objective's gradient before the step.", log=True),
-        _alone("step_length", "step length", "α, the share of the search direction that was gone (A.5).", log=True),
-        _alone(
-            "solver_iterations",
-            "CG iterations",
-            "Conjugate gradient iterations that the Newton direction took (A.4).",
-            whole=True,
-        ),
-        _alone("cuts", "line search cuts", "How often the line search cut the step (A.5).", whole=True),
-        _alone("step_seconds", "seconds per iteration", "Time that the method took for each iteration.", log=True),
-        _alone("delta", "delta", "δ, the softness of the barrier (3.2); 0 once no element is inverted.", log=True),
-    )
-}
-
-#: What is plotted at first.
-FIRST = ("objective", "quality", "inverted")
-
-_STORED = tuple(
-    one.key for chart in CHARTS.values() for one in chart.quantities if one.key != "step_seconds"
-)  # fmt: skip
+_STORED = tuple(one.key for chart in CHARTS.values() for one in chart.quantities if one.figure is not STEP_SECONDS)
 
 
 class Columns:
@@ -132,7 +48,7 @@ class Columns:
 
     def of(self, key: str) -> np.ndarray:
         """A quantity's values."""
-        if key == "step_seconds":
+        if key == STEP_SECONDS.key:
             return np.diff(self.seconds, prepend=np.nan)
         return self._rows[: self._known, _STORED.index(key)]
 

@@ -1,0 +1,82 @@
+"""What can be plotted of a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hexmend.figures import Figure, significant
+from hexmend.optimise.figures import HISTORY, NOTES
+
+#: The time of one iteration, which the plot takes from the times of two.
+STEP_SECONDS = Figure(
+    "step_seconds", "seconds per iteration", "Time that the method took for each iteration.", significant, -1
+)
+_FIGURES = HISTORY | NOTES | {STEP_SECONDS.key: STEP_SECONDS}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A figure of every iteration.
+
+    Parameters
+    ----------
+    figure : Figure
+        Of `HISTORY`, `NOTES`, or `STEP_SECONDS`.
+    log : bool
+        Whether its logarithm says more than itself.
+    whole : bool
+        Whether it is a count.
+    """
+
+    figure: Figure
+    log: bool = False
+    whole: bool = False
+
+    @property
+    def key(self) -> str:
+        """Its name in records."""
+        return self.figure.key
+
+    @property
+    def title(self) -> str:
+        """Its name in words."""
+        return self.figure.label
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Quantities that are plotted over one another."""
+
+    key: str
+    title: str
+    quantities: tuple[Quantity, ...]
+
+    @property
+    def help(self) -> str:
+        """What its quantities are."""
+        return " ".join(one.figure.help for one in self.quantities)
+
+
+def _alone(key: str, title: str = "", **how: bool) -> Chart:
+    return Chart(key, title or _FIGURES[key].label, (Quantity(_FIGURES[key], **how),))
+
+
+#: In the order in which it is offered.
+CHARTS: dict[str, Chart] = {
+    chart.key: chart
+    for chart in (
+        _alone("objective", "objective", log=True),
+        Chart("quality", "quality", (Quantity(_FIGURES["q_min"]), Quantity(_FIGURES["q_mean"]))),
+        _alone("inverted", "inverted elements", log=True, whole=True),
+        _alone("largest_move", log=True),
+        _alone("gradient_norm", log=True),
+        _alone("step_length", log=True),
+        _alone("solver_iterations", whole=True),
+        _alone("cuts", whole=True),
+        _alone("step_seconds", log=True),
+        _alone("delta", log=True),
+    )
+}
+
+#: What is plotted at first.
+FIRST = ("objective", "quality", "inverted")

@@ -1,0 +1,66 @@
+"""What a run pauses at."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from hexmend import gallery
+from hexmend.optimise import Iteration
+from hexmend.quality import measure
+from hexmend.run import Stop, iterate
+from hexmend.run.breakpoints import Breakpoints
+
+MESH = gallery.make("bridge-sharp", size=500)  # Laplacian inverts hexes of it
+
+
+def iteration(number, points, **notes):
+    return Iteration(number, points, measure(points, MESH.hexes), 0.0, 0.0, notes)
+
+
+@pytest.fixture(scope="module")
+def run():
+    run = iterate(MESH, "laplacian", Stop(max_iterations=15, tolerance=0))
+    return [run.start, *run]
+
+
+def test_nothing_is_asked_for_by_default(run):
+    assert not Breakpoints().any
+    assert all(Breakpoints().hit(a, b, 1.0) is None for a, b in pairwise(run))
+
+
+def test_an_element_that_inverts_is_named(run):
+    for before, now in pairwise(run):
+        hit = Breakpoints(inverts=True).hit(before, now, 1.0)
+        expected = np.flatnonzero(now.figures.inverted & ~before.figures.inverted)
+        assert (hit is not None) == bool(len(expected))
+        if hit is not None:
+            assert hit.hexes == tuple(expected)
+    assert run[-1].figures.n_inverted > 0
+
+
+def test_q_min_falling_is_told_with_its_element(run):
+    before, now = run[0], next(one for one in run if one.figures.q.min() < run[0].figures.q.min())
+    hit = Breakpoints(q_min_falls=True).hit(before, now, 1.0)
+    assert hit.hexes == (int(now.figures.q.argmin()),)
+    assert Breakpoints(q_min_falls=True).hit(now, before, 1.0) is None
+
+
+def test_moves_and_changes_are_measured_against_what_is_asked(run):
+    before, now = run[:2]
+    moves = np.linalg.norm(now.points - before.points, axis=1)
+    node = int(moves.argmax())
+    unit = MESH.mean_edge_length
+    assert Breakpoints(node=node, move=moves[node] / unit * 0.99).hit(before, now, unit).nodes == (node,)
+    assert Breakpoints(node=node, move=moves[node] / unit * 1.01).hit(before, now, unit) is None
+    changes = np.abs(now.figures.q - before.figures.q)
+    hex = int(changes.argmax())
+    assert Breakpoints(hex=hex, change=changes[hex] * 0.99).hit(before, now, unit).hexes == (hex,)
+    assert Breakpoints(hex=hex, change=changes[hex] * 1.01).hit(before, now, unit) is None
+
+
+def test_cuts_of_the_line_search():
+    still, cut = iteration(1, MESH.points), iteration(2, MESH.points, cuts=5, step_length=0.17)
+    assert Breakpoints(cuts=5).hit(still, cut, 1.0) is None
+    assert "5 times, to 0.17" in Breakpoints(cuts=4).hit(still, cut, 1.0).sentence
+    assert Breakpoints(cuts=0).hit(cut, still, 1.0) is None

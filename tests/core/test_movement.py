@@ -1,0 +1,43 @@
+"""What has moved, and since when."""
+
+import numpy as np
+import pytest
+
+from hexmend.movement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Moment, Movement
+from hexmend.quality import measure
+from tests.core.grids import grid, scrambled
+
+MESH = grid(5)
+
+
+def moved(points, before=None):
+    then = MESH.points if before is None else before
+    was = Moment(then, measure(then, MESH.hexes), "then")
+    return Movement(MESH, was, points, measure(points, MESH.hexes))
+
+
+def test_displacement_of_an_element_is_that_of_its_nodes_in_mean_edge_lengths():
+    points = scrambled(MESH, 0.7).points
+    movement = moved(points)
+    lengths = np.linalg.norm(points - MESH.points, axis=1)[MESH.hexes] / MESH.mean_edge_length
+    np.testing.assert_allclose(movement.values("moved-most"), lengths.max(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(movement.values("moved-mean"), lengths.mean(axis=1), rtol=1e-12)
+    assert movement.counts.largest == pytest.approx(lengths.max())
+
+
+def test_elements_are_newly_inverted_still_inverted_or_mended():
+    good, bad = MESH.points, scrambled(MESH, 1.2).points
+    inverted = measure(bad, MESH.hexes).inverted
+    assert 0 < inverted.sum() < inverted.size
+    assert np.array_equal(moved(bad).kinds == NEWLY_INVERTED, inverted)
+    assert np.array_equal(moved(good, bad).kinds == MENDED, inverted)
+    assert np.array_equal(moved(bad, bad).kinds == STILL_INVERTED, inverted)
+    assert moved(bad).counts.newly_inverted == moved(good, bad).counts.mended == inverted.sum()
+    assert moved(bad).counts.worse == moved(good, bad).counts.better > 0
+
+
+def test_where_nothing_has_moved_all_is_zero():
+    movement = moved(MESH.points.copy())
+    for name in MOVEMENTS:
+        assert not movement.values(name).any()
+    assert not any(vars(movement.counts).values())
