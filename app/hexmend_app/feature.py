@@ -173,6 +173,9 @@ class Host(Protocol):
     def show_panel(self, id: str) -> None:
         """Bring a panel to the front, and unfold what it stands in."""
 
+    def offer_panel(self, id: str) -> None:
+        """Bring a panel to the front of what it stands in, unfolded or not: the view keeps its room."""
+
     def in_front(self, id: str) -> bool:
         """Whether a panel can be seen."""
 

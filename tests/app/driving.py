@@ -19,7 +19,9 @@ def open_and_wait(qtbot, window, path):
 
 def click(window, text):
     button = next(
-        b for b in window.features["smooth"].panel.findChildren(QPushButton) if b.text() == text and b.isVisible()
+        b
+        for b in window.features["smooth"].panel.findChildren(QPushButton)
+        if b.accessibleName() == text and b.isVisible()
     )
     assert button.isEnabled()
     QTest.mouseClick(button, LEFT)

@@ -11,7 +11,7 @@ from hexmend_app.feature import Panel
 from hexmend_app.widgets.section import Section
 
 #: Pixels that a column has to spare, for words that are longer once there are figures in them.
-_LONGER = 8
+_LONGER = 2
 
 
 class _Column(QScrollArea):
@@ -33,7 +33,7 @@ def column(panels: Sequence[Panel]) -> QScrollArea:
     """Panels one below the other; each but the first folds away under its title."""
     tools = QWidget()
     layout = QVBoxLayout(tools)
-    layout.setContentsMargins(8, 6, 8, 6)
+    layout.setContentsMargins(6, 6, 6, 6)
     layout.setSpacing(6)
     for at, panel in enumerate(panels):
         layout.addWidget(Section(panel.title, panel.widget, panel.help) if at else panel.widget)

@@ -20,7 +20,7 @@ _LEAST_VIEW = (320, 240)
 
 #: Width of the right column where nothing was saved, as a share of the window's and in pixels at least, and how much
 #: of its height is for tools.
-_COLUMN, _LEAST_COLUMN, _TOOLS = 0.17, 270, 0.56
+_COLUMN, _LEAST_COLUMN, _TOOLS = 0.165, 280, 0.55
 
 
 class Docks(QWidget):
@@ -109,6 +109,11 @@ class Docks(QWidget):
         self.set_hidden(False)
         tabs, page = self._where[id]
         tabs.bring(page)
+
+    def offer_panel(self, id: str) -> None:
+        """Bring a panel to the front of its tabs, which stay folded or hidden if they are."""
+        tabs, page = self._where[id]
+        tabs.offer(page)
 
     def close_panel(self, id: str) -> None:
         """Take a panel's tab away, until it is shown again."""

@@ -43,11 +43,15 @@ class Tabs(QTabWidget):
         """Put a page behind a tab of its own."""
         self.setTabToolTip(self.addTab(page, title), help)
 
-    def bring(self, page: QWidget) -> None:
-        """Bring a page to the front."""
+    def offer(self, page: QWidget) -> None:
+        """Bring a page to the front of the others."""
         at = self.indexOf(page)
         self.setTabVisible(at, True)
         self.setCurrentIndex(at)
+
+    def bring(self, page: QWidget) -> None:
+        """Bring a page to the front, where it can be seen."""
+        self.offer(page)
         self.changed.emit()
 
     def close_page(self, page: QWidget) -> None:

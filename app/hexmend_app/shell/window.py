@@ -125,6 +125,10 @@ class Window(QMainWindow):
         """Bring a panel to the front, and unfold what it stands in."""
         self.docks.show_panel(id)
 
+    def offer_panel(self, id: str) -> None:
+        """Bring a panel to the front of what it stands in, unfolded or not: the view keeps its room."""
+        self.docks.offer_panel(id)
+
     def in_front(self, id: str) -> bool:
         """Whether a panel can be seen."""
         return self.docks.in_front(id)
@@ -175,9 +179,17 @@ class Window(QMainWindow):
         if document.is_open:
             summary = document.now.summary
             inverted = f"{summary.inverted:,} inverted" if summary.inverted else "none inverted"
-            self._counts.setText(f"{summary.hexes:,} hexes, {inverted}")
+            self._counts.setText(f"{summary.hexes:,} hexes, {inverted}{self._chosen()}")
         self.setWindowTitle(f"{document.name}[*] – Hexmend" if document.is_open else "Hexmend")
         self.setWindowModified(document.modified)
+
+    def _chosen(self) -> str:
+        """The hex that is chosen, in short, wherever its panel is."""
+        chosen, now = self.session.selection.hex, self.session.document.now
+        if chosen is None:
+            return ""
+        state = "inverted" if now.figures.inverted[chosen] else f"q {now.figures.q[chosen]:.3f}"
+        return f"  ·  hex {chosen:,}: {state}"
 
     def _open_menu(self, hit: tuple[int, int] | None, at: QPoint) -> None:
         """Offer what can be done with what was clicked in the view."""

@@ -9,7 +9,7 @@ from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from hexmend_app.scene.palette import BLUE, CHOSEN, FAINT, FIELD, HOVER, LINE, ON_CHOSEN, TEXT
-from hexmend_app.widgets.style import dress, explain
+from hexmend_app.widgets.style import dress, explain, smaller
 
 
 def _sheet() -> str:
@@ -60,9 +60,10 @@ class Segmented(QWidget):
             explain(button, f"{name}: {text}", help)
             button.clicked.connect(lambda _=False, key=key: self.chosen.emit(key))
             # The chosen one is bold; its width must not depend on that.
+            button.setFont(smaller(button.font()))
             font = button.font()
             font.setBold(True)
-            button.setMinimumWidth(QFontMetrics(font).horizontalAdvance(text) + 16)
+            button.setMinimumWidth(QFontMetrics(font).horizontalAdvance(text) + 12)
             self._group.addButton(button)
             self._buttons[key] = button
             layout.addWidget(button)

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QPush
 from hexmend_app.scene.skin import WHOLE
 from hexmend_app.state.look import Look
 from hexmend_app.widgets.slider_box import SliderBox
-from hexmend_app.widgets.style import explain, note, tabular
+from hexmend_app.widgets.style import explain, icon, note, tabular
 from hexmend_app.widgets.wording import counted
 
 _MOST_SHRUNK = 60  # per cent
@@ -64,17 +64,17 @@ class InsidePanel(QWidget):
         self._rings.setFixedWidth(width)
         explain(self._rings, "Rings around what is isolated", _RINGS)
         self._isolated = QLabel()
-        self._all = QPushButton("Show all")
+        self._all = QPushButton("All")
         explain(self._all, "Show all", "End the isolation: show again what is around.")
         self._dug = QLabel()
-        self._undo = QPushButton("Undo")
+        self._undo = QPushButton(icon("undo"), "")
         explain(self._undo, "Undo digging", "Bring back the element that was dug away last.")
-        self._put_back = QPushButton("Put back")
+        self._put_back = QPushButton(icon("restore"), "")
         explain(self._put_back, "Put back", "Bring back all elements that were dug away.")
-        self._outline = QCheckBox("Show the outline of what is hidden")
+        self._outline = QCheckBox("Outline what is hidden")
         explain(
             self._outline,
-            "Show the outline of what is hidden",
+            "Outline what is hidden",
             "Where a part is hidden, draw the sharp edges of the whole mesh; of a round body, its shade.",
         )
         self._shown = note()
@@ -96,6 +96,7 @@ class InsidePanel(QWidget):
 
     def _lay_out(self) -> None:
         grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(7)
         grid.setColumnStretch(1, 1)

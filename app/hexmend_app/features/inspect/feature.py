@@ -96,16 +96,16 @@ class FeatureInspect(Feature):
                 id="worst",
                 title="Worst",
                 widget=self.worst_list,
-                place=Place.FACTS,
-                order=30,
+                place=Place.DRAWER,
+                order=1,
                 help="The worst hexes by any metric.",
             ),
             Panel(
                 id="hex",
                 title="Hex",
                 widget=self.panel,
-                place=Place.FACTS,
-                order=40,
+                place=Place.DRAWER,
+                order=2,
                 help="All there is to know of the chosen hex and its nodes.",
             ),
         )
@@ -142,7 +142,7 @@ class FeatureInspect(Feature):
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))
         if hit is not None and not self.host.in_front("node"):
-            self.host.show_panel("hex")
+            self.host.offer_panel("hex")
 
     def _go_to_worst(self, h: int) -> None:
         if self.worst_list.isolates:

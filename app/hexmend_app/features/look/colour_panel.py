@@ -68,7 +68,7 @@ class ColourPanel(QWidget):
         self._map.setIconSize(_SWATCH)
         self._offer_maps(False)
         dress(self._map, self._paint_swatches)
-        self._reverse = QCheckBox("Reverse")
+        self._reverse = QCheckBox("⇅")
         explain(self._reverse, "Reverse", "Swap the ends of the map. Without it, the dark end stands for the worst.")
         self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
@@ -94,22 +94,24 @@ class ColourPanel(QWidget):
 
     def _lay_out(self) -> None:
         grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(7)
         grid.setColumnStretch(1, 1)
-        for row, (text, widget) in enumerate((("Colours", self._metric), ("Map", self._map), ("Range", self._mode))):
+        for row, (text, widget) in enumerate((("Colours", self._metric), ("Map", self._map))):
             label = QLabel(text)
             label.setBuddy(widget)
             grid.addWidget(label, row, 0)
             grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
+        grid.addWidget(self._mode, 2, 0, 1, 3)  # its four words need the whole width
         grid.addWidget(self._reverse, 1, 2)
         self.setTabOrder(self._map, self._reverse)
         numbers = QHBoxLayout()
         numbers.setSpacing(8)
         for part in (self._low, QLabel("to"), self._high):
             numbers.addWidget(part, 0 if isinstance(part, QLabel) else 1)
-        grid.addLayout(numbers, 3, 1, 1, 2)
-        grid.addWidget(self._problem, 4, 1, 1, 2)
+        grid.addLayout(numbers, 3, 0, 1, 3)
+        grid.addWidget(self._problem, 4, 0, 1, 3)
 
     def set_scale(self, scale: ColourScale) -> None:
         """Show a choice, without a signal."""
@@ -226,7 +228,7 @@ class ColourPanel(QWidget):
 def _combo() -> QComboBox:
     combo = QComboBox()
     combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-    combo.setMinimumContentsLength(8)
+    combo.setMinimumContentsLength(7)
     combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
     return combo
 

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from hexmend.figures import Figure
 from hexmend.quality import FIGURES
 from hexmend_app.widgets.link_table import LinkTable
-from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, tabular
+from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, smaller, tabular
 from hexmend_app.widgets.wording import figure
 
 #: What has a row: all but the quality of the best element, which says nothing.
@@ -74,7 +74,7 @@ class StatisticsTable(QWidget):
         table.link_activated.connect(self.isolate_requested)
         table.setHorizontalHeaderLabels(_COLUMNS)
         table.setAccessibleName("Statistics of the mesh")
-        table.setFont(tabular(table.font()))
+        table.setFont(tabular(smaller(table.font())))
         table.setShowGrid(False)
         table.setFrameShape(QFrame.Shape.NoFrame)
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -134,7 +134,7 @@ class StatisticsTable(QWidget):
         # Widths that hold still while figures change.
         for column in (_START, _NOW, _CHANGE):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
-            widest = "now infinite" if column == _CHANGE else "0,000,000"
+            widest = "infinite" if column == _CHANGE else "000,000"
             header.resizeSection(column, self._table.fontMetrics().horizontalAdvance(widest) + 7)
 
     def set_summaries(self, start: Any, now: Any) -> None:

@@ -49,7 +49,7 @@ _HELP = {
 
 
 class RunButtons(QWidget):
-    """A row of buttons of one width, of which the first runs, pauses or resumes as the state has it.
+    """A row of buttons, of which the first runs, pauses or resumes as the state has it; none moves as it does.
 
     Signals
     -------
@@ -66,16 +66,15 @@ class RunButtons(QWidget):
         self._buttons = {
             "run": QPushButton(),
             "step": QPushButton(icon("skip-next"), "Step"),
-            "stop": QPushButton(icon("stop"), "Stop"),
-            "reset": QPushButton(icon("restore"), "Reset"),
+            "stop": QPushButton(icon("stop"), ""),  # no words: the column is narrow
+            "reset": QPushButton(icon("restore"), ""),
         }
         dress(self, lambda: self._buttons["run"].setStyleSheet(_main_button()))
         row = QGridLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(6)
         for column, (name, button) in enumerate(self._buttons.items()):
-            # Equal widths, so that nothing moves under the pointer as Run becomes Pause.
-            row.setColumnStretch(column, 1)
+            row.setColumnStretch(column, 1 if button.text() or name == "run" else 0)
             button.clicked.connect(lambda _=False, name=name: self.pressed.emit(name))
             row.addWidget(button, 0, column)
         self._make_room()
@@ -92,7 +91,7 @@ class RunButtons(QWidget):
         for name in ("step", "stop", "reset"):  # less than the style's 80 pixels, which four have no room for
             button = self._buttons[name]
             text = button.fontMetrics().horizontalAdvance(button.text())
-            button.setMinimumWidth(text + button.iconSize().width() + 20)
+            button.setMinimumWidth(text + button.iconSize().width() + 18)
 
     def set_state(self, state: str, available: bool) -> None:
         """Enable what a state of `STATES` offers, or nothing where there is nothing to run."""
@@ -117,7 +116,7 @@ class RunButtons(QWidget):
         for name, button in self._buttons.items():
             help = STATES[self._state].help if name == "run" else _HELP[name]
             keys = f" ({self._shortcuts[name]})" if name in self._shortcuts else ""
-            explain(button, button.text(), f"{help}{keys}")
+            explain(button, button.text() or name.capitalize(), f"{help}{keys}")
 
 
 def _main_button() -> str:

@@ -102,6 +102,7 @@ class SmoothingPanel(QWidget):
         self._sentence.setAccessibleName("Outcome")
 
         layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
         layout.addLayout(choice)
         layout.addWidget(self._help)
         layout.addWidget(self.buttons)

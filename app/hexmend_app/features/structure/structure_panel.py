@@ -81,6 +81,7 @@ class StructurePanel(QWidget):
         self._counts: tuple[int, ...] = ()
         self._layers = {name: _Layer(*texts) for name, texts in _LAYERS.items()}
         grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(6)
         grid.setVerticalSpacing(5)
         grid.setColumnStretch(1, 1)
