@@ -96,11 +96,23 @@ class Overlay(QObject):
             kind == QEvent.Type.Resize and watched is self._over
         ):
             self.fit()
+            if kind == QEvent.Type.Show and watched is self._widget:
+                self._follow_in_tabs()
         elif kind in _MOUSE and watched is self._widget:
             self._follow(event)
             event.accept()
             return True
         return super().eventFilter(watched, event)
+
+    def _follow_in_tabs(self) -> None:
+        """Let Tab come from what it lies over to what is in it."""
+        tabs = Qt.FocusPolicy.TabFocus
+        before = self._over
+        if before.focusPolicy() & tabs:
+            for part in self._widget.findChildren(QWidget):
+                if part.focusPolicy() & tabs:
+                    QWidget.setTabOrder(before, part)
+                    before = part
 
     def _follow(self, event: QMouseEvent) -> None:
         """Move as the mouse does; what is not the mouse's to move stays."""

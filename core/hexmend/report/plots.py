@@ -20,6 +20,9 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#
 _MARKERS = "osD^vPX"
 
 
+#: Where a broken bar ends, of the height of the tallest bin.
+_BROKEN = 1.08
+
 #: Kinds of figure that can be written.
 FIGURE_SUFFIXES = (".svg", ".pdf", ".png")
 
@@ -93,7 +96,7 @@ class Outline:
     heights : sequence of float
         Of the bins, which share the places from 0 to 1.
     bars : sequence of (left, right, height)
-        What stands beside the bins.
+        What stands beside the bins; one that is taller than all bins is broken, and carries its number.
     filled : bool
     """
 
@@ -137,6 +140,7 @@ def write_histogram_figure(
     """
     check_figure(path)
     figure, axes = _figure()
+    top = max((height for outline in outlines for height in outline.heights), default=0) or 1.0
     for outline in outlines:
         edges = [bin / len(outline.heights) for bin in range(len(outline.heights) + 1)]
         width = 1.0 if outline.filled else 1.6
@@ -145,7 +149,10 @@ def write_histogram_figure(
         axes.stairs(outline.heights, edges, color=outline.colour, linewidth=width, label=outline.label)
         for left, right, height in outline.bars:
             fill = {"facecolor": (outline.colour, 0.35 if outline.filled else 0.0)}
-            axes.bar(left, height, right - left, align="edge", edgecolor=outline.colour, linewidth=width, **fill)
+            end = _BROKEN * top if height > top else height
+            axes.bar(left, end, right - left, align="edge", edgecolor=outline.colour, linewidth=width, **fill)
+            if height > top:
+                _break(axes, left, right, top, f"{height:,.0f}", outline.colour)
     if log:
         drawn = [h for one in outlines for h in (*one.heights, *(bar[2] for bar in one.bars)) if h > 0]
         axes.set(yscale="log", ylim=(0.8 * min(drawn, default=1.0), None))
@@ -154,6 +161,29 @@ def write_histogram_figure(
     axes.grid(alpha=0.3)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
     save_figure(figure, path)
+
+
+def _break(axes: Axes, left: float, right: float, top: float, number: str, colour: str) -> None:
+    """Break a bar that is too tall for the axis by a band of teeth, and write its number on it."""
+    places = [left + (right - left) * k / 8 for k in range(9)]
+    for wide, of in ((5.0, colour), (3.4, "white")):
+        axes.plot(
+            places,
+            [top * (0.90 if k % 2 else 0.93) for k in range(9)],
+            color=of,
+            linewidth=wide,
+            zorder=5,
+            solid_capstyle="butt",
+        )
+    axes.annotate(
+        number,
+        ((left + right) / 2, _BROKEN * top),
+        xytext=(0, 3),
+        textcoords="offset points",
+        ha="center",
+        fontsize="small",
+        color=colour,
+    )
 
 
 def check_figure(path: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QIcon, QPixmap, QResizeEvent
+from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
 
 from hexmend.quality import METRICS
@@ -55,6 +55,7 @@ class RangeRow(QWidget):
         self.parts = (self.low, to, self.high, self.inverted, self.all)
         for part in (self._label, *self.parts):
             row.addWidget(part)
+        row.insertStretch(row.count() - 1)
         for box in (self.low, self.high):
             box.valueChanged.connect(lambda _, box=box: self._on_end(box))
         self.set_axis(self._axis)
@@ -108,6 +109,14 @@ class RangeRow(QWidget):
 
 
 def _swatch() -> QIcon:
-    picture = QPixmap(_SWATCH, _SWATCH)
-    picture.fill(QColor(INVERTED))
-    return QIcon(picture)
+    """Filled while it is checked, else its border alone."""
+    icon = QIcon()
+    for state in (QIcon.State.On, QIcon.State.Off):
+        picture = QPixmap(_SWATCH, _SWATCH)
+        picture.fill(QColor(INVERTED) if state == QIcon.State.On else Qt.GlobalColor.transparent)
+        painter = QPainter(picture)
+        painter.setPen(QPen(QColor(INVERTED), 2))
+        painter.drawRect(1, 1, _SWATCH - 2, _SWATCH - 2)
+        painter.end()
+        icon.addPixmap(picture, state=state)
+    return icon
