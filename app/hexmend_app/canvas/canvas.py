@@ -32,12 +32,6 @@ from hexmend_app.state.views import Wipe
 from hexmend_app.widgets.overlay import Overlay
 from hexmend_app.widgets.style import dress
 
-#: Milliseconds of rest after which the fine still frame is drawn.
-_REST = 300
-
-#: Width and height in pixels that the view has at least.
-_LEAST = (320, 240)
-
 #: Width in pixels of the ring that marks the focus, and how the focus comes by keys.
 _RING = 2
 _BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason, Qt.FocusReason.ShortcutFocusReason)

@@ -23,8 +23,12 @@ class Pointer(QObject):
     clicked(place), dug(place)
         A click of the left button in the view, or one with Ctrl held down.
     double_clicked(place)
+        Two clicks of the left button; the first has been told as a click.
     menu_wanted(place)
-        A click of the right button. It is told when VTK has had the click too, so that a menu may wait for an answer.
+        A click of the right button.
+
+    The last two are told when VTK has let go of the button too: it would turn or zoom on under a menu that waits for an
+    answer, and end what leads the camera.
     """
 
     pressed = Signal()
@@ -36,6 +40,7 @@ class Pointer(QObject):
     def __init__(self, view: QWidget):
         super().__init__(view)
         self._down: tuple[Qt.MouseButton, QPointF] | None = None
+        self._second = False  # of a double click
         view.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -44,17 +49,14 @@ class Pointer(QObject):
         if kind == QEvent.Type.MouseButtonPress:
             self._press(event)
         elif kind == QEvent.Type.MouseButtonDblClick:
-            if event.button() == Qt.MouseButton.LeftButton and not _with_ctrl(event):
-                self._down = None
-                self.double_clicked.emit(event.position())
-            else:
-                self._press(event)  # the second click of two in a row
+            self._press(event)
+            self._second = not _with_ctrl(event)  # with Ctrl held down, two clicks are two clicks
         elif kind == QEvent.Type.MouseButtonRelease:
             self._release(event)
         return super().eventFilter(watched, event)
 
     def _press(self, event: QEvent) -> None:
-        self._down = event.button(), event.position()
+        self._down, self._second = (event.button(), event.position()), False
         self.pressed.emit()
 
     def _release(self, event: QEvent) -> None:
@@ -65,7 +67,9 @@ class Pointer(QObject):
         away = place - down[1]
         if max(abs(away.x()), abs(away.y())) > _STRAY:
             return
-        if event.button() == Qt.MouseButton.LeftButton:
+        if event.button() == Qt.MouseButton.LeftButton and self._second:
+            QTimer.singleShot(0, self, lambda: self.double_clicked.emit(place))
+        elif event.button() == Qt.MouseButton.LeftButton:
             (self.dug if _with_ctrl(event) else self.clicked).emit(place)
         elif event.button() == Qt.MouseButton.RightButton:
             QTimer.singleShot(0, self, lambda: self.menu_wanted.emit(place))

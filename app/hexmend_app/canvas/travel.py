@@ -57,6 +57,11 @@ class Travel(QObject):
         """Whether the camera flies."""
         return self._timer.isActive()
 
+    @property
+    def at_rest(self) -> bool:
+        """Whether the camera neither flies nor has just been moved."""
+        return not (self.under_way or self._settling.isActive())
+
     def fly(self, flight: Flight) -> None:
         """Set out; a flight that is on its way ends where it is."""
         self.leave()
@@ -80,13 +85,14 @@ class Travel(QObject):
 
     def leave(self) -> None:
         """The camera is about to be moved: where it has rested is a view to come back to; a flight ends."""
-        if not (self.under_way or self._settling.isActive()):
+        if self.at_rest:
             self._settle()
         self._timer.stop()
 
     def arrive(self) -> None:
         """The camera has been moved, and may come to rest."""
-        self._settling.start()
+        if not self.under_way:
+            self._settling.start()
 
     def stop(self) -> None:
         """Neither fly nor remember any more."""

@@ -22,9 +22,14 @@ _ARROWS = {
 }
 _ZOOMS = {Qt.Key.Key_Plus: _ZOOM, Qt.Key.Key_Equal: _ZOOM, Qt.Key.Key_Minus: 1 / _ZOOM}
 
+#: Held down, they make another key of it: Alt and an arrow go back and forward.
+_OTHERS = Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.MetaModifier
+
 
 def move_of(event: QKeyEvent, up: str) -> Callable[[pv.Camera], None] | None:
     """What a key does to the camera, `up` being the axis that is up; None for a key that says nothing."""
+    if event.modifiers() & _OTHERS:
+        return None
     if event.key() in _ARROWS:
         right, above = _ARROWS[event.key()]
         if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QToolButton, QWidget
 
 from hexmend_app.canvas.captions import HEIGHT, Caption, CaptionRow
 from hexmend_app.canvas.view_frame import ViewFrame
-from hexmend_app.scene.panes import grid
+from hexmend_app.scene.arrangement import grid
 from hexmend_app.state.views import Wipe
 from tests.app.driving import LEFT
 

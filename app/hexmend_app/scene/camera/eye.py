@@ -98,7 +98,7 @@ class Eye:
 
     def roll(self, degrees: float) -> None:
         """Turn the picture, counter-clockwise."""
-        self.camera.Roll(-degrees)
+        self.camera.Roll(degrees)
 
     def reset_depth(self) -> None:
         """Fit what is near and far enough to be drawn to where the camera is."""

@@ -1,0 +1,254 @@
+"""The 3D view as a widget: what the mouse and the keys do, and where the camera has been."""
+
+import numpy as np
+import pytest
+import shiboken6
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+
+from hexmend.quality import measure
+from hexmend_app.canvas.canvas import Canvas
+from hexmend_app.scene.camera.pose import Pose
+from hexmend_app.scene.frame import Frame
+from hexmend_app.state.clip import ClipPlane
+from tests.app.driving import LEFT, drag
+from tests.core.grids import grid
+from tests.patience import PATIENCE
+
+MESH = grid(4)
+FIGURES = measure(MESH.points, MESH.hexes)
+RIGHT = Qt.MouseButton.RightButton
+
+#: Canvases of tests that are over: garbage, they would take along what VTK draws with.
+CLOSED = []
+
+
+@pytest.fixture
+def canvas(qtbot):
+    canvas = Canvas()
+    canvas.resize(600, 500)
+    with qtbot.waitExposed(canvas):
+        canvas.show()
+    canvas.draw(Frame(MESH, FIGURES))
+    rested(qtbot, canvas)
+    yield canvas
+    canvas.close()
+    CLOSED.append(canvas)
+    shiboken6.invalidate(canvas.windowHandle())
+    canvas.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    canvas.interactor._forget_context()
+
+
+def pose(canvas):
+    return Pose.of(canvas.viewport.camera)
+
+
+def rested(qtbot, canvas):
+    """Wait until the camera rests, and draw what is seen now."""
+    qtbot.waitUntil(lambda: canvas.travel.at_rest, timeout=PATIENCE)
+    canvas.interactor.render()
+
+
+def middle(canvas):
+    return canvas.interactor.rect().center()
+
+
+def double_click(canvas, place):
+    """What Qt sends as the user clicks twice."""
+    view = canvas.interactor
+    QTest.mouseClick(view, LEFT, pos=place)
+    QTest.mouseDClick(view, LEFT, pos=place)
+    QTest.mouseRelease(view, LEFT, pos=place)
+
+
+def test_views_are_gone_back_and_forward_through(canvas, qtbot):
+    home = pose(canvas)
+    assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
+    told = []
+    canvas.views_changed.connect(lambda: told.append((canvas.can_go_back, canvas.can_go_forward)))
+    canvas.look_along("+x")
+    rested(qtbot, canvas)
+    side = pose(canvas)
+    assert told[-1] == (True, False)
+    drag(canvas.interactor, QPoint(60, 60), QPoint(140, 90))
+    rested(qtbot, canvas)
+    turned = pose(canvas)
+    assert not turned.looks_like(side)
+    for expected in (side, home):
+        canvas.back_view()
+        rested(qtbot, canvas)
+        assert pose(canvas).looks_like(expected)
+    assert told[-1] == (False, True)
+    for expected in (side, turned):
+        canvas.forward_view()
+        rested(qtbot, canvas)
+        assert pose(canvas).looks_like(expected)
+    canvas.forward_view()  # there is none
+    assert not canvas.flying
+    canvas.draw(Frame(grid(2), measure(grid(2).points, grid(2).hexes)))
+    assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
+
+
+def test_going_back_at_once_leads_to_where_the_camera_was(canvas, qtbot):
+    home = pose(canvas)
+    canvas.look_along("+x")
+    side = pose(canvas)
+    canvas.back_view()  # before it has come to rest
+    rested(qtbot, canvas)
+    assert pose(canvas).looks_like(home)
+    canvas.forward_view()
+    rested(qtbot, canvas)
+    assert pose(canvas).looks_like(side)
+
+
+def test_strokes_of_keys_in_a_row_are_one_view(canvas, qtbot):
+    home = pose(canvas)
+    for _ in range(4):
+        QTest.keyClick(canvas.interactor, Qt.Key.Key_Right)
+    rested(qtbot, canvas)
+    assert not pose(canvas).looks_like(home)
+    canvas.back_view()
+    rested(qtbot, canvas)
+    assert pose(canvas).looks_like(home)
+    assert not canvas.can_go_back
+
+
+def test_a_key_that_says_nothing_does_not_end_a_flight(canvas, qtbot):
+    canvas.fly_to(0)
+    QTest.keyClick(canvas.interactor, Qt.Key.Key_N)
+    assert canvas.flying
+    QTest.keyClick(canvas.interactor, Qt.Key.Key_Left)
+    assert not canvas.flying
+
+
+def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
+    home = pose(canvas)
+    for h in (3, 60):  # from one to the next
+        canvas.remember_pose()
+        canvas.fly_to(h)
+        rested(qtbot, canvas)
+    canvas.return_to_pose()
+    assert canvas.flying
+    rested(qtbot, canvas)
+    assert pose(canvas).looks_like(home)
+    canvas.look_along("+z")
+    canvas.return_to_pose()  # there is nothing to return to
+    assert not canvas.flying
+    canvas.remember_pose()
+    canvas.forget_pose()
+    canvas.look_along("+x")
+    canvas.return_to_pose()
+    assert not canvas.flying
+
+
+def test_an_excursion_begun_on_the_way_ends_where_the_way_led(canvas, qtbot):
+    canvas.fly_to(3)
+    canvas.remember_pose()
+    canvas.fly_to(60)
+    rested(qtbot, canvas)
+    canvas.return_to_pose()
+    rested(qtbot, canvas)
+    np.testing.assert_allclose(pose(canvas).focal, MESH.points[MESH.hexes[3]].mean(axis=0), atol=1e-6)
+
+
+def test_a_double_click_sets_what_the_camera_turns_about(canvas, qtbot):
+    clicks = []
+    canvas.clicked.connect(clicks.append)
+    before = pose(canvas)
+    place = middle(canvas) + QPoint(60, 20)
+    double_click(canvas, place)
+    qtbot.waitUntil(lambda: canvas.flying, timeout=PATIENCE)
+    rested(qtbot, canvas)
+    after = pose(canvas)
+    assert len(clicks) == 1  # the first of both chooses
+    focal = np.array(after.focal)
+    on = np.isclose(focal, 0, atol=1e-6) | np.isclose(focal, 4, atol=1e-6)
+    assert on.any()  # on the skin
+    assert not np.allclose(focal, before.focal)
+    assert after.distance == pytest.approx(before.distance)
+    hit = canvas.panes.pick(*(canvas.interactor.width() / 2, canvas.interactor.height() / 2))
+    np.testing.assert_allclose(hit.place, focal, atol=0.05)
+    double_click(canvas, QPoint(3, 3))  # beside the mesh
+    rested(qtbot, canvas)
+    assert pose(canvas).looks_like(after)
+
+
+def test_two_clicks_with_ctrl_dig_twice(canvas):
+    dug = []
+    canvas.dug.connect(dug.append)
+    view, ctrl = canvas.interactor, Qt.KeyboardModifier.ControlModifier
+    QTest.mouseClick(view, LEFT, ctrl, middle(canvas))
+    at = QPointF(middle(canvas))
+    for kind in (QEvent.Type.MouseButtonDblClick, QEvent.Type.MouseButtonRelease):
+        QApplication.sendEvent(view, QMouseEvent(kind, at, view.mapToGlobal(at), LEFT, LEFT, ctrl))
+    assert len(dug) == 2
+    assert not canvas.flying
+
+
+def test_a_right_click_asks_for_a_menu_and_a_right_drag_zooms(canvas, qtbot):
+    asked, clicks = [], []
+    canvas.menu_requested.connect(lambda hit, place: asked.append((hit, place)))
+    canvas.clicked.connect(clicks.append)
+    view, at = canvas.interactor, middle(canvas)
+    before = pose(canvas)
+    QTest.mouseClick(view, RIGHT, pos=at)
+    qtbot.waitUntil(lambda: len(asked) == 1, timeout=PATIENCE)
+    (h, node), place = asked[0]
+    assert node in MESH.hexes[h]
+    assert place == view.mapToGlobal(at)
+    QTest.mouseClick(view, RIGHT, pos=QPoint(3, 3))
+    qtbot.waitUntil(lambda: len(asked) == 2, timeout=PATIENCE)
+    assert asked[1][0] is None
+    assert pose(canvas).looks_like(before)
+    QTest.mousePress(view, RIGHT, pos=at)
+    for k in range(1, 9):
+        QTest.mouseMove(view, at + QPoint(0, 10 * k))
+    QTest.mouseRelease(view, RIGHT, pos=at + QPoint(0, 80))
+    assert pose(canvas).distance != pytest.approx(before.distance, rel=0.05)
+    QTest.keyClick(view, Qt.Key.Key_Menu)
+    assert len(asked) == 3  # the drag asked for none
+    assert not clicks
+
+
+def test_a_menu_may_wait_for_an_answer(canvas, qtbot):
+    """What hears of the click may run an event loop of its own: VTK has let go of the button by then."""
+    before = pose(canvas)
+    moved = []
+
+    def wait(hit, place):
+        for k in range(1, 6):
+            QTest.mouseMove(canvas.interactor, middle(canvas) + QPoint(0, 15 * k))
+        QApplication.processEvents()
+        moved.append(pose(canvas))
+
+    canvas.menu_requested.connect(wait)
+    QTest.mouseClick(canvas.interactor, RIGHT, pos=middle(canvas))
+    qtbot.waitUntil(lambda: len(moved) == 1, timeout=PATIENCE)
+    assert moved[0].looks_like(before)
+
+
+def test_up_and_projection_are_told(canvas):
+    assert (canvas.up, canvas.parallel) == ("z", False)
+    canvas.set_up("y")
+    canvas.set_parallel(True)
+    assert (canvas.up, canvas.parallel) == ("y", True)
+    canvas.look_along("+x")
+    before = pose(canvas)
+    canvas.roll(90)
+    assert np.dot(pose(canvas).up, before.up) == pytest.approx(0, abs=1e-9)
+
+
+def test_a_plane_is_flown_to(canvas, qtbot):
+    canvas.face(ClipPlane((0, 1, 0), (2, 2, 2)))
+    assert canvas.flying
+    rested(qtbot, canvas)
+    np.testing.assert_allclose(canvas.viewport.camera.GetDirectionOfProjection(), (0, -1, 0), atol=1e-9)
+
+
+def test_the_view_keeps_a_least_size(canvas):
+    canvas.resize(50, 50)
+    assert canvas.interactor.width() >= 320
+    assert canvas.interactor.height() >= 240

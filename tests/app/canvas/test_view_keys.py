@@ -1,0 +1,47 @@
+"""Keys that lead the camera."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QKeyEvent
+
+from hexmend_app.canvas.view_keys import move_of
+from hexmend_app.scene.camera.directions import UPS, look_from
+
+PLAIN, SHIFT, ALT = (
+    Qt.KeyboardModifier.NoModifier,
+    Qt.KeyboardModifier.ShiftModifier,
+    Qt.KeyboardModifier.AltModifier,
+)
+
+
+def pressed(key, held=PLAIN):
+    return QKeyEvent(QEvent.Type.KeyPress, key, held)
+
+
+@pytest.mark.parametrize("up", UPS)
+def test_arrows_turn_about_what_is_up_and_with_shift_they_shift(up):
+    camera = pv.Camera()
+    look_from(camera, "iso", up)
+    axis, before = np.array(UPS[up][0]), np.array(camera.GetPosition())
+    move_of(pressed(Qt.Key.Key_Right), up)(camera)
+    assert not np.allclose(camera.GetPosition(), before)
+    assert np.array(camera.GetPosition()) @ axis == pytest.approx(before @ axis)
+    assert camera.GetFocalPoint() == (0, 0, 0)
+    move_of(pressed(Qt.Key.Key_Right, SHIFT), up)(camera)
+    assert camera.GetFocalPoint() != (0, 0, 0)
+
+
+def test_plus_and_minus_zoom_and_undo_each_other():
+    camera = pv.Camera()
+    far = camera.GetDistance()
+    move_of(pressed(Qt.Key.Key_Plus), "z")(camera)
+    assert camera.GetDistance() < far
+    move_of(pressed(Qt.Key.Key_Minus), "z")(camera)
+    assert camera.GetDistance() == pytest.approx(far)
+
+
+@pytest.mark.parametrize("event", [(Qt.Key.Key_N,), (Qt.Key.Key_Left, ALT), (Qt.Key.Key_Shift, SHIFT)])
+def test_other_keys_say_nothing(event):
+    assert move_of(pressed(*event), "z") is None

@@ -1,0 +1,34 @@
+"""Where to look from, and what is up."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from hexmend_app.scene.camera.directions import UPS, VIEWS, look_from, up_in
+
+
+@pytest.mark.parametrize("up", UPS)
+@pytest.mark.parametrize("name", VIEWS)
+def test_from_each_direction_the_axis_is_up_that_is_to_be(name, up):
+    camera = pv.Camera()
+    look_from(camera, name, up)
+    ahead, upwards = np.array(camera.GetDirectionOfProjection()), np.array(camera.GetViewUp())
+    axis = np.array(UPS[up][0])
+    assert np.linalg.norm(np.cross(ahead, upwards)) > 0.5  # VTK would have to turn the camera
+    if name[1:] == up:
+        assert abs(ahead @ axis) == pytest.approx(1)
+    else:
+        np.testing.assert_array_equal(upwards, axis)
+    if name == "iso":
+        assert np.abs(ahead).min() > 0.3  # three sides are seen
+        assert ahead @ axis < 0  # from above
+    else:
+        np.testing.assert_allclose(ahead, np.eye(3)["xyz".index(name[1])] * (-1 if name[0] == "+" else 1))
+
+
+@pytest.mark.parametrize("up", UPS)
+def test_a_vector_along_what_is_up_has_something_else_up(up):
+    axis = np.array(UPS[up][0])
+    assert up_in(tuple(3 * axis), up) == UPS[up][1]
+    assert up_in(tuple(-axis), up) == UPS[up][1]
+    assert up_in((1.0, 2.0, 3.0), up) == UPS[up][0]
