@@ -33,7 +33,7 @@ class Menus:
         self.actions: dict[str, QAction] = {}
         self._bar = QToolBar("Tools")
         self._bar.setObjectName("toolbar")
-        self._bar.setIconSize(QSize(18, 18))
+        self._bar.setIconSize(QSize(16, 16))
         self._menus = _menus(window)
         for menu in ("", *MENUS):
             self._fill(menu, [one for one in actions if one.menu == menu])

@@ -148,6 +148,7 @@ class FeatureInspect(Feature):
         if self.worst_list.isolates:
             self._view.isolate((h,))
         self._selection.visit(h)
+        self.worst_list.set_selected(h)  # or the next step through the list would begin where the last one did
 
     def _back(self) -> None:
         """First show the rest again, then look at none."""

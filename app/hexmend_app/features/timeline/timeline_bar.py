@@ -71,7 +71,7 @@ class TimelineBar(QWidget):
         self._more.setMenu(self._menu())
         explain(self._more, "Timeline settings", "How much memory the iterations may take, and how fast they play.")
         layout = QHBoxLayout(self)
-        layout.setContentsMargins(8, 3, 8, 3)
+        layout.setContentsMargins(8, 1, 8, 1)
         layout.setSpacing(2)
         layout.addWidget(self._runs)
         layout.addSpacing(4)
