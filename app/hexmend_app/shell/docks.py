@@ -20,7 +20,7 @@ _LEAST_VIEW = (320, 240)
 
 #: Width of the right column where nothing was saved, as a share of the window's and in pixels at least, and how much
 #: of its height is for tools.
-_COLUMN, _LEAST_COLUMN, _TOOLS = 0.165, 280, 0.55
+_COLUMN, _LEAST_COLUMN, _TOOLS = 0.19, 272, 0.55
 
 
 class Docks(QWidget):

@@ -94,8 +94,8 @@ class Window(QMainWindow):
         self.canvas.hide()
         self.docks.view.insertWidget(0, self.canvas, 1)
         self.canvas.menu_requested.connect(self._open_menu)
-        panels = QShortcut(QKeySequence(Qt.Key.Key_Tab), self.canvas, self.toggle_panels)
-        panels.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+        panels = QShortcut(QKeySequence(Qt.Key.Key_Tab), self.canvas.interactor, self.toggle_panels)
+        panels.setContext(Qt.ShortcutContext.WidgetShortcut)
         for feature in self.features.values():
             feature.canvas_ready(self.canvas)
         self.refresh()

@@ -37,8 +37,9 @@ class RangeRow(QWidget):
         self._shown: ValueRange | None = None
         # A brushed end has more digits than its box.
         self._ends: dict[EndBox, float] = {}
-        self.low, self.high, self.all = EndBox(), EndBox(), QPushButton("Show all")
+        self.low, self.high, self.all = EndBox(), EndBox(), QPushButton("All")
         explain(self.all, "Show all", "Show the elements of every value again (or double-click on the plot).")
+        self.all.setMinimumWidth(44)  # less than the style's 80 pixels, which the row has no room for
         self.all.clicked.connect(self.cleared)
         self.inverted = QToolButton()
         self.inverted.setCheckable(True)

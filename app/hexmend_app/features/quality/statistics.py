@@ -98,7 +98,7 @@ class StatisticsTable(QWidget):
         layout.addWidget(table)
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
-        table.setMinimumWidth(self._title_width() + self._figures_width())
+        table.setMinimumWidth(self._title_width() + self._figures_width() - 20)  # the longest title may end in …
 
     def _paint(self) -> None:
         palette = QPalette()
