@@ -87,7 +87,7 @@ class EndBox(QDoubleSpinBox):
         middle = self._axis.low + 0.567 * (self._axis.high - self._axis.low)
         texts = [self.textFromValue(value) for value in (middle, self._axis.high, self.minimum())]
         widest = max(self.fontMetrics().horizontalAdvance(text) for text in (*texts, "0.00"))
-        return QSize(min(widest + 32, _WIDEST), super().minimumSizeHint().height())
+        return QSize(min(widest + 26, _WIDEST), super().minimumSizeHint().height())
 
 
 def _number(text: str) -> float:
