@@ -31,7 +31,7 @@ class FeatureTags(Feature):
         panel.isolate_requested.connect(lambda name: session.view.isolate(session.document.now.mesh.hex_sets[name]))
         panel.remove_requested.connect(commands.remove_tag)
         panel.renamed.connect(commands.rename_tag)
-        panel.offer_changed.connect(host.refresh_soon)
+        panel.refused.connect(host.messages.show_info)
 
     def actions(self) -> Sequence[Action]:
         """Tag what is chosen."""
@@ -46,7 +46,6 @@ class FeatureTags(Feature):
                 help="Give the chosen hex the tag that the panel Tags names, or take it away; "
                 "tags are saved with the mesh.",
                 handle=self.panel.toggle,
-                enabled=lambda: self.panel.can_toggle,
                 in_view=True,
             ),
         )

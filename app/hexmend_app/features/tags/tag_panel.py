@@ -23,9 +23,12 @@ from hexmend_app.widgets.wording import figure
 
 _TITLES = ("Tag", "Elements", "Inverted", "q min")
 _HINT = (
-    "No element is tagged. Choose one and press T, or tag all that are shown or listed as worst. "
-    "Tags are saved with the mesh in VTK and VTU files; groups of elements that a file holds appear here."
+    "No hex is tagged. Choose one and press T, or tag all that are shown or listed as worst. "
+    "Tags are saved with the mesh in VTK and VTU files; groups of hexes that a file holds appear here."
 )
+_BUSY = "Nothing can be tagged while a run is under way, paused or not: end it with Stop, which keeps what it reached."
+_NAMELESS = "Tags need a name: write one into “Tag as”."
+_NONE_CHOSEN = "No hex is chosen: click on one in the view, or press N for the worst, then T tags it."
 _Trigger = QAbstractItemView.EditTrigger
 _RENAMING = _Trigger.DoubleClicked | _Trigger.EditKeyPressed | _Trigger.AnyKeyPressed
 
@@ -51,8 +54,8 @@ class TagPanel(QWidget):
         The user wants all elements tagged that are shown in the view, or listed as the worst.
     isolate_requested(name), remove_requested(name)
     renamed(name, other)
-    offer_changed
-        Whether the chosen element can be tagged has changed.
+    refused(str)
+        The chosen hex was to be tagged, and cannot be: why, as a sentence.
     """
 
     toggle_requested = Signal(str)
@@ -61,7 +64,7 @@ class TagPanel(QWidget):
     isolate_requested = Signal(str)
     remove_requested = Signal(str)
     renamed = Signal(str, str)
-    offer_changed = Signal()
+    refused = Signal(str)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -114,7 +117,6 @@ class TagPanel(QWidget):
         for part in (self._element, self._shown, self._listed):
             head.addWidget(part)
         foot.addWidget(self._hint, 1)
-        foot.addStretch()
         for part in (self._isolate, self._remove):
             foot.addWidget(part)
         layout = QVBoxLayout(self)
@@ -131,13 +133,24 @@ class TagPanel(QWidget):
 
     @property
     def can_toggle(self) -> bool:
-        """Whether there is an element to tag, and a name for it."""
-        return bool(self.name) and self._chosen and not self._busy
+        """Whether there is a hex to tag, and a name for it."""
+        return not self.why_not
+
+    @property
+    def why_not(self) -> str:
+        """Why the chosen hex cannot be tagged, as a sentence; "" where it can."""
+        if self._busy:
+            return _BUSY
+        if not self.name:
+            return _NAMELESS
+        return "" if self._chosen else _NONE_CHOSEN
 
     def toggle(self) -> None:
-        """Ask for the chosen element's tag, or to take it away."""
+        """Ask for the chosen hex's tag, or to take it away; or say why that cannot be."""
         if self.can_toggle:
             self.toggle_requested.emit(self.name)
+        else:
+            self.refused.emit(self.why_not)
 
     def set_tags(self, rows: list[TagRow]) -> None:
         """Show the tags; without a signal."""
@@ -186,13 +199,13 @@ class TagPanel(QWidget):
                 item.setText(old)
 
     def _enable(self) -> None:
-        possible, could = bool(self.name) and not self._busy, self._element.isEnabled()
+        possible = bool(self.name) and not self._busy
         self._element.setEnabled(self.can_toggle)
         self._shown.setEnabled(possible)
         self._listed.setEnabled(possible)
         self._isolate.setEnabled(bool(self._selected()))
         self._remove.setEnabled(bool(self._selected()) and not self._busy)
         self._table.setEditTriggers(_Trigger.NoEditTriggers if self._busy else _RENAMING)
-        self._hint.setVisible(not self._rows)
-        if could != self.can_toggle:
-            self.offer_changed.emit()
+        free = _NONE_CHOSEN if self._rows else _HINT
+        why = self.why_not
+        self._hint.setText(free if why == _NONE_CHOSEN else why)

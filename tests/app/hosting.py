@@ -1,0 +1,51 @@
+"""A host for features that are tried without a window."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QWidget
+
+from hexmend.errors import HexmendError
+from hexmend_app.feature import Action, Feature
+from hexmend_app.state.document import State
+from hexmend_app.state.session import Session
+from hexmend_app.widgets.busy import Busy
+from hexmend_app.widgets.message_bar import MessageBar
+
+
+class PlainHost:
+    """What a feature has of a window, without one: it remembers which panels were brought to the front."""
+
+    def __init__(self, mesh, path=None):
+        self.window = QWidget()
+        self.session = Session(self.window)
+        self.canvas = None
+        self.messages, self.busy = MessageBar(self.window), Busy(self.window)
+        self.stem = "mesh"
+        self.fronted: list[str] = []
+        self.session.document.replace(State.of(mesh), path)
+
+    def show_panel(self, id):
+        self.fronted.append(id)
+
+    def in_front(self, id):
+        return id in self.fronted[-1:]
+
+    def may_leave(self):
+        return True
+
+    def refresh_soon(self):
+        pass
+
+    def said(self, failure, act, success=""):
+        try:
+            act()
+        except HexmendError as error:
+            self.messages.show_error(failure, str(error))
+            return False
+        self.messages.show_info(success)
+        return True
+
+
+def action(feature: Feature, id: str) -> Action:
+    """An action that a feature declares."""
+    return next(one for one in feature.actions() if one.id == id)
