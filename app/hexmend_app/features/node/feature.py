@@ -197,6 +197,7 @@ class FeatureNode(Feature):
         self.host.show_panel("node")
         chosen, free = self._selection, self._document.now.mesh.free
         if chosen.node is not None and free[chosen.node]:
+            chosen.visit(chosen.hex)
             return
         hexes = self._selection.listing() if chosen.hex is None else np.array([chosen.hex])
         found = worst_free_node(self._document.now, hexes)
