@@ -13,7 +13,7 @@ from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
 from hexmend_app.state.run import Phase
-from hexmend_app.widgets.questions import ask_recipe, ask_recipe_target, remember_folder
+from hexmend_app.widgets.questions import ask_recipe, ask_recipe_target
 from hexmend_app.widgets.wording import name_in_words, short_number
 
 _LIMITS = {"max_iterations": "at most {} iterations", "tolerance": "tolerance {}", "max_seconds": "at most {} s"}
@@ -117,7 +117,6 @@ class FeatureRecipe(Feature):
         """Ask which file, and go on with the recipe in it."""
         path = ask_recipe(self.host.window)
         if path:
-            remember_folder(Path(path))
             self.load(path)
 
     def load(self, path: str | Path) -> None:
