@@ -157,7 +157,7 @@ BUILT = {
     "histogram": histogram,
     "statistics": statistics,
     "worst": worst,
-    "element": one_element,
+    "hex": one_element,
     "error": lambda: messages("error"),
     "warning": lambda: messages("warning"),
     "info": told,

@@ -190,7 +190,7 @@ def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbo
 
     start, shown = window.session.document.now, viewport.shown
     assert 0 < shown == inside() < 4000
-    assert window.features["histogram"].panel.words.text().startswith(f"{shown:,} of 4,000 elements from ")
+    assert window.features["histogram"].panel.words.text().startswith(f"{shown:,} of 4,000 hexes from ")
     click(window, "Step")
     qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
     assert viewport.shown == inside() != shown
