@@ -127,7 +127,7 @@ class ColourBar(QFrame):
             self,
             "Colour bar",
             f"Colours stand for {label} from {low} to {high}; values beyond an end have the end's colour. "
-            f"Elements that are {' or '.join(one.name for one in apart)} have a colour of their own; inverted "
+            f"Hexes that are {' or '.join(one.name for one in apart)} have a colour of their own; inverted "
             "ones are turned inside out at a corner (a determinant σ ≤ 0), and outlined. Drag the bar elsewhere; a "
             "double click puts it back.",
         )

@@ -47,7 +47,7 @@ class SwatchButton(QAbstractButton):
         self.name, self.count, self._colour = name, count, colour
         self.setEnabled(count > 0)
         self.setCursor(Qt.CursorShape.PointingHandCursor if count else Qt.CursorShape.ArrowCursor)
-        explain(self, f"Show only what is {name}", f"Show only the elements that are {name}; Esc brings back the rest.")
+        explain(self, f"Show only what is {name}", f"Show only the hexes that are {name}; Esc brings back the rest.")
         self.updateGeometry()
         self.update()
 

@@ -33,8 +33,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--notch", action="store_true", help="hide only what lies beyond all planes; of a box, its inside"
     )
     cut = parser.add_mutually_exclusive_group()
-    cut.add_argument("--crinkle", action="store_true", help="show elements whole (the default)")
-    cut.add_argument("--smooth", action="store_true", help="cut through the elements")
+    cut.add_argument("--crinkle", action="store_true", help="show hexes whole (the default)")
+    cut.add_argument("--smooth", action="store_true", help="cut through the hexes")
 
 
 def clip_of(args: argparse.Namespace, mesh: Mesh) -> Clip | None:

@@ -47,7 +47,7 @@ class Film:
 
         format_of(path)  # an unknown suffix is said before the work, not after
         run, history = iterate(mesh, what, stop), History()
-        record = history.begin(what.name, what.title, State.of(mesh))
+        record = history.begin(what.title, State.of(mesh))
         history.add(record, run.start)
         follow(run, lambda iteration: history.add(record, iteration))
         numbers = shown(history, record, frames)

@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser, size: str) -> None:
     parser.add_argument(
         "--quality-range",
         metavar="LOW,HIGH",
-        help="show only elements of a q in this range; from 0 on, inverted ones too",
+        help="show only hexes of a q in this range; from 0 on, inverted ones too",
     )
     parser.add_argument(
         "--view", metavar="FROM", default="iso", help="iso, +x, -x, ..., or x,y,z (default %(default)s)"
@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser, size: str) -> None:
         metavar="NAMES",
         help="draw irregular, boundary or sharp edges, fixed, free or locked nodes; several separated by commas",
     )
-    parser.add_argument("--no-edges", action="store_true", help="leave the elements' edges out")
+    parser.add_argument("--no-edges", action="store_true", help="leave the hexes' edges out")
 
 
 def view_of(args: argparse.Namespace) -> str | tuple[float, ...]:

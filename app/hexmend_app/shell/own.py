@@ -9,6 +9,7 @@ from PySide6.QtCore import QPoint, Qt
 
 from hexmend_app.feature import Action, Panel
 from hexmend_app.shell.keys_page import KeysPage
+from hexmend_app.shell.offers import choices, commands, panels_in
 from hexmend_app.shell.palette import CommandPalette
 
 if TYPE_CHECKING:
@@ -70,9 +71,9 @@ def own_actions(window: Window, panels: Sequence[Panel]) -> list[Action]:
             menu="Help",
             keys="Ctrl+Shift+P",
             icon="magnify",
-            help="Find any command by its name.",
+            help="Find any command, panel, method, metric or setting by its name.",
             needs_mesh=False,
-            handle=lambda: _show_palette(window),
+            handle=lambda: _show_palette(window, panels),
         ),
         Action(
             id="keys",
@@ -97,10 +98,11 @@ def own_actions(window: Window, panels: Sequence[Panel]) -> list[Action]:
     ]
 
 
-def _show_palette(window: Window) -> None:
+def _show_palette(window: Window, panels: Sequence[Panel]) -> None:
     window.refresh()
-    others = [action for id, action in window.actions.items() if id != "commands"]
-    palette = CommandPalette(others, window)
+    others = {id: action for id, action in window.actions.items() if id != "commands"}
+    entries = [*commands(others), *panels_in(window.docks, panels), *choices(window.session)]
+    palette = CommandPalette(entries, window)
     palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     palette.move(window.mapToGlobal(QPoint((window.width() - palette.width()) // 2, 60)))
     palette.open()

@@ -1,17 +1,21 @@
-"""Every command by name: type some letters of it, press Enter."""
+"""Whatever can be done, by its name: type some letters of it, press Enter."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QBrush, QColor, QKeyEvent
+from PySide6.QtGui import QBrush, QColor, QKeyEvent
 from PySide6.QtWidgets import QDialog, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
+from hexmend_app.shell.ranking import Entry, ranked
 from hexmend_app.widgets.style import MUTED, dress, explain, note
 
 #: Keys that move in the list while the cursor stands in the field.
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
+
+#: How wide names may be, in pixels; keys stand behind them.
+_NAMES = 430
 
 
 class _Field(QLineEdit):
@@ -30,83 +34,65 @@ class _Field(QLineEdit):
 
 
 class CommandPalette(QDialog):
-    """Finds an action and triggers it.
+    """Finds something by its name, the best match first, and does it.
 
     Parameters
     ----------
-    actions : sequence of QAction
-        Those that are disabled are left out.
+    entries : iterable of Entry
     """
 
-    def __init__(self, actions: Sequence[QAction], parent: QWidget | None = None):
+    def __init__(self, entries: Iterable[Entry], parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle("Commands")
         self.setWindowFlag(Qt.WindowType.FramelessWindowHint)
+        self._entries = list(entries)
+        self._found: list[Entry] = []
         self._list = QTreeWidget()
         self._field = _Field(self._list)
-        self._field.setPlaceholderText("Type some letters of a command")
-        explain(self._field, "Command", "Letters of the command, in any order of words; Enter carries it out.")
+        self._field.setPlaceholderText("Type some letters of a command, a panel, a method, a metric or a setting")
+        explain(self._field, "Command", "Letters of what is looked for, in any order of words; Enter does it.")
         self._list.setColumnCount(2)
         self._list.setHeaderHidden(True)
         self._list.setRootIsDecorated(False)
         self._list.setUniformRowHeights(True)
         self._list.setAccessibleName("Commands")
         self._list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._actions = [action for action in actions if action.isEnabled() and not action.isSeparator()]
-        for action in self._actions:
-            self._list.addTopLevelItem(_item(action))
-        dress(self, self._paint)
-        self._list.resizeColumnToContents(1)
         self._list.header().setStretchLastSection(False)
-        self._list.setColumnWidth(0, 400)
-        self._nothing = note("No command has these letters.")
+        self._list.setColumnWidth(0, _NAMES)
+        self._nothing = note("Nothing has these letters.")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         for part in (self._field, self._list, self._nothing):
             layout.addWidget(part)
-        self.resize(560, 380)
-        self._field.textChanged.connect(self._filter)
+        self.resize(_NAMES + 160, 380)
+        self._field.textChanged.connect(self._fill)
         self._field.returnPressed.connect(self._carry_out)
         self._list.itemClicked.connect(self._carry_out)
-        self._filter("")
+        dress(self, self._fill)
 
     def found(self) -> list[str]:
-        """The commands listed now."""
-        return [item.text(0) for item in self._items() if not item.isHidden()]
+        """What is listed now, the best match first."""
+        return [one.title for one in self._found]
 
-    def _items(self) -> list[QTreeWidgetItem]:
-        return [self._list.topLevelItem(k) for k in range(self._list.topLevelItemCount())]
-
-    def _paint(self) -> None:
-        for item in self._items():
-            item.setForeground(1, QBrush(QColor(str(MUTED))))
-
-    def _filter(self, text: str) -> None:
-        words = text.lower().split()
-        first = None
-        for item in self._items():
-            said = f"{item.text(0)} {item.toolTip(0)}".lower()
-            item.setHidden(not all(word in said for word in words))
-            if first is None and not item.isHidden():
-                first = item
-        self._list.setCurrentItem(first)
-        self._nothing.setVisible(first is None)
+    def _fill(self, *_: object) -> None:
+        self._found = ranked(self._entries, self._field.text())
+        self._list.clear()
+        self._list.addTopLevelItems([_item(one) for one in self._found])
+        self._list.resizeColumnToContents(1)
+        self._list.setCurrentItem(self._list.topLevelItem(0))
+        self._nothing.setVisible(not self._found)
 
     def _carry_out(self) -> None:
-        item = self._list.currentItem()
-        if item is not None and not item.isHidden():
-            action = self._actions[self._list.indexOfTopLevelItem(item)]
+        at = self._list.indexOfTopLevelItem(self._list.currentItem()) if self._found else -1
+        if at >= 0:
             self.accept()
-            action.trigger()
+            self._found[at].do()
 
 
-def _item(action: QAction) -> QTreeWidgetItem:
-    within = action.property("within")
-    name = action.text().replace("&", "")
-    item = QTreeWidgetItem([f"{within}: {name}" if within else name, action.shortcut().toString()])
-    item.setIcon(0, action.icon())
-    item.setToolTip(0, action.statusTip())
+def _item(entry: Entry) -> QTreeWidgetItem:
+    item = QTreeWidgetItem([entry.title, entry.keys])
+    item.setIcon(0, entry.icon)
+    item.setToolTip(0, entry.help)
     item.setTextAlignment(1, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-    if action.isCheckable():
-        item.setText(0, f"{item.text(0)}: {'on' if action.isChecked() else 'off'}")
+    item.setForeground(1, QBrush(QColor(str(MUTED))))
     return item

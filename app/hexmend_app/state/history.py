@@ -24,7 +24,7 @@ class Record:
     Attributes
     ----------
     name : str
-        Short and its own: the method's, with a number where it ran before.
+        Its own: the method's title, with a number where it ran before.
     title : str
         The method's title.
     start : State
@@ -137,11 +137,18 @@ class History:
             self._limit = limit
             self._thin()
 
-    def begin(self, name: str, title: str, start: State) -> Record:
-        """Open the record of a run that is about to begin; what it goes on from is known by its start."""
+    def begin(self, title: str, start: State) -> Record:
+        """Open the record of a run that is about to begin; what it goes on from is known by its start.
+
+        Parameters
+        ----------
+        title : str
+            Of the method or the recipe.
+        start : State
+        """
         names = {record.name for record in self.records}
         count = 1
-        while (own := f"{name} ({count})" if count > 1 else name) in names:
+        while (own := f"{title} ({count})" if count > 1 else title) in names:
             count += 1
         record = Record(own, title, start, self.moment_of(start))
         self.records.append(record)

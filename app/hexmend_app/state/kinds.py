@@ -35,7 +35,7 @@ def of_kind(kind: str, mesh: Mesh, figures: ElementQuality, movement: Movement |
         For another kind.
     """
     if kind not in KINDS:
-        raise KeyError(f"there is no kind of elements {kind!r}: known are {', '.join(KINDS)}")
+        raise KeyError(f"there is no kind of hexes {kind!r}: known are {', '.join(KINDS)}")
     if kind == "inverted":
         return np.flatnonzero(figures.inverted)
     if kind == "locked":

@@ -74,7 +74,7 @@ class Arrows(StrEnum):
     SIGHT = "sight"
     """Those of the faces that are seen."""
     ALL = "all"
-    """Those of all elements that are shown, through whatever is before them."""
+    """Those of all hexes that are shown, through whatever is before them."""
 
 
 @dataclass(frozen=True)

@@ -94,7 +94,7 @@ class Smoothing(QObject):
             return
         self._before = self._document.now
         self.work, self._title = smoother, smoother.title
-        self.record = self._history.begin(smoother.name, smoother.title, self._before)
+        self.record = self._history.begin(smoother.title, self._before)
         self.following = True
         self._worker = Worker(self._before.mesh, smoother, stop, partial(self._history.add, self.record))
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints

@@ -91,10 +91,10 @@ def size(bytes: int) -> str:
     return QLocale.c().formattedDataSize(bytes, 1).replace(".0 ", " ")
 
 
-def counted(number: int, noun: str, plural: str = "") -> str:
+def counted(number: int, noun: str) -> str:
     """A number with its noun.
 
-    >>> counted(1, "element"), counted(1234, "element")
-    ('1 element', '1,234 elements')
+    >>> counted(1, "node"), counted(1234, "node"), counted(2, "hex")
+    ('1 node', '1,234 nodes', '2 hexes')
     """
-    return f"{number:,} {noun if number == 1 else plural or noun + 's'}"
+    return f"{number:,} {noun if number == 1 else noun + ('es' if noun.endswith('x') else 's')}"

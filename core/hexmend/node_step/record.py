@@ -15,13 +15,13 @@ class Verdict(Enum):
     """What became of the node, as a sentence."""
 
     MOVED = "Moved."
-    SHORTENED = "Moved a part of the way: the whole of it would invert an element."
-    TAKEN_BACK = "Stays: its move would harm an element, and is taken back."
+    SHORTENED = "Moved a part of the way: the whole of it would invert a hex."
+    TAKEN_BACK = "Stays: its move would harm a hex, and is taken back."
     NO_DESCENT = "Stays: along the search direction no step descends enough, however short."
     FLAT = "Stays: its energy has no slope here."
     THERE = "Stays: it is where the method wants it."
     STAYS = "Stays: the method leaves it where it is in this iteration."
-    INFINITE = "Stays: its energy is infinite, for an element is inverted and δ is zero."
+    INFINITE = "Stays: its energy is infinite, for a hex is inverted and δ is zero."
     FINISHED = "Stays: the method has no further step to make."
 
 

@@ -29,7 +29,7 @@ MAX_ANGLE = METRICS.add(
         full_range=(0.0, 180.0),
         acceptable=(90.0, 135.0),
         better=-1,
-        meaning="Angles near 180 degrees make gradients inaccurate: the element is nearly flat at a corner.",
+        meaning="Angles near 180 degrees make gradients inaccurate: the hex is nearly flat at a corner.",
         of=by_kernel(faces.angles, rows=2, row=1, worst=180.0),
         unit="degrees",
     ),

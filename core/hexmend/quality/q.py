@@ -12,7 +12,7 @@ Q = METRICS.add(
         full_range=(0.0, 1.0),
         acceptable=(0.3, 1.0),
         better=1,
-        meaning="Low values slow iterative solvers down and cost accuracy: the element is far from a cube.",
+        meaning="Low values slow iterative solvers down and cost accuracy: the hex is far from a cube.",
         of=lambda points, hexes, figures: figures.q,
     ),
 )

@@ -12,7 +12,7 @@ SCALED_JACOBIAN = METRICS.add(
         full_range=(-1.0, 1.0),
         acceptable=(0.2, 1.0),
         better=1,
-        meaning="At 0 and below the element is inverted at a corner: most solvers refuse it.",
+        meaning="At 0 and below the hex is inverted at a corner: most solvers refuse it.",
         of=lambda points, hexes, figures: figures.scaled_jacobian,
     ),
 )

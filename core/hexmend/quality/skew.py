@@ -13,7 +13,7 @@ SKEW = METRICS.add(
         full_range=(0.0, 1.0),
         acceptable=(0.0, 0.5),
         better=-1,
-        meaning="High values mean a sheared element: gradients across it are less accurate.",
+        meaning="High values mean a sheared hex: gradients across it are less accurate.",
         of=by_kernel(metrics.axes, rows=3, row=1, worst=1.0),
     ),
 )

@@ -16,8 +16,7 @@ STRETCH = METRICS.add(
         acceptable=(0.25, 1.0),
         better=1,
         meaning=(
-            "Low values mean an edge that is short for the element's size, which limits the time step of "
-            "explicit solvers."
+            "Low values mean an edge that is short for the hex's size, which limits the time step of explicit solvers."
         ),
         of=by_kernel(metrics.lengths, rows=3, row=1, worst=0.0),
     ),

@@ -16,7 +16,7 @@ TAPER = METRICS.add(
         acceptable=(0.0, 0.5),
         better=-1,
         meaning=(
-            "High values mean opposite faces of different size: the map to the element is far from linear, "
+            "High values mean opposite faces of different size: the map to the hex is far from linear, "
             "and quadrature errs."
         ),
         of=by_kernel(metrics.axes, rows=3, row=2, worst=math.inf),

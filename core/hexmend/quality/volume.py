@@ -15,9 +15,7 @@ VOLUME = METRICS.add(
         full_range=(-math.inf, math.inf),
         acceptable=(0.0, math.inf),
         better=0,
-        meaning=(
-            "Below 0 the element is inside out; a jump from one element to the next reflects waves and costs accuracy."
-        ),
+        meaning=("Below 0 the hex is inside out; a jump from one hex to the next reflects waves and costs accuracy."),
         of=by_kernel(faces.volume, rows=1, row=0, worst=-math.inf),
         unit="mesh unit³",
     ),

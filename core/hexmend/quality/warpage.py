@@ -15,7 +15,7 @@ WARPAGE = METRICS.add(
         better=-1,
         meaning=(
             "High values mean faces that are not flat: contact, surface loads and finite volumes see another "
-            "face than the element has."
+            "face than the hex has."
         ),
         of=by_kernel(faces.warpage, rows=1, row=0, worst=2.0),
     ),

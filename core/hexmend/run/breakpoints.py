@@ -79,13 +79,13 @@ class Breakpoints:
         if not hexes.size:
             return None
         more = f" and {hexes.size - 1:,} more" if hexes.size > 1 else ""
-        return Hit(f"Element {hexes[0]}{more} inverted", tuple(int(h) for h in hexes))
+        return Hit(f"Hex {hexes[0]}{more} inverted", tuple(int(h) for h in hexes))
 
     def _fell(self, before: Iteration, now: Iteration) -> Hit | None:
         least, worst = before.figures.q.min(), int(now.figures.q.argmin())
         if not (self.q_min_falls and now.figures.q[worst] < least):
             return None
-        return Hit(f"q min fell from {least:.4f} to {now.figures.q[worst]:.4f}, at element {worst}", (worst,))
+        return Hit(f"q min fell from {least:.4f} to {now.figures.q[worst]:.4f}, at hex {worst}", (worst,))
 
     def _moved(self, before: Iteration, now: Iteration, unit: float) -> Hit | None:
         if self.node is None:
@@ -101,7 +101,7 @@ class Breakpoints:
         was, is_now = float(before.figures.q[self.hex]), float(now.figures.q[self.hex])
         if not abs(is_now - was) > self.change:
             return None
-        return Hit(f"q of element {self.hex} went from {was:.4f} to {is_now:.4f}", (self.hex,))
+        return Hit(f"q of hex {self.hex} went from {was:.4f} to {is_now:.4f}", (self.hex,))
 
     def _cut(self, now: Iteration) -> Hit | None:
         cuts = now.notes.get("cuts", 0)

@@ -49,7 +49,7 @@ class General(Smoother):
         ratio = size_ratio(points, mesh.hexes)
         sizes = f"{'similar' if ratio <= self.similar else 'different'} sizes (ratio {ratio:.2g})"
         count = figures.n_inverted
-        inverted = f"{count:,} inverted element{'s' * (count != 1)}" if count else "no inverted elements"
+        inverted = f"{count:,} inverted hex{'es' * (count != 1)}" if count else "no inverted hexes"
         chosen = METHODS["global-nr" if ratio <= self.similar and not count else "local-sd"]
         decision = f"After GETMe: {sizes}, {inverted}: {chosen.title}."
         rest = chosen().steps(mesh.with_points(points))

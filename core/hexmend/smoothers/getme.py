@@ -29,7 +29,7 @@ class GETMe(Smoother):
     source = "Wilson 3.1.2; Vartziotis and Wipper 2011"
 
     scaling: float = parameter(1.0, low=0.01, high=10, help="s: how far a corner goes along its triangle's normal.")
-    relaxation: float = parameter(0.75, low=0.01, high=1, help="rho: share of an element's step that is taken.")
+    relaxation: float = parameter(0.75, low=0.01, high=1, help="rho: share of a hex's step that is taken.")
     weights: str = parameter(
         "quality",
         choices=("quality", "paper", "equal"),

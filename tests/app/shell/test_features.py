@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QLabel, QMenu
 from hexmend_app.feature import MENUS, Action, Feature, Panel, Place
 from hexmend_app.shell import features as finding
 from hexmend_app.shell.keys import as_markdown
+from hexmend_app.shell.offers import commands
 from hexmend_app.shell.palette import CommandPalette
 from hexmend_app.shell.window import Window
 
@@ -68,7 +69,7 @@ def test_a_feature_reaches_menu_palette_keys_and_window(with_example, qtbot):
     menu = next(one for one in window.menuBar().findChildren(QMenu) if one.title().replace("&", "") == "Help")
     assert action in menu.actions()
     assert action.shortcut().toString() == "Ctrl+Alt+U"
-    palette = CommandPalette(list(window.actions.values()), window)
+    palette = CommandPalette(commands(window.actions), window)
     assert "Count up" in palette.found()
     palette.close()
     assert "| Count up | `Ctrl+Alt+U` | Count one more. |" in as_markdown(window.menus.declared())

@@ -64,7 +64,7 @@ def everything_on(window):
     return window
 
 
-@pytest.mark.parametrize("front", ["quality", "worst", "element", "node", "tags", "outcome"])
+@pytest.mark.parametrize("front", ["quality", "worst", "hex", "node", "tags", "outcome"])
 def test_tab_reaches_every_control_once_and_comes_back(everything_on, qtbot, front):
     window = everything_on
     window.session.selection.choose(7)
@@ -128,7 +128,7 @@ def test_every_control_has_a_name(everything_on):
     window = everything_on
     window.session.selection.choose(7, int(window.session.document.now.mesh.hexes[7, 0]))
     nameless = []
-    for name in ("quality", "worst", "element", "tags"):
+    for name in ("quality", "worst", "hex", "tags"):
         window.docks[name].raise_()
         QTest.qWait(30)
         for one in [window.canvas.interactor, *controls(window)]:

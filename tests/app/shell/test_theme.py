@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PySide6.QtCore import QSettings, Qt
-from PySide6.QtGui import QAction, QGuiApplication, QImage
+from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
@@ -28,6 +28,7 @@ from hexmend_app.scene.export.picture import picture
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import THEME, Role
 from hexmend_app.shell.palette import CommandPalette
+from hexmend_app.shell.ranking import Entry
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Record
 from hexmend_app.state.look import ValueRange
@@ -146,7 +147,7 @@ def colours():
 
 
 def palette():
-    return CommandPalette([QAction("&Fit"), QAction("&Run")])
+    return CommandPalette([Entry(name="Fit", do=print), Entry(name="Run", do=print)])
 
 
 BUILT = {
@@ -157,7 +158,7 @@ BUILT = {
     "histogram": histogram,
     "statistics": statistics,
     "worst": worst,
-    "element": one_element,
+    "hex": one_element,
     "error": lambda: messages("error"),
     "warning": lambda: messages("warning"),
     "info": told,

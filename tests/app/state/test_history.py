@@ -17,7 +17,7 @@ FREE = 12 * int(MESH.free.sum())  # bytes of an iteration
 def recorded(history, iterations=20, start=None):
     """A run of local-sd, kept; the record and the iterations as they were."""
     start = start or State.of(MESH)
-    record = history.begin("local-sd", "Local steepest descent", start)
+    record = history.begin("Local steepest descent", start)
     run = iterate(start.mesh, "local-sd", Stop(max_iterations=iterations, tolerance=0))
     history.add(record, run.start)
     seen = [run.start]
@@ -90,8 +90,8 @@ def test_a_run_knows_what_it_branched_from_and_has_a_name_of_its_own():
     middle = history.state(Moment(first, 7), MESH)
     second, _, _ = recorded(history, 3, middle)
     assert second.parent == Moment(first, 7)
-    assert [first.name, second.name] == ["local-sd", "local-sd (2)"]
-    assert Moment(second, 3).name == "local-sd (2) 3"
+    assert [first.name, second.name] == ["Local steepest descent", "Local steepest descent (2)"]
+    assert Moment(second, 3).name == "Local steepest descent (2) 3"
     history.remove(first)
     assert history.records == [second]
     assert history.bytes == 3 * FREE
@@ -128,5 +128,5 @@ def test_what_is_tagged_or_pinned_since_is_of_the_same_iteration(number):
         changed = State.of(shown.mesh.replace(**change))
         assert history.moment_of(changed) == Moment(record, number)
         shown = changed  # and the one before is gone
-    assert history.begin("mend", "Mend", shown).parent == Moment(record, number)
+    assert history.begin("Mend", shown).parent == Moment(record, number)
     assert history.moment_of(State.of(scrambled(grid(5), 0.3))) is None

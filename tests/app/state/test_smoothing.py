@@ -138,7 +138,7 @@ def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing,
     smoothing.start(LocalSteepestDescent(), Stop(), iterations=1)
     qtbot.waitUntil(lambda: len(frames) == 1, timeout=PATIENCE)
     assert "condition" in measured._known[frames[0].state.figures]
-    assert smoothing.record.name == "local-sd"
+    assert smoothing.record.name == "Local steepest descent"
     smoothing.want({"taper", "q"})  # in the middle of a run
     smoothing.step()
     qtbot.waitUntil(lambda: len(frames) == 2, timeout=PATIENCE)

@@ -11,6 +11,7 @@ from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.figures import Figure
 from hexmend.report.comparison import LINES
+from hexmend.smoothers import METHODS
 from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
 
 METHOD, VIEW, _FIRST = 0, 1, 2
@@ -47,6 +48,15 @@ class Entry:
     record: Mapping[str, Any]
     has_mesh: bool = False
     shown: bool = False
+
+
+def title_of(name: str) -> str:
+    """What a row is called: the method's title, or `INITIAL`.
+
+    >>> title_of("local-sd"), title_of(INITIAL)
+    ('Local steepest descent', 'initial')
+    """
+    return METHODS[name].title if name in METHODS else name
 
 
 def best(entries: Sequence[Entry], figure: Figure) -> set[str]:
@@ -126,7 +136,7 @@ class ComparisonModel(QAbstractTableModel):
 
     def _value(self, entry: Entry, column: int) -> Any:
         if column == METHOD:  # those that have run first
-            return not entry.record, entry.name
+            return not entry.record, title_of(entry.name)
         return entry.shown if column == VIEW else entry.record.get(LINES[column - _FIRST].key)
 
     def rowCount(self, parent: QModelIndex | None = None) -> int:
@@ -148,7 +158,9 @@ class ComparisonModel(QAbstractTableModel):
         entry, column = self.entries[index.row()], index.column()
         figure = LINES[column - _FIRST] if column >= _FIRST else None
         if role == _Role.DisplayRole:
-            return entry.name if column == METHOD else figure.of(entry.record) if figure and entry.record else ""
+            return (
+                title_of(entry.name) if column == METHOD else figure.of(entry.record) if figure and entry.record else ""
+            )
         if role == _Role.CheckStateRole:
             return self._check(entry, column)
         if role == _Role.TextAlignmentRole:

@@ -14,7 +14,7 @@ from hexmend_app.canvas.captions import Caption
 from hexmend_app.canvas.wipe_handle import STEP
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
-from hexmend_app.features.compare.comparison_table import INITIAL, Entry
+from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_of
 from hexmend_app.scene.palette import BLUE, KEPT, Role
 from hexmend_app.state.comparison import Compared
 from hexmend_app.state.document import State
@@ -257,12 +257,12 @@ class FeatureCompare(Feature):
             ended = f"{counted(done, 'method')} compared" if done else ""
             self.panel.set_status(f"{ended}, interrupted" if comparison.interrupted and ended else ended)
         elif comparison.ending:
-            self.panel.set_status(f"Ending {at.method} after this iteration…")
+            self.panel.set_status(f"Ending {title_of(at.method)} after this iteration…")
         elif at.iteration:
             further = f"iteration {at.iteration:,}, {at.seconds:.1f} s"
-            self.panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): {further}")
+            self.panel.set_status(f"{title_of(at.method)} ({at.at + 1} of {at.of}): {further}")
         else:
-            self.panel.set_status(f"{at.method} ({at.at + 1} of {at.of}): preparing…")
+            self.panel.set_status(f"{title_of(at.method)} ({at.at + 1} of {at.of}): preparing…")
 
     # What the user asks for
 
@@ -281,7 +281,7 @@ class FeatureCompare(Feature):
     def _toggle(self, name: str, on: bool) -> None:
         state = self._state_of(name)
         if on:
-            self.show(name, state)
+            self.show(title_of(name), state)
         else:
             self._close(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
 

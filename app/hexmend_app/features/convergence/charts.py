@@ -67,7 +67,7 @@ CHARTS: dict[str, Chart] = {
     for chart in (
         _alone("objective", "objective", log=True),
         Chart("quality", "quality", (Quantity(_FIGURES["q_min"]), Quantity(_FIGURES["q_mean"]))),
-        _alone("inverted", "inverted elements", log=True, whole=True),
+        _alone("inverted", "inverted hexes", log=True, whole=True),
         _alone("largest_move", log=True),
         _alone("gradient_norm", log=True),
         _alone("step_length", log=True),

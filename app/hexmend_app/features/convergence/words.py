@@ -45,7 +45,7 @@ def why_blank(chart: Chart, curves: Sequence[Curve]) -> str:
         return ""
     left = [int(one.columns.of("inverted")[-1]) for one in shown if _infinite(chart, one)]
     if left:
-        some = f"{counted(left[-1], 'hex', 'hexes')} {'is' if left[-1] == 1 else 'are'} inverted"
+        some = f"{counted(left[-1], 'hex')} {'is' if left[-1] == 1 else 'are'} inverted"
         return f"{some}: the objective is infinite until none is."
     return f"The method does not tell its {chart.title}." if len(shown) == 1 else f"No run tells its {chart.title}."
 

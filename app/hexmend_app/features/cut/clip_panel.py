@@ -44,10 +44,10 @@ class ClipPanel(QWidget):
         self._planes = PlaneClip()
         self._box = BoxClip((0, 0, 0), (1, 1, 1))
         self._at = 0
-        self._on = QCheckBox("Clip")
-        explain(self._on, "Clip", "Cut the mesh open and look inside (C).")
+        self._on = QCheckBox("Cut")
+        explain(self._on, "Cut", "Cut the mesh open and look inside (C).")
         self._kind = Segmented(
-            "Clip by",
+            "Cut by",
             [
                 ("planes", "Planes", "Cut along one plane or several."),
                 ("box", "Box", "Cut along the six sides of a box."),
@@ -77,8 +77,8 @@ class ClipPanel(QWidget):
         self._cut = Segmented(
             "Cut",
             [
-                ("crinkle", "Whole elements", "Show an element whole where its centre lies on the kept side."),
-                ("smooth", "Smooth cut", "Cut through the elements; the cut shows the inside of each."),
+                ("crinkle", "Whole hexes", "Show a hex whole where its centre lies on the kept side."),
+                ("smooth", "Smooth cut", "Cut through the hexes; the cut shows the inside of each."),
             ],
         )
         self._lay_out()

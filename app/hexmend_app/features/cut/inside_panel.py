@@ -15,17 +15,17 @@ _MOST_SHRUNK = 60  # per cent
 _MOST_RINGS = 99
 
 _PEEL = (
-    "Hide the outer layers of elements. Layer 1 are the elements with a face on the boundary, layer 2 those that share "
+    "Hide the outer layers of hexes. Layer 1 are the hexes with a face on the boundary, layer 2 those that share "
     "a face with them, and so on."
 )
-_NO_LAYERS = "Nothing to peel: every element has a face on the boundary."
+_NO_LAYERS = "Nothing to peel: every hex has a face on the boundary."
 _SHRINK = (
-    "Draw each element smaller, about its centre, to see its shape and what lies behind it. Of more than "
-    f"{WHOLE:,} elements only those with a face in sight are drawn, and their sides when the view rests."
+    "Draw each hex smaller, about its centre, to see its shape and what lies behind it. Of more than "
+    f"{WHOLE:,} hexes only those with a face in sight are drawn, and their sides when the view rests."
 )
-_CUT_SMOOTHLY = "Elements that are cut through cannot be shrunk: choose <i>Whole elements</i> for the cut."
+_CUT_SMOOTHLY = "Hexes that are cut through cannot be shrunk: choose <i>Whole hexes</i> for the cut."
 _RINGS = (
-    "How much is shown around the elements that are isolated: ring 1 are those that share a node with them, ring 2 "
+    "How much is shown around the hexes that are isolated: ring 1 are those that share a node with them, ring 2 "
     "those that share one with ring 1, and so on."
 )
 
@@ -40,7 +40,7 @@ class InsidePanel(QWidget):
     all_requested
         Isolate no more.
     undo_requested, put_back_requested
-        Bring back the element that was dug away last, or all.
+        Bring back the hex that was dug away last, or all.
     """
 
     peel_changed = Signal(int)
@@ -54,7 +54,7 @@ class InsidePanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._peel = SliderBox("Layers peeled from the boundary", _PEEL, 0)
-        self._shrink = SliderBox("Shrink the elements", _SHRINK, _MOST_SHRUNK, " %")
+        self._shrink = SliderBox("Shrink the hexes", _SHRINK, _MOST_SHRUNK, " %")
         width = max(self._peel.box_width(), self._shrink.box_width())
         for part in (self._peel, self._shrink):
             part.set_box_width(width)
@@ -68,9 +68,9 @@ class InsidePanel(QWidget):
         explain(self._all, "Show all", "End the isolation: show again what is around.")
         self._dug = QLabel()
         self._undo = QPushButton(icon("undo"), "")
-        explain(self._undo, "Undo digging", "Bring back the element that was dug away last.")
+        explain(self._undo, "Undo digging", "Bring back the hex that was dug away last.")
         self._put_back = QPushButton(icon("restore"), "")
-        explain(self._put_back, "Put back", "Bring back all elements that were dug away.")
+        explain(self._put_back, "Put back", "Bring back all hexes that were dug away.")
         self._outline = QCheckBox("Outline what is hidden")
         explain(
             self._outline,
@@ -138,7 +138,7 @@ class InsidePanel(QWidget):
         isolated = len(look.isolation.hexes) if look.isolation is not None else 0
         self._isolated.setText(f"{isolated:,} isolated" if isolated else "none isolated")
         self._all.setEnabled(look.isolation is not None)
-        self._dug.setText(f"{counted(len(look.dug), 'element')} dug away" if look.dug else "Nothing dug away")
+        self._dug.setText(f"{counted(len(look.dug), 'hex')} dug away" if look.dug else "Nothing dug away")
         for button in (self._undo, self._put_back):
             button.setEnabled(bool(look.dug))
         self._outline.setChecked(look.outline)
@@ -146,7 +146,7 @@ class InsidePanel(QWidget):
     def set_shown(self, shown: int, total: int) -> None:
         """Say how many elements of how many are shown, whole or in part; 0 of 0 without a mesh."""
         if shown == 0 < total:
-            self._shown.setText(f"None of {counted(total, 'element')} is left to show.")
+            self._shown.setText(f"None of {counted(total, 'hex')} is left to show.")
             return
         cut = ", then cut" if self._cut_smoothly else ""
-        self._shown.setText(f"{shown:,} of {counted(total, 'element')} shown{cut}" if total else "")
+        self._shown.setText(f"{shown:,} of {counted(total, 'hex')} shown{cut}" if total else "")

@@ -13,7 +13,7 @@ from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.segmented import Segmented
 from hexmend_app.widgets.style import explain, icon, smaller, tabular
 
-_CUMULATIVE = "Heights are the share of elements with a value up to x, inverted ones first."
+_CUMULATIVE = "Heights are the share of hexes with a value up to x, inverted ones first."
 _KEEP = "Keep the distribution of this moment beside those that follow, to compare methods."
 _SAVE = "Save the histogram as it is drawn, as SVG, PDF or PNG, or its counts as CSV."
 _FULL = "Six are kept: remove one to keep another."
@@ -55,8 +55,8 @@ class HistogramHead(QWidget):
         self.scale = Segmented(
             "Scale of the counts",
             [
-                ("linear", "Linear", "Heights in proportion to the number of elements."),
-                ("log", "Log", "Heights by powers of ten, so that a few bad elements show beside many good ones."),
+                ("linear", "Linear", "Heights in proportion to the number of hexes."),
+                ("log", "Log", "Heights by powers of ten, so that a few bad hexes show beside many good ones."),
             ],
         )
         self.scale.setFont(smaller(self.font()))

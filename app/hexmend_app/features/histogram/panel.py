@@ -30,8 +30,8 @@ _PERIOD_MS = 33
 #: Pixels that the words below the plot need beside the numbers.
 _WORDS = 210
 _HELP = (
-    "How many elements have which value. Inverted elements stand apart at the left, whatever the metric. Drag over the "
-    "plot to see only the elements of a range; double-click to see all. A click on the bar of the "
+    "How many hexes have which value. Inverted hexes stand apart at the left, whatever the metric. Drag over the "
+    "plot to see only the hexes of a range; double-click to see all. A click on the bar of the "
     "inverted shows only them."
 )
 
@@ -101,7 +101,7 @@ class QualityHistogram(QWidget):
         self.ends.chosen.connect(self._on_ends)
         self.ends.cleared.connect(lambda: self._choose(None))
         # Over the plot the tooltip says the counts; the legend above it explains.
-        self.plot.plot.setAccessibleName("Histogram of element quality")
+        self.plot.plot.setAccessibleName("Histogram of hex quality")
         self.plot.plot.setAccessibleDescription(_HELP)
         self.plot.plot.setWhatsThis(_HELP)
         self.plot.view.brushed.connect(self._on_brushed)
@@ -113,7 +113,7 @@ class QualityHistogram(QWidget):
         self.words.setFont(tabular(smaller(self.words.font())))
         self.words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         tint(self.words, MUTED)
-        self.words.setAccessibleName("Elements shown")
+        self.words.setAccessibleName("Hexes shown")
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Put the words below the numbers where there is no room beside them."""

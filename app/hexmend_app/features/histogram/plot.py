@@ -177,7 +177,7 @@ class HistogramPlot(QWidget):
         else:
             ticks = [(n, f"{n:,.0f}") for n in np.linspace(0, high, 5) if n == round(n)]
         left.setTicks([ticks])
-        left.setLabel("% of elements" if self.cumulative else "elements")
+        left.setLabel("% of hexes" if self.cumulative else "hexes")
         left.resizeEvent()  # where the text is centred; pyqtgraph thinks of it only as the plot is resized
         widest = max((self.fontMetrics().horizontalAdvance(text) for _, text in ticks), default=0)
         left.setWidth(max(widest, self.fontMetrics().horizontalAdvance("00,000")) + 26)

@@ -24,7 +24,7 @@ def describe(drawn: Sequence[Series], x: float, cumulative: bool) -> str:
     for one in drawn:
         number = count(one.part.cumulated() if cumulative else one.part)
         share = f"{100 * number / max(one.part.total, 1):.4g} %, " if cumulative else ""
-        rows.append(f"{one.name}: {share}{counted(number, 'element')}")
+        rows.append(f"{one.name}: {share}{counted(number, 'hex')}")
     return "\n".join(rows)
 
 
@@ -63,8 +63,8 @@ def sentence(now: Distribution | None, chosen: ValueRange | None) -> str:
     if now is None:
         return "No mesh is open."
     if chosen is None:
-        return f"{counted(now.total, 'element')}, {now.inverted:,} inverted"
-    return f"{now.within(chosen):,} of {counted(now.total, 'element')}{_where(now, chosen)}"
+        return f"{counted(now.total, 'hex')}, {now.inverted:,} inverted"
+    return f"{now.within(chosen):,} of {counted(now.total, 'hex')}{_where(now, chosen)}"
 
 
 def _where(now: Distribution, chosen: ValueRange) -> str:

@@ -25,7 +25,7 @@ from hexmend_app.widgets.wording import counted, figure
 
 _FACES = ("x−", "x+", "y−", "y+", "z−", "z+")
 _HINT = (
-    "Click an element in the view, or choose one from the list of the worst (N). "
+    "Click a hex in the view, or choose one from the list of the worst (N). "
     "Here you will see its figures, its nodes, the quality at each corner, and its neighbours."
 )
 
@@ -70,13 +70,13 @@ class ElementPanel(QWidget):
         self._state = QLabel()
         tint(self._state, INVERTED_TEXT)
         self._in_view = QCheckBox("Corner qualities in the view")
-        explain(self._in_view, "Corner qualities in the view", "Write q(T) beside the element's corners in the view.")
+        explain(self._in_view, "Corner qualities in the view", "Write q(T) beside the hex's corners in the view.")
         self._in_view.toggled.connect(self.corners_toggled)
         self._fly = QPushButton(icon("target"), "Fly to it")
         explain(
             self._fly,
             "Fly to it",
-            "Bring the element before the camera; Enter or a double-click in the list of the worst does so too.",
+            "Bring the hex before the camera; Enter or a double-click in the list of the worst does so too.",
         )
         self._fly.clicked.connect(self.fly_requested)
         self._values = {name: self._number() for name in METRICS}
@@ -86,7 +86,7 @@ class ElementPanel(QWidget):
         self._neighbours.setTextInteractionFlags(
             Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
         )
-        explain(self._neighbours, "Neighbours", "The elements across its six faces; a click goes there.")
+        explain(self._neighbours, "Neighbours", "The hexes across its six faces; a click goes there.")
         self._neighbours.linkActivated.connect(lambda link: self.chosen.emit(int(link)))
         self._node: Node | None = None
         self._about_node = QLabel()
@@ -180,7 +180,7 @@ class ElementPanel(QWidget):
         self._stack.setCurrentIndex(0 if one is None else 1)
         if one is None:
             return
-        self._title.setText(f"Element {one.number:,}" + (f": {', '.join(tags)}" if tags else ""))
+        self._title.setText(f"Hex {one.number:,}" + (f": {', '.join(tags)}" if tags else ""))
         state = "inverted, and its fixed nodes keep it so" if one.locked else "inverted" if one.inverted else ""
         self._state.setText(state)
         for name, label in self._values.items():
@@ -208,7 +208,7 @@ class ElementPanel(QWidget):
         if one is None:
             self._about_node.setText("Click nearer to a corner, or on a node's number, to see that node.")
             return
-        parts = [f"Node {one.number:,}: {one.kind}", counted(one.ring.size, "hex", "hexes")]
+        parts = [f"Node {one.number:,}: {one.kind}", counted(one.ring.size, "hex")]
         if np.isfinite(one.energy):
             parts.append(f"energy {figure(one.energy)}, gradient {figure(float(np.linalg.norm(one.downhill)))}")
         else:

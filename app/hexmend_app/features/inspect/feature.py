@@ -170,5 +170,5 @@ class FeatureInspect(Feature):
         return self.host.said(
             "The list was not saved",
             lambda: write_worst(Path(path), self.worst_list),
-            f"{counted(len(self.worst_list.elements), 'hex', 'hexes')} saved to {path}",
+            f"{counted(len(self.worst_list.elements), 'hex')} saved to {path}",
         )

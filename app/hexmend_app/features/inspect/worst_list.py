@@ -31,7 +31,7 @@ from hexmend_app.widgets.wording import counted, figure
 #: Elements in the list at most: nobody reads more, and they are found anew at every iteration.
 MOST = 1000
 
-_TITLES = ("Element", "", "Scaled Jacobian", "State")
+_TITLES = ("Hex", "", "Scaled Jacobian", "State")
 _ELEMENT, _VALUE, _JACOBIAN, _STATE = range(4)
 _RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
 _LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
@@ -117,18 +117,16 @@ class WorstList(QWidget):
         explain(
             self._metric,
             "Worst by",
-            "The figure that the list is ordered by, and nothing else; of equal elements, the lower scaled Jacobian "
+            "The figure that the list is ordered by, and nothing else; of equal hexes, the lower scaled Jacobian "
             "comes first.",
         )
         self._metric.currentIndexChanged.connect(self._refresh)
         self._alone = QCheckBox("Isolate")
         self._alone.setChecked(True)
-        explain(
-            self._alone, "Isolate", "Show nothing but the chosen element and its neighbours; Esc brings back the rest."
-        )
-        self._previous = self._button("chevron-up", "Previous", "The element before it in the list (Shift+N).")
-        self._next = self._button("chevron-down", "Next", "The next element of the list, from the worst on (N).")
-        self._save = self._button("content-save-outline", "Save list", "Save the list as CSV, a line an element.")
+        explain(self._alone, "Isolate", "Show nothing but the chosen hex and its neighbours; Esc brings back the rest.")
+        self._previous = self._button("chevron-up", "Previous", "The hex before it in the list (Shift+N).")
+        self._next = self._button("chevron-down", "Next", "The next hex of the list, from the worst on (N).")
+        self._save = self._button("content-save-outline", "Save list", "Save the list as CSV, a line a hex.")
         self._previous.clicked.connect(self.previous)
         self._next.clicked.connect(self.next)
         self._save.clicked.connect(self.save_requested)
@@ -147,7 +145,7 @@ class WorstList(QWidget):
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self._model)
-        shape_table(table, "Worst elements", _STATE)
+        shape_table(table, "Worst hexes", _STATE)
         for column, widest in ((_ELEMENT, "000,000,000"), (_VALUE, "Scaled Jacobian"), (_JACOBIAN, "Scaled Jacobian")):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
         # Not when a row becomes the current one: the first does so as the list gets the focus.
@@ -214,7 +212,7 @@ class WorstList(QWidget):
         self._bring_up_to_date()
         model, out = self._model, io.StringIO()
         writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(["element", self._metric.currentData(), "scaled-jacobian", "state"])
+        writer.writerow(["hex", self._metric.currentData(), "scaled-jacobian", "state"])
         rows = zip(model.elements.tolist(), model.values.tolist(), model.jacobians.tolist(), model.states, strict=True)
         writer.writerows(rows)
         return out.getvalue()
@@ -251,7 +249,7 @@ class WorstList(QWidget):
         all_of_them = chosen.size == known.size
         shown = "" if all_of_them else f"The {chosen.size:,} worst of "
         order = "" if metric.name == "scaled-jacobian" else "; equal ones by scaled Jacobian"
-        self._text.setText(f"{shown}{counted(known.size, 'element')}, {figures.n_inverted:,} inverted{order}")
+        self._text.setText(f"{shown}{counted(known.size, 'hex')}, {figures.n_inverted:,} inverted{order}")
         self._mark()
 
     def _mark(self) -> None:

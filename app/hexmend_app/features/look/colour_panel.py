@@ -27,7 +27,7 @@ _MODES = {
     RangeMode.FULL: ("Full", "All values that the metric can take"),
     RangeMode.FITTED: (
         "Fitted",
-        "The least and the greatest value at the moment, inverted elements apart; follows a running method.",
+        "The least and the greatest value at the moment, inverted hexes apart; follows a running method.",
     ),
     RangeMode.ACCEPTABLE: ("Acceptable", "The values that solvers are usually content with"),
     RangeMode.PINNED: ("Pinned", "Two values that you set; they begin as the range that is shown now."),

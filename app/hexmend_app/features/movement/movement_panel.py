@@ -29,13 +29,13 @@ _COLOURS = [
     (
         "moved-most",
         MOVEMENTS["moved-most"].label,
-        "Colour each element by the longest way that one of its nodes has gone.",
+        "Colour each hex by the longest way that one of its nodes has gone.",
     ),
     (
         "q-change",
         MOVEMENTS["q-change"].label,
-        "Colour each element by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
-        "elements have colours of their own.",
+        "Colour each hex by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
+        "hexes have colours of their own.",
     ),
 ]
 _ARROWS = [
@@ -46,13 +46,13 @@ _ARROWS = [
         "An arrow from where a node was to where it is, for nodes of the faces in sight. Boundary nodes stay: cut "
         "or peel the mesh. Pale where something is before it.",
     ),
-    (Arrows.ALL.value, "All shown", "Arrows of all elements that are shown, through whatever is before them."),
+    (Arrows.ALL.value, "All shown", "Arrows of all hexes that are shown, through whatever is before them."),
 ]
 _FIGURES = {
     "Nodes": "Nodes that are elsewhere than they were.",
     "Distance": "How far these are from where they were, in mean edge lengths of the mesh as it was opened.",
-    "Elements": "Elements whose q(H) is higher or lower than it was.",
-    "Inverted": "Elements that were not inverted and are, and that were and no longer are.",
+    "Hexes": "Hexes whose q(H) is higher or lower than it was.",
+    "Inverted": "Hexes that were not inverted and are, and that were and no longer are.",
 }
 _FACTOR = "How many times as long as the way of their nodes arrows are drawn."
 
@@ -157,7 +157,7 @@ class MovementPanel(QWidget):
         """Say how large the movement since `name` is, of a mesh with so many free nodes; None for none."""
         self.show_newly.setEnabled(counts is not None and counts.newly_inverted > 0)
         why = "None is." if counts is None or not counts.newly_inverted else "Isolate them; Esc shows the rest again."
-        explain(self.show_newly, "Show newly inverted", f"Elements that were not inverted then and are now. {why}")
+        explain(self.show_newly, "Show newly inverted", f"Hexes that were not inverted then and are now. {why}")
         texts = ("No mesh is open.", "", "", "") if counts is None else _texts(counts, name, free)
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)

@@ -79,12 +79,12 @@ class NodePanel(QWidget):
         self._nodes.setWordWrap(True)
         self._nodes.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._nodes.linkActivated.connect(lambda link: self.node_chosen.emit(int(link)))
-        explain(self._nodes, "Free nodes", "The nodes of the chosen element that methods may move; a click goes there.")
+        explain(self._nodes, "Free nodes", "The nodes of the chosen hex that methods may move; a click goes there.")
         self._patch = QCheckBox("Patch alone")
         explain(
             self._patch,
             "Patch alone",
-            "Show nothing but the node's elements, before the camera; Esc brings back the rest.",
+            "Show nothing but the node's hexes, before the camera; Esc brings back the rest.",
         )
         self._patch.toggled.connect(self.patch_toggled)
         self._buttons = {name: QPushButton(text) for name, (text, _) in _BUTTONS.items()}

@@ -11,11 +11,11 @@ from hexmend_app.state.run import Phase
 from hexmend_app.state.session import Session
 
 _HINT = (
-    "Click an element in the view and choose one of its free nodes, or press D for one at the worst element. Here you "
+    "Click a hex in the view and choose one of its free nodes, or press D for one at the worst hex. Here you "
     "will see what the chosen method does to it, and why; F11 goes through a sweep node by node."
 )
 _WRONG = "Correct the marked value of the method's parameters first."
-_REACH = "Peel, cut (C) or dig (Ctrl and a click) to reach elements inside, or choose none and press D."
+_REACH = "Peel, cut (C) or dig (Ctrl and a click) to reach hexes inside, or choose none and press D."
 
 
 def why_no_step(session: Session, smoother: Smoother | None) -> str:
@@ -38,9 +38,9 @@ def why_no_step(session: Session, smoother: Smoother | None) -> str:
         return _HINT
     mesh = session.document.now.mesh
     some_free = bool(mesh.free[mesh.hexes[chosen.hex]].any())
-    choose = "Choose a free one, below." if some_free else f"Its element has no free node. {_REACH}"
+    choose = "Choose a free one, below." if some_free else f"Its hex has no free node. {_REACH}"
     if chosen.node is None:
-        return "Choose one of the element's free nodes, below." if some_free else choose
+        return "Choose one of the hex's free nodes, below." if some_free else choose
     if not mesh.fixed[chosen.node]:
         return ""
     where = "lies on the boundary" if mesh.topology.boundary[chosen.node] else "is pinned"

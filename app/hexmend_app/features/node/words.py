@@ -55,7 +55,7 @@ def _power(step: NodeStep) -> str:
 
 def _energy(step: NodeStep) -> Row:
     before, after = _finite(step.energy), _finite(step.energy_after)
-    of = "of the whole mesh" if step.whole else f"of its {counted(step.hexes.size, 'element')}, the patch"
+    of = "of the whole mesh" if step.whole else f"of its {counted(step.hexes.size, 'hex')}, the patch"
     meaning = f"The sum of η(H){_power(step)} {of}, in mean edge lengths of it; 0 if all were cubes."
     rises = step.move > 0 and step.energy_after > step.energy
     if rises:
@@ -71,11 +71,11 @@ def _finite(value: float) -> str:
 def _delta(step: NodeStep, searched: bool) -> Row:
     if step.delta == 0:
         where = "" if searched else " here"
-        meaning = f"No element{where} is inverted: to invert one would cost infinite energy."
+        meaning = f"No hex{where} is inverted: to invert one would cost infinite energy."
     elif searched:
-        meaning = "While some element is inverted, δ softens the barrier (3.2), or the energy would be infinite."
+        meaning = "While some hex is inverted, δ softens the barrier (3.2), or the energy would be infinite."
     else:
-        meaning = "An element here is inverted; what is shown is the energy softened by this δ (3.2)."
+        meaning = "A hex here is inverted; what is shown is the energy softened by this δ (3.2)."
     return Row("δ", figure(step.delta), meaning)
 
 

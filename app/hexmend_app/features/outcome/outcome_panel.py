@@ -24,9 +24,7 @@ from hexmend.advice import Advice, Suggestion
 from hexmend_app.widgets.style import INVERTED_TEXT, TEXT, dress, explain, icon, note, tint
 from hexmend_app.widgets.wording import counted
 
-_HINT = (
-    "No run has ended yet. Here you will see why it stopped, which elements are still inverted, and what to try next."
-)
+_HINT = "No run has ended yet. Here you will see why it stopped, which hexes are still inverted, and what to try next."
 #: Elements that are named; of more, the rest is counted.
 _NAMED = 24
 
@@ -160,13 +158,13 @@ class _Elements(QWidget):
             Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
         )
         self._numbers.linkActivated.connect(lambda link: self.chosen.emit(int(link)))
-        explain(self._numbers, f"{title} elements", f"Elements {which}; a click goes there.")
+        explain(self._numbers, f"{title} hexes", f"Hexes {which}; a click goes there.")
         self.button = QPushButton(icon("eye-outline"), "Show them")
         self.button.clicked.connect(lambda: self.show_requested.emit(self._elements))
         explain(
             self.button,
-            f"Show the {title.lower()} elements",
-            f"Show nothing but the elements {which}, and their neighbours; Esc brings back the rest.",
+            f"Show the {title.lower()} hexes",
+            f"Show nothing but the hexes {which}, and their neighbours; Esc brings back the rest.",
         )
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

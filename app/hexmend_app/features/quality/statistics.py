@@ -166,8 +166,7 @@ class StatisticsTable(QWidget):
                 item.setForeground(QBrush(QColor(str(WORSE if there else TEXT))))
                 kind = LINKS[row.key]
                 item.setToolTip(
-                    f"<qt>Show only the {kind} elements: click, or press Enter in this row. Esc brings back the rest."
-                    "</qt>"
+                    f"<qt>Show only the {kind} hexes: click, or press Enter in this row. Esc brings back the rest.</qt>"
                     if there
                     else _help(row)
                 )

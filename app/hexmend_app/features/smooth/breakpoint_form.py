@@ -8,13 +8,13 @@ from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGridLayout, QHBoxLayou
 from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.widgets.style import explain, tabular
 
-_INVERTS = "Pause after an iteration in which an element that was sound inverts, and choose it."
-_FALLS = "Pause after an iteration that lowers the least quality, and choose the element that has it now."
+_INVERTS = "Pause after an iteration in which a hex that was sound inverts, and choose it."
+_FALLS = "Pause after an iteration that lowers the least quality, and choose the hex that has it now."
 _NODE = (
     "Pause when this node moves further in an iteration, in mean edge lengths. Ticked, it takes the node that is "
     "chosen in the view."
 )
-_HEX = "Pause when q(H) of this element changes by more in one iteration. Ticked, it takes the element that is chosen."
+_HEX = "Pause when q(H) of this hex changes by more in one iteration. Ticked, it takes the hex that is chosen."
 _CUTS = (
     "Pause when the line search (Algorithm A.5) has to shorten the step more often than this. Methods that search for "
     "each node by itself do not tell."
@@ -39,10 +39,10 @@ class BreakpointForm(QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(6)
         grid.setVerticalSpacing(4)
-        self._inverts = self._check(grid, 0, "An element inverts", _INVERTS)
+        self._inverts = self._check(grid, 0, "A hex inverts", _INVERTS)
         self._falls = self._check(grid, 1, "q min falls", _FALLS)
         self._node, self._node_box, self._move = self._watch(grid, 2, "Node", "moves more than", _NODE, " edge")
-        self._hex, self._hex_box, self._change = self._watch(grid, 4, "Element", "changes more than", _HEX, " q")
+        self._hex, self._hex_box, self._change = self._watch(grid, 4, "Hex", "changes more than", _HEX, " q")
         self._cut = self._check(grid, 6, "Line search cuts more than", _CUTS, span=1)
         self._cuts = self._number(QSpinBox(), "Most cuts of the line search", _CUTS)
         self._cuts.setRange(0, 99)

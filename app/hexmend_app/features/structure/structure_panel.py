@@ -20,16 +20,16 @@ from hexmend_app.widgets.wording import counted
 _LAYERS: dict[str, tuple[str, str, str]] = {
     "irregular": (
         "Irregular, inside",
-        "Edges inside the mesh that not four elements share, also called singular: the angles around one are 360° by "
-        "their number at best, 120° at three and 72° at five, so that no method brings all elements beside it to "
+        "Edges inside the mesh that not four hexes share, also called singular: the angles around one are 360° by "
+        "their number at best, 120° at three and 72° at five, so that no method brings all hexes beside it to "
         "quality 1. Drawn through the mesh, thick where nothing hides them; points are nodes where they end or fork.",
-        "None: inside the mesh, four elements share every edge.",
+        "None: inside the mesh, four hexes share every edge.",
     ),
     "boundary": (
         "Irregular, boundary",
-        "Edges of the boundary that not two elements share although it is smooth there. One element alone has an angle "
+        "Edges of the boundary that not two hexes share although it is smooth there. One hex alone has an angle "
         "of up to 180° there, three share it: neither reaches quality 1.",
-        "None: two elements share every edge at which the boundary is smooth.",
+        "None: two hexes share every edge at which the boundary is smooth.",
     ),
     "sharp": (
         "Sharp edges",
@@ -38,19 +38,19 @@ _LAYERS: dict[str, tuple[str, str, str]] = {
     ),
     "fixed": (
         "Fixed nodes",
-        "Nodes that no method moves, of the elements in sight: those of the boundary, and others that are pinned.",
+        "Nodes that no method moves, of the hexes in sight: those of the boundary, and others that are pinned.",
         "None: the mesh has no boundary.",
     ),
     "free": (
         "Free nodes",
-        "Nodes that methods may move, of the elements in sight. They are inside: cut or peel the mesh to see them.",
+        "Nodes that methods may move, of the hexes in sight. They are inside: cut or peel the mesh to see them.",
         "None: all nodes are on the boundary or pinned.",
     ),
     "locked": (
         "Locked nodes",
-        "Nodes of inverted elements that fixed nodes alone keep inverted: no method that leaves these where they are "
+        "Nodes of inverted hexes that fixed nodes alone keep inverted: no method that leaves these where they are "
         "can mend them.",
-        "None: no element is kept inverted by fixed nodes alone.",
+        "None: no hex is kept inverted by fixed nodes alone.",
     ),
 }
 _EDGES = ("irregular", "boundary", "sharp")
@@ -125,7 +125,7 @@ class StructurePanel(QWidget):
             fixed.append((PINNED, False, f"{pinned:,} pinned"))
         self._layers["fixed"].set_entries(fixed)
         self._layers["free"].set_entries([(FREE, False, f"{free:,}")] if free else [])
-        of = f"of {counted(locked, 'locked element')}"
+        of = f"of {counted(locked, 'locked hex')}"
         self._layers["locked"].set_entries([(LOCKED, False, of)] if locked else [])
 
     def _choose(self, name: str, on: bool) -> None:

@@ -21,7 +21,7 @@ from hexmend_app.widgets.element_table import shape_table
 from hexmend_app.widgets.style import explain, note
 from hexmend_app.widgets.wording import figure
 
-_TITLES = ("Tag", "Elements", "Inverted", "q min")
+_TITLES = ("Tag", "Hexes", "Inverted", "q min")
 _HINT = (
     "No hex is tagged. Choose one and press T, or tag all that are shown or listed as worst. "
     "Tags are saved with the mesh in VTK and VTU files; groups of hexes that a file holds appear here."
@@ -75,12 +75,12 @@ class TagPanel(QWidget):
         self._name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)  # the list is of tags that there are
         self._name.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseSensitive)
         self._name.setCurrentText("tagged")
-        explain(self._name, "Tag as", "The name of the tag that elements are given.")
-        self._element = self._button("Element", "Tag the chosen element, or take the tag from it (T).")
-        self._shown = self._button("Shown", "Tag all elements that are shown in the view: what is hidden is left out.")
-        self._listed = self._button("Worst", "Tag all elements of the list of the worst.")
-        self._isolate = self._button("Isolate", "Show the elements of this tag and their neighbours, and nothing else.")
-        self._remove = self._button("Remove", "Take this tag from all its elements.")
+        explain(self._name, "Tag as", "The name of the tag that hexes are given.")
+        self._element = self._button("Hex", "Tag the chosen hex, or take the tag from it (T).")
+        self._shown = self._button("Shown", "Tag all hexes that are shown in the view: what is hidden is left out.")
+        self._listed = self._button("Worst", "Tag all hexes of the list of the worst.")
+        self._isolate = self._button("Isolate", "Show the hexes of this tag and their neighbours, and nothing else.")
+        self._remove = self._button("Remove", "Take this tag from all its hexes.")
         self._table = self._make_table()
         self._hint = note(_HINT)
         self._lay_out()

@@ -17,7 +17,7 @@ from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend_app.canvas.captions import CaptionRow, WipeRow
 from hexmend_app.canvas.wipe_handle import STEP, WipeHandle
-from hexmend_app.features.compare.comparison_table import METHOD, VIEW
+from hexmend_app.features.compare.comparison_table import METHOD, VIEW, title_of
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.document import State
 from hexmend_app.state.look import ColourScale, RangeMode
@@ -173,9 +173,17 @@ def test_results_are_shown_beside_the_mesh_with_their_names_in_the_histogram(com
     for count, name in enumerate(("getme", "laplacian", "local-sd"), 2):
         tick(compared, name, VIEW)
         assert len(compared.canvas.panes.all) == count
-    assert captions(compared) == ["now", "getme", "laplacian", "local-sd"]
-    assert [one.name for one in compared.counting.kept.all] == ["getme", "laplacian", "local-sd"]
-    assert [series.name for series in compared.histogram.series()][2:] == ["getme", "laplacian", "local-sd"]
+    assert captions(compared) == ["now", title_of("getme"), title_of("laplacian"), title_of("local-sd")]
+    assert [one.name for one in compared.counting.kept.all] == [
+        title_of("getme"),
+        title_of("laplacian"),
+        title_of("local-sd"),
+    ]
+    assert [series.name for series in compared.histogram.series()][2:] == [
+        title_of("getme"),
+        title_of("laplacian"),
+        title_of("local-sd"),
+    ]
     initial = model(compared).index(0, VIEW)
     assert not model(compared).flags(initial) & Qt.ItemFlag.ItemIsEnabled  # there is no room
     tick(compared, "initial", VIEW)
@@ -190,9 +198,9 @@ def test_a_view_is_closed_by_its_button_and_the_rest_by_a_key(compared):
         tick(compared, name, VIEW)
     button = next(b for b in compared.findChildren(QToolButton) if b.accessibleName() == "Close the view of laplacian")
     QTest.mouseClick(button, LEFT)
-    assert captions(compared) == ["now", "getme", "local-sd"]
+    assert captions(compared) == ["now", title_of("getme"), title_of("local-sd")]
     assert not model(compared).entries[row(compared, "laplacian")].shown
-    assert [one.name for one in compared.counting.kept.all] == ["getme", "local-sd"]
+    assert [one.name for one in compared.counting.kept.all] == [title_of("getme"), title_of("local-sd")]
     QTest.keyClick(compared, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
     assert captions(compared) == []
     assert compared.counting.kept.all == ()
@@ -212,7 +220,7 @@ def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(com
     compared.comparing.show("mine", State.of(compared.document.now.mesh.with_points(compared.document.now.mesh.points)))
     tick(compared, "getme", VIEW)
     tick(compared, "initial", VIEW)
-    assert captions(compared) == ["now", "mine", "getme", "initial"]
+    assert captions(compared) == ["now", "mine", title_of("getme"), "initial"]
     press(compared, "Run the comparison")
     assert captions(compared) == ["now", "mine"]
     qtbot.waitUntil(lambda: not compared.session.comparison.busy, timeout=PATIENCE)
@@ -341,7 +349,7 @@ def test_the_wipe_is_switched_dragged_and_led_by_keys(compared, qtbot):
         QTest.keyClick(handle, Qt.Key.Key_Left)
     assert 0 < compared.session.views.wipe.at < 0.05
     QTest.keyClick(compared, Qt.Key.Key_W)
-    assert captions(compared) == ["now", "getme", "laplacian"]
+    assert captions(compared) == ["now", title_of("getme"), title_of("laplacian")]
     assert not handle.isVisible()
 
 
@@ -350,13 +358,13 @@ def test_either_side_of_the_wipe_is_chosen_by_name(compared):
     tick(compared, "laplacian", VIEW)
     press(compared, "Wipe")
     left, right = compared.findChild(WipeRow).findChildren(QComboBox)
-    assert [right.itemText(k) for k in range(right.count())] == ["now", "getme", "laplacian"]
+    assert [right.itemText(k) for k in range(right.count())] == ["now", title_of("getme"), title_of("laplacian")]
     for _ in range(2):
         QTest.keyClick(left, Qt.Key.Key_Down)  # to what is at the right: they change places
-    assert (left.currentText(), right.currentText()) == ("laplacian", "getme")
+    assert (left.currentText(), right.currentText()) == (title_of("laplacian"), title_of("getme"))
     seen = compared.canvas.panes.seen
     np.testing.assert_array_equal(
-        seen[0].frame.mesh.points, compared.session.comparison.of(left.currentText()).state.mesh.points
+        seen[0].frame.mesh.points, compared.session.comparison.of("laplacian").state.mesh.points
     )
 
 

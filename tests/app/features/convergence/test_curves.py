@@ -16,7 +16,7 @@ START = State.of(scrambled(grid(4), 0.4))
 
 def recorded(method, iterations=6, parent=None):
     history = History()
-    record = history.begin(method, METHODS[method].title, START)
+    record = history.begin(METHODS[method].title, START)
     record.parent = parent
     run = iterate(START.mesh, METHODS[method](), Stop(max_iterations=iterations, tolerance=0))
     history.add(record, run.start)

@@ -156,8 +156,8 @@ def test_what_is_under_the_mouse_is_told_and_what_was_thinned_out(panel):
     assert describe(CHARTS["delta"], BOTH[:1], 4, by_time=False) == "getme 4: delta not told"
     assert describe(CHARTS["inverted"], BOTH, 40, by_time=False) == ""
     paused = record("mend", 5)
-    paused.pauses[3] = "Element 7 inverted"
-    assert describe(CHARTS["inverted"], [curve(paused)], 3, by_time=False).endswith("paused there: Element 7 inverted")
+    paused.pauses[3] = "Hex 7 inverted"
+    assert describe(CHARTS["inverted"], [curve(paused)], 3, by_time=False).endswith("paused there: Hex 7 inverted")
     assert " at 0.4 s: " in describe(CHARTS["inverted"], BOTH[:1], 0.41, by_time=True)
 
 

@@ -24,7 +24,7 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
     QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
     assert window.session.view.look.clip is not None
     assert window.actions["cut"].isChecked()
-    for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole elements"):
+    for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole hexes"):
         QTest.mouseClick(next(b for b in panel.findChildren(QPushButton) if b.text() == text), LEFT)
     clip = window.session.view.look.clip
     assert np.abs(clip.planes[0].normal).tolist() == [0, 1, 0]

@@ -78,7 +78,7 @@ def test_slider_and_box_say_the_same_layers(panel):
 def test_there_is_nothing_to_peel_where_all_touch_the_boundary(panel):
     panel.set_layers(0)
     assert not panel._peel.isEnabled()
-    assert "every element has a face on the boundary" in panel._peel.toolTip()
+    assert "every hex has a face on the boundary" in panel._peel.toolTip()
     panel.set_layers(2)
     assert panel._peel.isEnabled()
     assert "Hide the outer layers" in panel._peel.toolTip()
@@ -100,7 +100,7 @@ def test_scrolling_past_changes_nothing(panel, part):
 def test_a_smooth_cut_and_shrinking_exclude_each_other(panel):
     panel.set_look(Look(clip=PlaneClip(crinkle=False), shrink=0.2), 1)
     assert not panel._shrink.isEnabled()
-    assert "Whole elements" in panel._shrink.toolTip()
+    assert "Whole hexes" in panel._shrink.toolTip()
     panel.set_look(Look(clip=PlaneClip(crinkle=True), shrink=0.2), 1)
     assert panel._shrink.isEnabled()
     assert panel._shrink.value() == 20
@@ -113,7 +113,7 @@ def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
     assert all(button.isEnabled() for button in buttons)
     assert panel._rings.value() == 2
     assert panel._isolated.text() == "1 isolated"
-    assert panel._dug.text() == "3 elements dug away"
+    assert panel._dug.text() == "3 hexes dug away"
     heard = []
     panel.all_requested.connect(lambda: heard.append("all"))
     panel.undo_requested.connect(lambda: heard.append("undo"))
@@ -125,7 +125,7 @@ def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
 
 @pytest.mark.parametrize(
     ("numbers", "text"),
-    [((0, 0), ""), ((5, 1000), "5 of 1,000 elements shown"), ((0, 8), "None of 8 elements is left to show.")],
+    [((0, 0), ""), ((5, 1000), "5 of 1,000 hexes shown"), ((0, 8), "None of 8 hexes is left to show.")],
 )
 def test_it_says_how_many_are_shown(panel, numbers, text):
     panel.set_shown(*numbers)
@@ -139,7 +139,7 @@ def test_peeling_hides_layer_after_layer(window):
     type_into(window.features["cut"].inside._peel._box, "2")
     assert window.session.view.look.peel == 2
     assert set(faces(window)) == set(np.flatnonzero(window.session.document.now.mesh.topology.layers == 2))
-    assert shown(window) == "216 of 1,000 elements shown"
+    assert shown(window) == "216 of 1,000 hexes shown"
     assert window.features["cut"].inside._peel._box.maximum() == 4
 
 
@@ -149,7 +149,7 @@ def test_isolating_with_rings_and_back(window):
     assert set(faces(window)) == {555}
     type_into(panel._rings, "1")
     assert view.look.isolation == Isolation((555,), 1)
-    assert shown(window) == "27 of 1,000 elements shown"
+    assert shown(window) == "27 of 1,000 hexes shown"
     QTest.mouseClick(panel._all, LEFT)
     assert view.look.isolation is None
     view.isolate([3])
@@ -160,7 +160,7 @@ def test_digging_undoing_and_putting_back(window):
     view, panel = window.session.view, window.features["cut"].inside
     for h in (0, 1, 1, 2):
         view.dig(h)
-    assert panel._dug.text() == "3 elements dug away"
+    assert panel._dug.text() == "3 hexes dug away"
     assert not {0, 1, 2} & set(faces(window))
     QTest.mouseClick(panel._undo, LEFT)
     assert view.look.dug == {0, 1}
@@ -226,7 +226,7 @@ def test_of_many_elements_those_in_sight_are_shrunk(window, qtbot, monkeypatch):
 def test_a_smooth_cut_is_not_shrunk(window):
     window.session.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
     assert window.canvas.viewport.body.faces.shrink == 0
-    assert shown(window) == "1,000 of 1,000 elements shown, then cut"
+    assert shown(window) == "1,000 of 1,000 hexes shown, then cut"
 
 
 def test_the_outline_is_drawn_while_something_is_hidden_and_wanted(window):
@@ -250,7 +250,7 @@ def test_another_mesh_is_shown_whole(window, qtbot, tmp_path):
     with qtbot.waitSignals([window.session.opener.ended], timeout=20000):
         window.features["open"].open(tmp_path / "small.vtu")
     assert window.session.view.look == Look()
-    assert shown(window) == "8 of 8 elements shown"
+    assert shown(window) == "8 of 8 hexes shown"
     assert not window.features["cut"].inside._peel.isEnabled()
 
 

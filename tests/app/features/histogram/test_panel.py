@@ -77,7 +77,7 @@ def test_dragging_over_the_plot_selects_the_range_under_it(histogram, heard, dat
     assert (low, high) == pytest.approx((0.3, 0.45), abs=0.011)
     now = data[0] ** 0.5
     inside = np.count_nonzero((now >= low) & (now <= high))
-    assert histogram.words.text() == f"{inside} of 2,000 elements in {low:.2f} – {high:.2f}"
+    assert histogram.words.text() == f"{inside} of 2,000 hexes in {low:.2f} – {high:.2f}"
 
 
 def test_dragging_backwards_and_beyond_the_ends_stays_within_zero_and_one(histogram, heard):
@@ -94,15 +94,15 @@ def test_dragging_over_the_bar_of_the_inverted_takes_them_in(histogram, heard, d
     assert heard[-1].inverted
     now = histogram.series()[1].part
     low = np.count_nonzero((data[0] <= heard[-1].high) & ~data[1])
-    assert histogram.words.text().startswith(f"{low + now.inverted} of 2,000 elements up to 0.5")
+    assert histogram.words.text().startswith(f"{low + now.inverted} of 2,000 hexes up to 0.5")
     assert histogram.words.text().endswith(f", and the {now.inverted} inverted")
     histogram.set_range(None)
     drag(histogram, histogram.axis.inverted[0] - 0.01, histogram.axis.inverted[1])
     assert heard[-1] == ValueRange("q", -np.inf, -np.inf, inverted=True)
-    assert histogram.words.text() == f"{now.inverted} of 2,000 elements, the inverted ones"
+    assert histogram.words.text() == f"{now.inverted} of 2,000 hexes, the inverted ones"
     drag(histogram, 0.001, 1.0)
     assert heard[-1] == ValueRange("q", 0.0, 1.0)
-    assert histogram.words.text() == f"{2000 - now.inverted:,} of 2,000 elements, all but the inverted ones"
+    assert histogram.words.text() == f"{2000 - now.inverted:,} of 2,000 hexes, all but the inverted ones"
 
 
 def test_a_click_on_the_bar_of_the_inverted_asks_for_them(histogram, heard, data):
@@ -213,10 +213,10 @@ def test_hovering_tells_the_counts_then_and_now(histogram, data):
     assert then != now
     text = histogram.describe_at(0.511)
     assert "0.50 – 0.52" in text
-    assert f"at the start: {then} element" in text
-    assert f"now: {now} element" in text
+    assert f"at the start: {then} hex" in text
+    assert f"now: {now} hex" in text
     apart = histogram.describe_at(sum(Axis("q").inverted) / 2)
-    assert apart == f"inverted\nat the start: {inverted.sum()} elements\nnow: 0 elements"
+    assert apart == f"inverted\nat the start: {inverted.sum()} hexes\nnow: 0 hexes"
     assert histogram.describe_at(-0.05) == histogram.describe_at(1.01) == ""
 
 
@@ -350,7 +350,7 @@ def test_another_metric_is_brushed_to_its_end_and_beyond(histogram, heard, condi
     assert (heard[-1].metric, heard[-1].high) == ("condition", np.inf)
     assert heard[-1].low == pytest.approx(low, abs=0.03 * low)
     inside = np.count_nonzero((values >= heard[-1].low) & ~inverted)
-    words = f"{inside:,} of 2,000 elements from {axis.end(heard[-1].low)}"
+    words = f"{inside:,} of 2,000 hexes from {axis.end(heard[-1].low)}"
     assert histogram.words.text() == words
     assert histogram.ends.high.text() == "∞"
 
@@ -399,7 +399,7 @@ def test_inverted_elements_stand_apart_whatever_the_metric(histogram):
         histogram.set_metric(name)
         histogram.set_initial(values, inverted)
         histogram.set_current(values, inverted)
-        assert histogram.describe_at(sum(histogram.axis.inverted) / 2).endswith("now: 500 elements")
+        assert histogram.describe_at(sum(histogram.axis.inverted) / 2).endswith("now: 500 hexes")
         assert "inverted" in dict(histogram.axis.ticks()).values()
 
 
@@ -437,7 +437,7 @@ def test_cumulative_shares_begin_with_the_inverted_and_end_at_all(histogram, dat
     text = histogram.describe_at(0.511)
     assert text.startswith("inverted, or q(H) up to 0.52\n")
     assert f"now: {share:.4g} %, " in text
-    assert "now: 100 %, 2,000 elements" in histogram.describe_at(0.99)
+    assert "now: 100 %, 2,000 hexes" in histogram.describe_at(0.99)
     curve = histogram.plot.outlines["now"].curve.yData
     assert curve[-1] == (2.0 if scale == "log" else 100)
     assert np.diff(curve).min() >= 0

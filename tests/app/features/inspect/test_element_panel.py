@@ -30,14 +30,14 @@ def texts(panel):
 
 def test_without_an_element_it_says_how_to_choose_one(panel):
     panel.show_element(None)
-    assert any("Click an element" in text for text in texts(panel))
+    assert any("Click a hex" in text for text in texts(panel))
 
 
 def test_an_element_is_shown_with_figures_nodes_and_neighbours(panel):
     one = element(MESH, WORST)
     panel.show_element(one)
     shown = texts(panel)
-    assert f"Element {WORST:,}" in shown
+    assert f"Hex {WORST:,}" in shown
     assert "inverted" in shown
     assert all(any(f">{node:,}<" in text for text in shown) for node in one.nodes)
     assert f"{one.values['q']:.4f}" in shown

@@ -103,7 +103,7 @@ def test_what_cannot_be_seen_is_made_when_it_is_shown(qtbot):
 
 def test_the_list_as_a_table_reads_back(worst_list):
     lines = worst_list.text().splitlines()
-    assert lines[0] == "element,q,scaled-jacobian,state"
+    assert lines[0] == "hex,q,scaled-jacobian,state"
     number, q, jacobian, state = lines[1].split(",")
     assert int(number) == worst_list.elements[0]
     assert float(q) == FIGURES.q[int(number)]
@@ -116,7 +116,7 @@ def test_without_a_mesh_nothing_can_be_pressed(qtbot):
     qtbot.addWidget(widget)
     assert not any(b.isEnabled() for b in widget.findChildren(QPushButton))
     widget.next()  # harmless
-    assert widget.text() == "element,q,scaled-jacobian,state\n"
+    assert widget.text() == "hex,q,scaled-jacobian,state\n"
 
 
 def test_enter_and_a_double_click_choose_the_row_again(worst_list):

@@ -118,7 +118,7 @@ def test_the_movement_is_told_in_figures(window, record, panel):
     said = figures(panel)
     free = window.session.document.now.summary.free_nodes
     assert said["Nodes"] == f"{free:,} of {free:,} free moved since opening"
-    assert said["Elements"] == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
+    assert said["Hexes"] == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
     newly = np.count_nonzero(now.figures.inverted & ~start.figures.inverted)
     mended = np.count_nonzero(start.figures.inverted & ~now.figures.inverted)
     assert said["Inverted"] == f"{newly:,} newly, {mended:,} mended"
@@ -137,7 +137,7 @@ def test_the_newly_inverted_are_isolated(window, record, panel, qtbot):
         if panel.show_newly.isEnabled():
             break
     else:
-        pytest.fail("Laplacian smoothing of this mesh inverts no element in any iteration")
+        pytest.fail("Laplacian smoothing of this mesh inverts no hex in any iteration")
     QTest.mouseClick(panel.show_newly, LEFT)
     isolated = window.session.view.look.isolation.hexes
     assert window.session.document.now.figures.inverted[list(isolated)].all()

@@ -156,7 +156,7 @@ def test_every_method_is_explained(at_work, qtbot, name):
 def test_a_node_that_is_fixed_has_no_step_and_says_why(window, qtbot):
     choose(window, "local-sd")
     window.show_panel("node")
-    said(window, qtbot, "Click an element in the view")
+    said(window, qtbot, "Click a hex in the view")
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=window.canvas.interactor.rect().center())
     assert window.session.selection.hex is not None
     assert window.in_front("node")  # a click does not bring another panel to the front

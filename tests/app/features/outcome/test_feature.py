@@ -59,7 +59,7 @@ def test_a_run_that_ends_is_explained_before_everything_else(window, qtbot):
     assert not window.features["outcome"].panel.isVisible()
     run(window, qtbot, "laplacian")
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)
-    assert "Why laplacian stopped" in said(window)
+    assert "Why Laplacian stopped" in said(window)
     assert "no node moved further than 0.0001 mean edge lengths" in said(window)
     inverted = window.session.document.now.summary.inverted
     assert f"{inverted} of {window.session.document.now.mesh.n_hexes:,} hexes are inverted" in said(window)
@@ -81,7 +81,7 @@ def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
     assert not button(window, "Choose: Mend").isEnabled()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.session.document.now.summary.inverted == 0
-    assert "Why mend stopped" in said(window)
+    assert "Why Mend stopped" in said(window)
 
 
 def test_while_a_run_goes_on_it_says_so(window, qtbot):
@@ -98,10 +98,10 @@ def test_while_a_run_goes_on_it_says_so(window, qtbot):
 def test_the_run_that_is_gone_through_is_the_one_explained(window, qtbot):
     run(window, qtbot, "laplacian", max_iterations=3)
     run(window, qtbot, "mend", max_iterations=2)
-    assert "Why mend stopped" in said(window)
+    assert "Why Mend stopped" in said(window)
     first = window.session.history.records[0]
     window.session.timeline.choose(first)
-    assert "Why laplacian stopped" in said(window)
+    assert "Why Laplacian stopped" in said(window)
     press(window, "Choose: Mend")  # from where that run ended
     assert window.session.timeline.moment.record is first
 
@@ -123,13 +123,13 @@ def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
 def test_locked_elements_are_listed_and_shown(window, qtbot, locked):
     run(window, qtbot, "mend")
     assert f'<a href="{locked}">{locked}</a>' in said(window)
-    press(window, "Show the locked elements")
+    press(window, "Show the locked hexes")
     assert window.session.view.look.isolation.hexes == (locked,)
     assert window.session.selection.hex == locked
     QTest.keyClick(window, Qt.Key.Key_Escape)
     assert window.session.view.look.isolation is None
-    button(window, "Show the locked elements").setFocus()
-    QTest.keyClick(button(window, "Show the locked elements"), Qt.Key.Key_Space)
+    button(window, "Show the locked hexes").setFocus()
+    QTest.keyClick(button(window, "Show the locked hexes"), Qt.Key.Key_Space)
     assert window.session.view.look.isolation is not None
 
 
@@ -156,9 +156,9 @@ def test_a_run_with_nothing_to_do_is_explained_too(window, qtbot, tmp_path):
     open_and_wait(qtbot, window, tmp_path / "one.vtu")
     run(window, qtbot, "mend")
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)
-    assert "Why mend stopped Nothing to do: every node is fixed." in said(window)
+    assert "Why Mend stopped Nothing to do: every node is fixed." in said(window)
     run(window, qtbot, "laplacian")
-    assert "Why laplacian stopped" in said(window)
+    assert "Why Laplacian stopped" in said(window)
 
 
 def test_another_mesh_is_unexplained(window, qtbot, mesh_file):

@@ -147,7 +147,7 @@ def test_the_numbers_of_inverted_and_locked_elements_are_links(tangled):
     click(table, "inverted", 1)  # at the start, of which there is no picture
     assert asked == ["inverted", "locked"]
     assert cell(table, "inverted", 2).font().underline()
-    assert "Show only the locked elements" in cell(table, "locked_inverted", 2).toolTip()
+    assert "Show only the locked hexes" in cell(table, "locked_inverted", 2).toolTip()
 
 
 def test_links_are_reached_by_keys(tangled):

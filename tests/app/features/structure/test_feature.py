@@ -79,7 +79,7 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     assert texts(panel, "irregular") == ["counting…"]
     assert "Being counted" in panel._layers["sharp"].box.toolTip()
     assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
-    assert texts(panel, "locked") == ["of 2 locked elements"]
+    assert texts(panel, "locked") == ["of 2 locked hexes"]
 
 
 def test_edges_are_counted_by_valence(panel):
@@ -100,7 +100,7 @@ def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
-    assert "four elements share every edge" in panel._layers["irregular"].box.toolTip()
+    assert "four hexes share every edge" in panel._layers["irregular"].box.toolTip()
     heard = []
     panel.structure_changed.connect(heard.append)
     press(panel._layers["irregular"].box)

@@ -54,10 +54,10 @@ def test_an_element_is_tagged_by_key_and_the_tag_taken_away_undone_and_saved(win
     ]
     key(window, Qt.Key.Key_T)
     assert tags(window) == {"tagged": [first]}
-    assert f"Element {second:,}" in seen(window)
+    assert f"Hex {second:,}" in seen(window)
     window.session.commands.undo()
     assert tags(window) == {"tagged": sorted([first, second])}
-    assert f"Element {second:,}: tagged" in seen(window)
+    assert f"Hex {second:,}: tagged" in seen(window)
     assert window.session.document.redo_title == "untag"
     assert window.features["save"].mesh(tmp_path / "tagged.vtk")
     kept = io.read(tmp_path / "tagged.vtk")

@@ -125,10 +125,10 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
         key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     second = window.session.smoothing.record
-    assert (second.name, second.parent.record, second.parent.number, second.newest) == ("laplacian", first, 4, 3)
+    assert (second.name, second.parent.record, second.parent.number, second.newest) == ("Laplacian", first, 4, 3)
     runs = window.features["timeline"].panel._runs
-    assert [runs.itemText(i) for i in range(runs.count())] == ["local-sd", "laplacian"]
-    assert runs.currentText() == "laplacian"
+    assert [runs.itemText(i) for i in range(runs.count())] == ["Local steepest descent", "Laplacian"]
+    assert runs.currentText() == "Laplacian"
     runs.setFocus()
     QTest.keyClick(runs, Qt.Key.Key_Up)
     assert window.session.timeline.record is first
@@ -141,7 +141,7 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
 
 def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     window.features["smooth"].panel.show_break_points()
-    check(window, "An element inverts")
+    check(window, "A hex inverts")
     window.features["smooth"].panel.set_method("laplacian")
     window.features["smooth"].panel.stop_form.set_values(ENDLESS)
     with qtbot.waitSignal(window.session.smoothing.hit, timeout=PATIENCE) as hit:
@@ -303,11 +303,11 @@ def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(w
     key(window, Qt.Key.Key_V)
     key(window, Qt.Key.Key_Period)
     (shown,) = window.session.views.all
-    assert (shown.name, shown.state) == ("local-sd 2", kept)
+    assert (shown.name, shown.state) == ("Local steepest descent 2", kept)
     assert window.session.document.now is not kept
     for _ in range(2):
         assert window.actions["beside"].isEnabled()
         key(window, Qt.Key.Key_V)
         key(window, Qt.Key.Key_Period)
-    assert [one.name for one in window.session.views.all] == ["local-sd 2", "local-sd 3", "local-sd 4"]
+    assert [one.name for one in window.session.views.all] == [f"Local steepest descent {k}" for k in (2, 3, 4)]
     assert not window.actions["beside"].isEnabled()
