@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QAbstractButton, QPushButton
 
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
 from tests.patience import PATIENCE
 
 LEFT = Qt.MouseButton.LeftButton
@@ -18,11 +21,34 @@ def open_and_wait(qtbot, window, path):
 
 
 def click(window, text):
-    button = next(
-        b for b in window.features["smooth"].panel.findChildren(QPushButton) if b.text() == text and b.isVisible()
+    """Press one of the buttons that hold a run."""
+    window.refresh()
+    press(
+        next(b for b in window.features["smooth"].panel.findChildren(QPushButton) if b.text() == text and b.isVisible())
     )
+
+
+def press(button: QAbstractButton):
+    """Press a button that can be pressed, and let the window show what came of it."""
     assert button.isEnabled()
     QTest.mouseClick(button, LEFT)
+    button.window().refresh()
+
+
+def key(window, key, *modifiers):
+    """Press a key, and let the window show what came of it."""
+    window.refresh()
+    held = Qt.KeyboardModifier.NoModifier
+    for modifier in modifiers:
+        held |= modifier
+    QTest.keyClick(window, key, held)
+    window.refresh()
+
+
+def choose(window, method, stop=None, **values):
+    """Have a method at hand, with its values and its limits."""
+    window.session.order.choose(Stage(METHODS[method](**values), stop or Stop()))
+    window.refresh()
 
 
 def phase(window, phase):

@@ -9,29 +9,29 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
 
 from hexmend import io
-from tests.app.driving import LEFT, click
+from tests.app.driving import LEFT, choose, click, key, press
 from tests.patience import PATIENCE
 
 
 @pytest.fixture
 def panel(window, qtbot):
     window.show_panel("tags")
-    qtbot.wait(50)
+    qtbot.waitUntil(window.features["tags"].panel.isVisible)
     return window.features["tags"].panel
 
 
-def press(panel, text):
-    button = next(b for b in panel.findChildren(QPushButton) if b.text() == text)
-    assert button.isEnabled()
-    QTest.mouseClick(button, LEFT)
+def button(panel, text):
+    return next(b for b in panel.findChildren(QPushButton) if b.text() == text)
 
 
 def listed(panel):
+    panel.window().refresh()
     table = panel.findChild(QTableWidget)
     return [[table.item(row, column).text() for column in range(4)] for row in range(table.rowCount())]
 
 
 def seen(window):
+    window.refresh()
     return [label.text() for label in window.features["inspect"].panel.findChildren(QLabel)]
 
 
@@ -40,19 +40,19 @@ def tags(window):
 
 
 def test_an_element_is_tagged_by_key_and_the_tag_taken_away_undone_and_saved(window, panel, tmp_path):
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
+    key(window, Qt.Key.Key_T)
     assert tags(window) == {}
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_N)
+    key(window, Qt.Key.Key_N)
     first = window.session.selection.hex
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_N)
+    key(window, Qt.Key.Key_T)
+    key(window, Qt.Key.Key_N)
     second = window.session.selection.hex
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
+    key(window, Qt.Key.Key_T)
     assert tags(window) == {"tagged": sorted([first, second])}
     assert listed(panel) == [
         ["tagged", "2", "2", f"{window.session.document.now.figures.q[[first, second]].min():.4f}"]
     ]
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_T)
+    key(window, Qt.Key.Key_T)
     assert tags(window) == {"tagged": [first]}
     assert f"Element {second:,}" in seen(window)
     window.session.commands.undo()
@@ -69,23 +69,25 @@ def test_what_is_shown_or_listed_is_tagged_under_a_name_and_isolated(window, pan
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "bad ones")
     window.session.view.change(peel=2)
-    press(panel, "Shown")
+    window.refresh()
+    press(button(panel, "Shown"))
     layers = window.session.document.now.mesh.topology.layers
     assert tags(window) == {"bad ones": np.flatnonzero(layers >= 2).tolist()}
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "worst")
-    press(panel, "Worst")
+    press(button(panel, "Worst"))
     assert tags(window)["worst"] == sorted(window.features["inspect"].worst_list.elements.tolist())
     table = panel.findChild(QTableWidget)
     QTest.mouseClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(1, 0)).center())
-    press(panel, "Isolate")
+    press(button(panel, "Isolate"))
     assert sorted(window.session.view.look.isolation.hexes) == tags(window)["worst"]
-    press(panel, "Remove")
+    press(button(panel, "Remove"))
     assert list(tags(window)) == ["bad ones"]
 
 
 def test_a_name_that_is_typed_stays_as_it_is_and_is_no_tag_yet(window, panel):
     window.session.commands.tag("Tagged", [1])
+    window.refresh()
     name = panel.findChild(QComboBox)
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "tagged")
@@ -97,6 +99,7 @@ def test_a_name_that_is_typed_stays_as_it_is_and_is_no_tag_yet(window, panel):
 def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, panel, qtbot):
     window.session.commands.tag("one", [1, 2])
     window.session.commands.tag("two", [3])
+    window.refresh()
     table = panel.findChild(QTableWidget)
 
     def write(row, text):
@@ -105,7 +108,9 @@ def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, pan
         editor.selectAll()
         QTest.keyClicks(editor, text)
         QTest.keyClick(editor, Qt.Key.Key_Return)
-        qtbot.wait(20)  # Qt takes what was typed in a later turn of the event loop
+        # Qt takes what was typed in a later turn of the event loop
+        qtbot.waitUntil(lambda: table.findChild(QLineEdit) is None)
+        window.refresh()
 
     QTest.mouseClick(table.viewport(), LEFT, pos=QPoint(20, 10))
     write(0, "three")
@@ -117,7 +122,7 @@ def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, pan
 
 def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot):
     window.session.commands.tag("kept", [5])
-    window.features["smooth"].panel.set_method("laplacian")
+    choose(window, "laplacian")
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     assert tags(window) == {"kept": [5]}
