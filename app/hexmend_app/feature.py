@@ -245,15 +245,23 @@ class Seen:
         what : str
             Names what is looked at.
         *now : object
-            Compared by `==`, which for states and other objects with an identity means the same object.
+            Compared by `==`, which for states and other objects with an identity means the same object. Arrays are
+            never written to: they too are the same where they are the same object.
         """
         before = self._last.get(what)
         self._last[what] = now
-        return before != now
+        return before is None or len(before) != len(now) or any(map(_differ, before, now))
 
     def forget(self) -> None:
         """Show everything anew."""
         self._last.clear()
+
+
+def _differ(before: object, now: object) -> bool:
+    if before is now:
+        return False
+    arrays = any(getattr(one, "ndim", 0) for one in (before, now))  # the first paint knows no numpy to ask
+    return arrays or before != now
 
 
 __all__ = ["MENUS", "Action", "Feature", "Host", "Panel", "Place", "Seen", "always"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from hexmend.movement import MOVEMENTS, Counts
@@ -54,6 +53,7 @@ _FIGURES = {
     "Hexes": "Hexes whose q(H) is higher or lower than it was.",
     "Inverted": "Hexes that were not inverted and are, and that were and no longer are.",
 }
+_DRAWN = "How many arrows there are, and how long they are."
 _FACTOR = "How many times as long as the way of their nodes arrows are drawn."
 
 
@@ -67,14 +67,11 @@ class MovementPanel(QWidget):
         Of `MOVEMENTS`, or "" for a metric.
     newly_inverted_requested
         The user wants to see them.
-    came_into_view
-        The figures that were put off are due.
     """
 
     traces_changed = Signal(object)
     colours_chosen = Signal(str)
     newly_inverted_requested = Signal()
-    came_into_view = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -92,6 +89,7 @@ class MovementPanel(QWidget):
         explain(self.factor, "Length of arrows", _FACTOR)
         self.show_newly = QPushButton("Show new")
         self._drawn = note()
+        explain(self._drawn, "Arrows that are drawn", _DRAWN)
         self._figures = {name: _figure() for name in _FIGURES}
         self._lay_out()
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
@@ -161,11 +159,6 @@ class MovementPanel(QWidget):
         texts = ("No mesh is open.", "", "", "") if counts is None else _texts(counts, name, free)
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)
-
-    def showEvent(self, event: QShowEvent) -> None:
-        """Take the figures that were put off."""
-        super().showEvent(event)
-        self.came_into_view.emit()
 
     def _change(self, **fields: object) -> None:
         traces = dataclasses.replace(self._traces, **fields)

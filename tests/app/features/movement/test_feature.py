@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QLabel
 
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
@@ -14,7 +15,8 @@ from hexmend_app.scene.export.film import pictures
 from hexmend_app.scene.export.shots import shots
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, RangeMode, Since
-from tests.app.driving import LEFT, open_and_wait, pixels
+from tests.app.driving import open_and_wait, pixels
+from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
 
 
@@ -33,11 +35,18 @@ def record(window, qtbot):
 
 
 def press(segmented, key):
-    QTest.mouseClick(segmented.button(key), LEFT)
+    press_button(segmented.button(key))
 
 
-def figures(panel):
-    return {name: label.text() for name, label in panel._figures.items()}
+def said(panel, name):
+    """What stands in the label of this name."""
+    panel.window().refresh()
+    return next(one.text() for one in panel.findChildren(QLabel) if one.accessibleName() == name)
+
+
+def go(window, record, number):
+    window.session.timeline.go(record, number)
+    window.refresh()
 
 
 def test_colours_follow_the_iterations_and_the_moment_they_are_compared_with(window, record, panel):
@@ -48,14 +57,15 @@ def test_colours_follow_the_iterations_and_the_moment_they_are_compared_with(win
     np.testing.assert_array_equal(
         viewport.colours.values, window.session.document.now.figures.q - window.session.document.start.figures.q
     )
-    timeline.go(record, 3)
+    go(window, record, 3)
     press(panel.since, "iteration")
     then = window.session.history.state(type(timeline.moment)(record, 2), window.session.document.now.mesh)
     np.testing.assert_allclose(viewport.colours.values, window.session.document.now.figures.q - then.figures.q)
     assert window.canvas.colour_bar.accessibleDescription().endswith(viewport.colouring.label(viewport.colouring.high))
     timeline.step(1)
+    window.refresh()
     assert viewport.colouring.title == f"change of q(H) since {record.name} 3"
-    timeline.go(record, 0)
+    go(window, record, 0)
     assert not viewport.colours.values.any()
     press(panel.colours, "")
     assert window.session.view.look.scale.metric == "q"
@@ -66,23 +76,33 @@ def test_the_histogram_goes_on_counting_quality(window, record, panel):
     press(panel.colours, "moved-most")
     assert window.features["histogram"].metric == "q"
     assert window.features["histogram"].panel.head.metric.currentText() == "q(H)"
-    window.session.timeline.go(record, 2)
+    go(window, record, 2)
     press(panel.colours, "")
     assert window.features["histogram"].panel.head.metric.currentText() == "q(H) (as colours)"
 
 
-def test_movements_are_offered_among_the_colours(window, record):
-    combo = window.features["look"].panel._metric
+def test_movements_are_offered_among_the_colours(window, record, qtbot):
+    colours = window.features["look"].panel
+    combo, maps = (
+        next(one for one in colours.findChildren(QComboBox) if one.accessibleName() == name)
+        for name in ("Metric", "Colour map")
+    )
+    window.show_panel("look")
+    qtbot.waitUntil(combo.isVisible)
     combo.setFocus()
     while combo.currentData() != "moved-mean":
         QTest.keyClick(combo, Qt.Key.Key_Down)
+    window.refresh()
     assert window.session.view.look.scale.metric == "moved-mean"
+    window.refresh()
     assert window.features["movement"].panel.colours.value() == "moved-most"
     QTest.keyClick(combo, Qt.Key.Key_Down)
+    window.refresh()
     assert window.session.view.look.scale.metric == "q-change"
-    assert window.features["look"].panel._map.currentText() == "brown – teal"
+    assert maps.currentText() == "brown – teal"
     QTest.keyClick(combo, Qt.Key.Key_Home)
-    assert [window.features["look"].panel._map.itemText(k) for k in range(4)] == [
+    window.refresh()
+    assert [maps.itemText(k) for k in range(4)] == [
         "viridis",
         "cividis",
         "plasma",
@@ -95,42 +115,42 @@ def test_arrows_are_drawn_counted_and_made_longer(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
     assert window.canvas.viewport.arrows == (free, free)
-    assert panel._drawn.text() == f"{free:,} arrows, of true length."
+    assert said(panel, "Arrows that are drawn") == f"{free:,} arrows, of true length."
     press(panel.arrows, "sight")
-    assert panel._drawn.text() == "Of the nodes in sight none has moved."
+    assert said(panel, "Arrows that are drawn") == "Of the nodes in sight none has moved."
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
     window.session.view.set_handles(False)
+    window.refresh()
     before = pixels(window)
     assert 0 < window.canvas.viewport.arrows[0] < free
     panel.factor.lineEdit().selectAll()
     QTest.keyClicks(panel.factor.lineEdit(), "4")
     QTest.keyClick(panel.factor, Qt.Key.Key_Return)
     assert window.session.view.look.traces.factor == 4
-    assert panel._drawn.text().endswith("4 times true length.")
+    window.refresh()
+    assert said(panel, "Arrows that are drawn").endswith("4 times true length.")
     assert (pixels(window) != before).any()
-    window.session.timeline.go(record, 0)
-    assert panel._drawn.text() == "Of the nodes in sight none has moved."
+    go(window, record, 0)
+    assert said(panel, "Arrows that are drawn") == "Of the nodes in sight none has moved."
 
 
 def test_the_movement_is_told_in_figures(window, record, panel):
     start, now = window.session.document.start, window.session.document.now
     change = now.figures.q - start.figures.q
-    said = figures(panel)
     free = window.session.document.now.summary.free_nodes
-    assert said["Nodes"] == f"{free:,} of {free:,} free moved since opening"
-    assert said["Hexes"] == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
+    assert said(panel, "Nodes") == f"{free:,} of {free:,} free moved since opening"
+    assert said(panel, "Hexes") == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
     newly = np.count_nonzero(now.figures.inverted & ~start.figures.inverted)
     mended = np.count_nonzero(start.figures.inverted & ~now.figures.inverted)
-    assert said["Inverted"] == f"{newly:,} newly, {mended:,} mended"
-    window.session.timeline.go(record, 0)
-    assert figures(panel)["Distance"] == "–"
+    assert said(panel, "Inverted") == f"{newly:,} newly, {mended:,} mended"
+    go(window, record, 0)
+    assert said(panel, "Distance") == "–"
 
 
 def test_the_newly_inverted_are_isolated(window, record, panel, qtbot):
     inverted = [record.rows[k]["inverted"] for k in range(len(record.rows))]
-    timeline = window.session.timeline
     for number in range(1, len(inverted)):
-        timeline.go(record, number)
+        go(window, record, number)
         press(panel.since, "iteration")
         movement = window.session.references.movement(Since.ITERATION)
         assert panel.show_newly.isEnabled() == (movement.counts.newly_inverted > 0)
@@ -138,7 +158,7 @@ def test_the_newly_inverted_are_isolated(window, record, panel, qtbot):
             break
     else:
         pytest.fail("Laplacian smoothing of this mesh inverts no hex in any iteration")
-    QTest.mouseClick(panel.show_newly, LEFT)
+    press_button(panel.show_newly)
     isolated = window.session.view.look.isolation.hexes
     assert window.session.document.now.figures.inverted[list(isolated)].all()
     assert len(isolated) == movement.counts.newly_inverted
@@ -148,6 +168,7 @@ def test_a_picture_shows_what_the_view_shows(window, record, panel, tmp_path):
     window.canvas.save_picture(tmp_path / "plain.png", (500, 320), False)
     press(panel.colours, "q-change")
     window.session.view.change(traces=window.session.view.look.traces.__class__(arrows=Arrows.ALL))
+    window.refresh()
     window.canvas.save_picture(tmp_path / "changed.png", (500, 320), False)
     plain, changed = (np.asarray(Image.open(tmp_path / f"{name}.png")) for name in ("plain", "changed"))
     assert (plain != changed).any(axis=2).mean() > 0.2
@@ -160,9 +181,10 @@ def test_another_mesh_can_be_opened_while_a_movement_is_shown(window, record, pa
     press(panel.arrows, "all")
     io.write(tmp_path / "other.vtu", gallery.make("cube", size=64, scramble=0.3))
     open_and_wait(qtbot, window, tmp_path / "other.vtu")
+    window.refresh()
     assert window.canvas.viewport.arrows == (0, 0)
     assert not window.canvas.viewport.colours.values.any()
-    assert figures(panel)["Nodes"].startswith("0 of ")
+    assert said(panel, "Nodes").startswith("0 of ")
 
 
 def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):

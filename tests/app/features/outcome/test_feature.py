@@ -4,40 +4,45 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel, QPushButton
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 
 from hexmend import gallery, io
 from hexmend.optimise import Stop
 from hexmend_app.state.run import Phase
-from tests.app.driving import LEFT, click, open_and_wait, phase
+from tests.app.driving import choose, click, key, open_and_wait, phase
+from tests.app.driving import press as press_button
 from tests.core.grids import grid
 from tests.core.test_mend import with_locked_corner
 from tests.patience import PATIENCE
 
 
-def run(window, qtbot, method, values=None, **stop):
-    """Run a method from its button to its end."""
-    window.features["smooth"].panel.choose(method, values or {}, Stop(**stop).values())
+def run(window, qtbot, method, **stop):
+    """Run a method from its button to its end, and bring what explains it to the front."""
+    choose(window, method, Stop(**stop))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.show_panel("outcome")
 
 
 def said(window):
+    window.refresh()
     return " ".join(
         label.text() for label in window.features["outcome"].panel.findChildren(QLabel) if label.isVisible()
     )
 
 
 def button(window, name):
-    return next(b for b in window.features["outcome"].panel.findChildren(QPushButton) if b.accessibleName() == name)
+    """A button that there is, not one that is about to go."""
+    panel = window.features["outcome"].panel
+    return next(b for b in panel.findChildren(QPushButton) if b.accessibleName() == name and not b.isHidden())
 
 
 def press(window, name):
-    QTest.qWait(20)  # laid out
+    window.refresh()
+    QApplication.sendPostedEvents()  # laid out
     chosen = button(window, name)
     assert chosen.isVisible()
-    assert chosen.isEnabled()
-    QTest.mouseClick(chosen, LEFT)
+    press_button(chosen)
 
 
 @pytest.fixture
@@ -51,13 +56,16 @@ def locked(window, qtbot, tmp_path):
 
 def test_before_a_run_it_says_what_it_is_for(window, qtbot):
     window.show_panel("outcome")
-    qtbot.wait(50)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     assert "No run has ended yet" in said(window)
 
 
 def test_a_run_that_ends_is_explained_before_everything_else(window, qtbot):
     assert not window.features["outcome"].panel.isVisible()
-    run(window, qtbot, "laplacian")
+    choose(window, "laplacian")
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    key(window, Qt.Key.Key_Y)
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     assert "Why Laplacian stopped" in said(window)
     assert "no node moved further than 0.0001 mean edge lengths" in said(window)
@@ -69,15 +77,14 @@ def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
     run(window, qtbot, "laplacian", max_iterations=3)
     left = window.session.document.now.summary.inverted
     assert left > 0
-    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     press(window, "Choose: Mend")
-    assert window.features["smooth"].panel.method() == "mend"
-    assert (
-        window.features["smooth"].panel.stop_form.values() == Stop().values()
-    )  # or three iterations would not help either
+    assert window.session.order.method == "mend"
+    assert window.session.order.stage.stop == Stop()  # or three iterations would not help either
+    assert window.features["smooth"].panel.stop_form.values() == Stop().values()
     assert window.session.smoothing.phase is Phase.FINISHED
     click(window, "Run")
-    qtbot.waitUntil(lambda: window.session.smoothing.busy, timeout=5000)
+    qtbot.waitUntil(lambda: window.session.smoothing.busy, timeout=PATIENCE)
+    window.refresh()
     assert not button(window, "Choose: Mend").isEnabled()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.session.document.now.summary.inverted == 0
@@ -86,12 +93,12 @@ def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
 
 def test_while_a_run_goes_on_it_says_so(window, qtbot):
     window.show_panel("outcome")
-    window.features["smooth"].panel.choose("laplacian", {}, Stop(tolerance=0, max_iterations=1_000_000).values())
+    choose(window, "laplacian", Stop(tolerance=0, max_iterations=1_000_000))
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     assert "A run is under way" in said(window)
     click(window, "Stop")
-    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=5000)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert "Stopped by you after 1 iteration" in said(window)
 
 
@@ -114,7 +121,7 @@ def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
     assert window.session.document.now.summary.inverted > 0
     press(window, "Choose: Smart Laplacian from before the run")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
-    assert window.features["smooth"].panel.method() == "smart-laplacian"
+    assert window.session.order.method == "smart-laplacian"
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.session.document.now.summary.inverted == 0
@@ -126,7 +133,7 @@ def test_locked_elements_are_listed_and_shown(window, qtbot, locked):
     press(window, "Show the locked hexes")
     assert window.session.view.look.isolation.hexes == (locked,)
     assert window.session.selection.hex == locked
-    QTest.keyClick(window, Qt.Key.Key_Escape)
+    key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.isolation is None
     button(window, "Show the locked hexes").setFocus()
     QTest.keyClick(button(window, "Show the locked hexes"), Qt.Key.Key_Space)
@@ -166,5 +173,5 @@ def test_another_mesh_is_unexplained(window, qtbot, mesh_file):
     window.session.document.saved(mesh_file)
     open_and_wait(qtbot, window, mesh_file)
     window.show_panel("outcome")
-    qtbot.wait(50)
+    qtbot.waitUntil(window.features["outcome"].panel.isVisible)
     assert "No run has ended yet" in said(window)
