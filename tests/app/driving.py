@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QPushButton
+from PySide6.QtWidgets import QAbstractButton, QCheckBox, QPushButton, QWidget
 
 from hexmend.recipe import Stage
 from hexmend.run import Stop
@@ -13,6 +15,8 @@ from hexmend.smoothers import METHODS
 from tests.patience import PATIENCE
 
 LEFT = Qt.MouseButton.LeftButton
+
+Part = TypeVar("Part", bound=QWidget)
 
 
 def open_and_wait(qtbot, window, path):
@@ -39,6 +43,19 @@ def press(button: QAbstractButton):
     button.window().refresh()
 
 
+def tick(box: QCheckBox):
+    """Press a check box's mark, and let the window show what came of it."""
+    assert box.isEnabled()
+    QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
+    box.window().refresh()
+
+
+def named(parent: QWidget, kind: type[Part], name: str) -> Part:
+    """The part below a widget that a screen reader calls by a name."""
+    (one,) = (part for part in parent.findChildren(kind) if part.accessibleName() == name)
+    return one
+
+
 def key(window, key, *modifiers):
     """Press a key, and let the window show what came of it."""
     window.refresh()
@@ -61,6 +78,7 @@ def phase(window, phase):
 
 def pixels(window):
     """What the 3D view shows, (h, w, 3)."""
+    window.refresh()
     window.canvas.interactor.render()
     return np.asarray(window.canvas.interactor.screenshot(return_img=True)).astype(int)
 

@@ -27,13 +27,14 @@ class ViewFrame(QVBoxLayout):
     -------
     view_closed(int)
         The user wants a view closed: 1 is the first beside that of the mesh.
-    wipe_chosen(left, right), wipe_moved(share)
-        The user wants other views on either side of the wipe's edge, or the edge elsewhere.
+    wipe_chosen(left, right), wipe_moved(share), wipe_stepped(way)
+        The user wants other views on either side of the wipe's edge, or the edge elsewhere, or a step aside.
     """
 
     view_closed = Signal(int)
     wipe_chosen = Signal(int, int)
     wipe_moved = Signal(float)
+    wipe_stepped = Signal(int)
 
     def __init__(self, view: QWidget):
         super().__init__()
@@ -47,6 +48,7 @@ class ViewFrame(QVBoxLayout):
             row.closed.connect(self.view_closed)
         self._wiped.chosen.connect(self.wipe_chosen)
         self._edge.moved.connect(self.wipe_moved)
+        self._edge.stepped.connect(self.wipe_stepped)
 
     def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
         """Say what is seen in which view; of a wipe, on which side."""

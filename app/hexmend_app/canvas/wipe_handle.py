@@ -12,9 +12,6 @@ from hexmend_app.widgets.style import explain
 #: Pixels: of the line, and of the knob on it.
 _LINE, _KNOB = 5, 22
 
-#: Share of the width by which a stroke of a key moves the edge.
-STEP = 0.02
-
 
 class WipeHandle(QWidget):
     """A line from top to bottom of the view with a knob in its middle; drag it, or press the arrow keys.
@@ -28,9 +25,12 @@ class WipeHandle(QWidget):
     -------
     moved(share)
         The user wants the edge at this share of the view's width.
+    stepped(way)
+        The user wants it a step to the left, -1, or to the right, 1.
     """
 
     moved = Signal(float)
+    stepped = Signal(int)
 
     def __init__(self, over: QWidget):
         super().__init__(over)
@@ -108,4 +108,4 @@ class WipeHandle(QWidget):
         if way is None:
             super().keyPressEvent(event)
         else:
-            self.moved.emit(self._share + way * STEP)
+            self.stepped.emit(way)  # from where it is by now: strokes may come faster than it is drawn

@@ -11,7 +11,6 @@ from hexmend.report import write_comparison
 from hexmend.report.comparison import LINES
 from hexmend.smoothers import METHODS
 from hexmend_app.canvas.captions import Caption
-from hexmend_app.canvas.wipe_handle import STEP
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
 from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_of
@@ -26,6 +25,9 @@ if TYPE_CHECKING:
 
 #: Methods that are ticked at first: the plain one, the fast one, an optimiser of the thesis, and the default.
 TICKED = ("laplacian", "getme", "local-sd", "mend")
+
+#: Share of the view's width by which a stroke of a key moves the wipe's edge.
+STEP = 0.02
 
 #: What the view of the mesh as it is now is called, as in the histogram.
 _NOW = "now"
@@ -106,7 +108,7 @@ class FeatureCompare(Feature):
                 part=1,
                 keys="[",
                 help="See more of the view at the right.",
-                handle=lambda: self._move_wipe(-1),
+                handle=lambda: self._step_wipe(-1),
                 enabled=wiping,
             ),
             Action(
@@ -116,7 +118,7 @@ class FeatureCompare(Feature):
                 part=1,
                 keys="]",
                 help="See more of the view at the left.",
-                handle=lambda: self._move_wipe(1),
+                handle=lambda: self._step_wipe(1),
                 enabled=wiping,
             ),
             Action(
@@ -151,6 +153,7 @@ class FeatureCompare(Feature):
         canvas.frame.view_closed.connect(self._close)
         canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
         canvas.frame.wipe_moved.connect(self._views.move_wipe)
+        canvas.frame.wipe_stepped.connect(self._step_wipe)
 
     def refresh(self) -> None:
         """Show what the methods reached, and what can be done with it."""
@@ -217,7 +220,7 @@ class FeatureCompare(Feature):
         if kept is not None:
             self._kept.remove(kept.slot)
 
-    def _move_wipe(self, way: int) -> None:
+    def _step_wipe(self, way: int) -> None:
         if self._views.wipe is not None:
             self._views.move_wipe(self._views.wipe.at + way * STEP)
 

@@ -6,44 +6,51 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QPushButton
+from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
 from hexmend_app.state.clip import BoxClip, PlaneClip
-from tests.app.driving import LEFT, drag, pixels, seen_at
+from tests.app.driving import drag, key, named, pixels, press, seen_at, tick
 
 
-def press(window, text):
-    QTest.mouseClick(next(b for b in window.features["cut"].panel.findChildren(QPushButton) if b.text() == text), LEFT)
+def moving(window):
+    """What the 3D view shows while something changes: a frame at rest has other edges and shades."""
+    window.canvas.changed()
+    return pixels(window)
+
+
+def choose(window, text):
+    """Press one of the panel's buttons."""
+    press(next(b for b in window.features["cut"].panel.findChildren(QPushButton) if b.text() == text))
 
 
 @pytest.mark.parametrize("cut", ["crinkle", "smooth"])
 def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
-    whole = pixels(window)
+    whole = moving(window)
     panel = window.features["cut"].panel
-    box = next(b for b in panel.findChildren(QCheckBox) if b.text() == "Clip")
-    QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
+    tick(next(b for b in panel.findChildren(QCheckBox) if b.text() == "Cut"))
     assert window.session.view.look.clip is not None
     assert window.actions["cut"].isChecked()
     for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole hexes"):
-        QTest.mouseClick(next(b for b in panel.findChildren(QPushButton) if b.text() == text), LEFT)
+        choose(window, text)
     clip = window.session.view.look.clip
     assert np.abs(clip.planes[0].normal).tolist() == [0, 1, 0]
     assert clip.crinkle == (cut == "crinkle")
-    halved = pixels(window)
+    halved = moving(window)
     assert (np.abs(halved - whole).sum(axis=2) > 60).mean() > 0.02
-    panel._plane_page._slider.setFocus()
+    slider = named(panel, QSlider, "Position")
+    slider.setFocus()
     for _ in range(3):
-        QTest.keyClick(panel._plane_page._slider, Qt.Key.Key_PageDown)
+        QTest.keyClick(slider, Qt.Key.Key_PageDown)
     assert window.session.view.look.clip.planes[0].origin[1] != pytest.approx(clip.planes[0].origin[1])
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
+    key(window, Qt.Key.Key_C)
     assert window.session.view.look.clip is None
     qtbot.wait(50)
-    assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() < 0.02
+    assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
 def test_the_plane_is_dragged_in_the_view(window, qtbot):
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
-    press(window, "Z")
+    key(window, Qt.Key.Key_C)
+    choose(window, "Z")
     qtbot.wait(200)
     before = window.session.view.look.clip
     x, y, z = before.planes[0].origin
@@ -55,8 +62,8 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
 
 
 def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window, qtbot):
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
-    press(window, "X")
+    key(window, Qt.Key.Key_C)
+    choose(window, "X")
     qtbot.wait(200)
     view, straight = window.canvas.interactor, window.session.view.look.clip
     arrow = seen_at(window, np.array(straight.planes[0].origin) + (0.1, 0, 0))
@@ -66,18 +73,17 @@ def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window
     turned = window.session.view.look.clip.planes[0].normal
     assert 0.1 < np.degrees(np.arccos(turned[0])) < 80
     assert np.degrees(np.arccos(turned[0])) > 8
-    press(window, "X")
-    snap = next(b for b in window.features["cut"].panel.findChildren(QCheckBox) if b.text() == "Snap")
-    QTest.mouseClick(snap, LEFT, pos=QPoint(8, snap.height() // 2))
+    choose(window, "X")
+    tick(next(b for b in window.features["cut"].panel.findChildren(QCheckBox) if b.text() == "Snap"))
     qtbot.wait(100)
     drag(view, arrow, arrow + QPoint(10, 2))
     assert window.session.view.look.clip != straight
 
 
 def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
-    whole = pixels(window)
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
-    press(window, "Box")
+    whole = moving(window)
+    key(window, Qt.Key.Key_C)
+    choose(window, "Box")
     qtbot.wait(200)
     before = window.session.view.look.clip
     assert isinstance(before, BoxClip)
@@ -88,25 +94,25 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     assert after.high[2] > z1
     assert after.low == pytest.approx(before.low)
     assert window.features["cut"].panel.clip() == after
-    inside = pixels(window)
-    press(window, "Inside")
+    inside = moving(window)
+    choose(window, "Inside")
     assert window.session.view.look.clip.notch
-    assert (np.abs(pixels(window) - inside).sum(axis=2) > 60).mean() > 0.1
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
+    assert (np.abs(moving(window) - inside).sum(axis=2) > 60).mean() > 0.1
+    key(window, Qt.Key.Key_C)
     assert window.session.view.look.clip is None
     qtbot.wait(50)
-    assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() < 0.02
+    assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
 def test_two_planes_cut_a_corner_out(window, qtbot):
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
+    key(window, Qt.Key.Key_C)
     one = window.canvas.viewport.shown
-    QTest.mouseClick(window.features["cut"].panel._row._add, LEFT)
+    press(named(window.features["cut"].panel, QPushButton, "Add a plane"))
     assert len(window.session.view.look.clip.planes) == 2
     both = window.canvas.viewport.shown
-    press(window, "Beyond all")
+    choose(window, "Beyond all")
     corner = window.canvas.viewport.shown
     assert 0 < both < one < corner < window.session.document.now.mesh.n_hexes
-    QTest.mouseClick(window.features["cut"].panel._row._remove, LEFT)
+    press(named(window.features["cut"].panel, QPushButton, "Remove the plane"))
     assert isinstance(window.session.view.look.clip, PlaneClip)
     assert window.canvas.viewport.shown == one

@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QCheckBox, QLabel, QPushButton, QSlider, QSpinBox
 
 from hexmend import gallery, io
 from hexmend_app.features.cut.inside_panel import InsidePanel
@@ -15,10 +15,8 @@ from hexmend_app.shell.program import application
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation, Look, ValueRange
 from hexmend_app.state.run import Phase
+from tests.app.driving import LEFT, choose, click, named, open_and_wait, press, tick
 from tests.patience import PATIENCE
-
-LEFT = Qt.MouseButton.LeftButton
-BOX = QPoint(8, 8)
 
 
 @pytest.fixture
@@ -44,10 +42,13 @@ def mesh_file(tmp_path):
 
 def faces(window):
     """The hexes of the faces that are drawn."""
+    window.refresh()
     return window.canvas.viewport.body.faces.hexes
 
 
 def shown(window):
+    """What the panel says of how many hexes are shown."""
+    window.refresh()
     return window.features["cut"].inside._shown.text()
 
 
@@ -136,21 +137,22 @@ def test_it_says_how_many_are_shown(panel, numbers, text):
 
 
 def test_peeling_hides_layer_after_layer(window):
-    type_into(window.features["cut"].inside._peel._box, "2")
+    layers = named(window.features["cut"].inside, QSpinBox, "Layers peeled from the boundary")
+    type_into(layers, "2")
     assert window.session.view.look.peel == 2
     assert set(faces(window)) == set(np.flatnonzero(window.session.document.now.mesh.topology.layers == 2))
     assert shown(window) == "216 of 1,000 hexes shown"
-    assert window.features["cut"].inside._peel._box.maximum() == 4
+    assert layers.maximum() == 4
 
 
 def test_isolating_with_rings_and_back(window):
     view, panel = window.session.view, window.features["cut"].inside
     view.isolate([555], 0)
     assert set(faces(window)) == {555}
-    type_into(panel._rings, "1")
+    type_into(named(panel, QSpinBox, "Rings around what is isolated"), "1")
     assert view.look.isolation == Isolation((555,), 1)
     assert shown(window) == "27 of 1,000 hexes shown"
-    QTest.mouseClick(panel._all, LEFT)
+    press(named(panel, QPushButton, "Show all"))
     assert view.look.isolation is None
     view.isolate([3])
     assert view.look.isolation == Isolation((3,), 1)
@@ -160,11 +162,12 @@ def test_digging_undoing_and_putting_back(window):
     view, panel = window.session.view, window.features["cut"].inside
     for h in (0, 1, 1, 2):
         view.dig(h)
-    assert panel._dug.text() == "3 hexes dug away"
+    window.refresh()
+    assert [label for label in panel.findChildren(QLabel) if label.text() == "3 hexes dug away"]
     assert not {0, 1, 2} & set(faces(window))
-    QTest.mouseClick(panel._undo, LEFT)
+    press(named(panel, QPushButton, "Undo digging"))
     assert view.look.dug == {0, 1}
-    QTest.mouseClick(panel._put_back, LEFT)
+    press(named(panel, QPushButton, "Put back"))
     assert not view.look.dug
     view.dig(7)
     view.undig_last()
@@ -185,6 +188,7 @@ def test_everything_combines(window):
     expected &= mesh.topology.ring_of([444], 3)
     expected[443] = False
     assert 0 < expected.sum() < 200
+    window.refresh()
     assert window.canvas.viewport.shown == expected.sum()
     view.change(shrink=0.3)
     np.testing.assert_array_equal(
@@ -193,16 +197,19 @@ def test_everything_combines(window):
 
 
 def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtbot):
-    window.features["cut"].inside._shrink._slider.setFocus()
+    slider = named(window.features["cut"].inside, QSlider, "Shrink the hexes")
+    slider.setFocus()
     for _ in range(5):
-        QTest.keyClick(window.features["cut"].inside._shrink._slider, Qt.Key.Key_PageUp)
+        QTest.keyClick(slider, Qt.Key.Key_PageUp)
     assert window.session.view.look.shrink == 0.3
     window.session.view.change(peel=3)
+    window.refresh()
     chosen = np.flatnonzero(window.session.document.now.mesh.topology.layers >= 3)
     before = window.canvas.viewport.body.faces
-    window.features["smooth"].panel.set_method("laplacian")
-    window.features["smooth"].panel.step()
+    choose(window, "laplacian")
+    click(window, "Step")
     qtbot.waitUntil(lambda: window.session.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
+    window.refresh()
     drawn = window.canvas.viewport
     assert drawn.body.faces is before  # nothing depends on quality, so no face is looked for anew
     corners = drawn.frame.mesh.points[drawn.frame.mesh.hexes[chosen]]
@@ -225,20 +232,24 @@ def test_of_many_elements_those_in_sight_are_shrunk(window, qtbot, monkeypatch):
 
 def test_a_smooth_cut_is_not_shrunk(window):
     window.session.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
+    window.refresh()
     assert window.canvas.viewport.body.faces.shrink == 0
     assert shown(window) == "1,000 of 1,000 hexes shown, then cut"
 
 
 def test_the_outline_is_drawn_while_something_is_hidden_and_wanted(window):
-    actor, panel = window.canvas.viewport._outline._actor, window.features["cut"].inside
+    actor = window.canvas.viewport._outline._actor
+    box = named(window.features["cut"].inside, QCheckBox, "Show the outline of what is hidden")
     assert not actor.GetVisibility()
     window.session.view.change(peel=1)
+    window.refresh()
     assert actor.GetVisibility()
-    QTest.mouseClick(panel._outline, LEFT, pos=BOX)
+    tick(box)
     assert not window.session.view.look.outline
     assert not actor.GetVisibility()
-    QTest.mouseClick(panel._outline, LEFT, pos=BOX)
+    tick(box)
     window.session.view.change(peel=0)
+    window.refresh()
     assert not actor.GetVisibility()
 
 
@@ -247,11 +258,10 @@ def test_another_mesh_is_shown_whole(window, qtbot, tmp_path):
     window.session.view.dig(998)
     window.session.view.change(peel=4)
     io.write(tmp_path / "small.vtu", gallery.make("cube", size=8))
-    with qtbot.waitSignals([window.session.opener.ended], timeout=20000):
-        window.features["open"].open(tmp_path / "small.vtu")
+    open_and_wait(qtbot, window, tmp_path / "small.vtu")
     assert window.session.view.look == Look()
     assert shown(window) == "8 of 8 hexes shown"
-    assert not window.features["cut"].inside._peel.isEnabled()
+    assert not named(window.features["cut"].inside, QSlider, "Layers peeled from the boundary").isEnabled()
 
 
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
