@@ -7,7 +7,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 from superqt import QRangeSlider
 
-from hexmend_app.widgets.style import explain, tabular
+from hexmend_app.widgets.style import explain, smaller, tabular
 from hexmend_app.widgets.wording import position
 
 _TICKS = 1000
@@ -44,7 +44,7 @@ class BoxPage(QWidget):
             explain(slider, f"{name} of the box", help)
             slider.valueChanged.connect(lambda ticks, axis=axis: self._on_slider(axis, ticks))
             text = QLabel()
-            text.setFont(tabular(text.font()))
+            text.setFont(tabular(smaller(text.font())))
             text.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
             text.setMinimumWidth(text.fontMetrics().horizontalAdvance("-0.000 – -0.000"))
             label = QLabel(name)

@@ -92,6 +92,7 @@ class ClipPanel(QWidget):
         head.addStretch()
         head.addWidget(self._handles)
         grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(7)
         grid.setColumnStretch(1, 1)
@@ -104,10 +105,7 @@ class ClipPanel(QWidget):
             hide.addWidget(part)
         grid.addWidget(self._hide_label, 4, 0)
         grid.addLayout(hide, 4, 1)
-        self._cut_label = QLabel("Cut")
-        self._cut_label.setBuddy(self._cut)
-        grid.addWidget(self._cut_label, 5, 0)
-        grid.addWidget(self._cut, 5, 1)
+        grid.addWidget(self._cut, 5, 0, 1, 2)
 
     def _connect(self) -> None:
         self._on.clicked.connect(self._announce)
@@ -233,7 +231,6 @@ class ClipPanel(QWidget):
             self._hide_label: on and (box or several),
             self._side: on and box,
             self._beyond: on and several and not box,
-            self._cut_label: on,
             self._cut: on,
         }
         for part, seen in shown.items():

@@ -40,7 +40,8 @@ class PlanePage(QWidget):
             [(key, key.upper(), f"A plane across the {key.upper()} axis.") for key in _AXES]
             + [("free", "Free", "For a plane that has been turned in the view; choose X, Y or Z to set it straight.")],
         )
-        self._flip = QPushButton(icon("swap-horizontal"), "Flip")
+        self._flip = QPushButton(icon("swap-horizontal"), "")
+        self._flip.setFixedWidth(34)
         explain(self._flip, "Flip", "Hide the other side of the plane.")
         self._slider = QSlider(Qt.Orientation.Horizontal)
         self._slider.setRange(0, _TICKS)
@@ -49,7 +50,7 @@ class PlanePage(QWidget):
         self._value = QLabel()
         self._value.setFont(tabular(self._value.font()))
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.0000e+00"))
+        self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
         explain(self._value, "Position in mesh units", "Position along the plane's axis in the mesh's unit of length.")
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)

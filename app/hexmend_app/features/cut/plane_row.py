@@ -36,8 +36,12 @@ class PlaneRow(QWidget):
         self._tabs = QTabBar()
         self._tabs.setDrawBase(False)
         self._tabs.setExpanding(False)
+        self._tabs.setUsesScrollButtons(True)
+        self._tabs.setMinimumWidth(64)  # or it asks for twice as much where there is one plane
         explain(self._tabs, "Plane", "The plane that is moved here and in the view.")
         self._add, self._remove = QPushButton(icon("plus"), ""), QPushButton(icon("minus"), "")
+        for button in (self._add, self._remove):
+            button.setFixedWidth(30)
         explain(self._add, "Add a plane", "Cut along one more plane.")
         explain(self._remove, "Remove the plane", "Cut along this plane no more.")
         self._snap = QCheckBox("Snap")
