@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QCheckBox, QPushButton, QWidget
+from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QPushButton, QWidget
 
 from hexmend.recipe import Stage
 from hexmend.run import Stop
@@ -69,6 +69,21 @@ def key(window, key, *modifiers):
 def choose(window, method, stop=None, **values):
     """Have a method at hand, with its values and its limits."""
     window.session.order.choose(Stage(METHODS[method](**values), stop or Stop()))
+    window.refresh()
+
+
+def choose_by_keys(window, method):
+    """Choose a method in its panel, as a hand does."""
+    window.refresh()
+    panel = window.features["smooth"].panel
+    box = next(one for one in panel.findChildren(QComboBox) if one.accessibleName() == "Method")
+    box.setFocus()
+    QTest.keyClick(box, Qt.Key.Key_Home)
+    for _ in range(box.count()):
+        if box.currentData() == method:
+            break
+        QTest.keyClick(box, Qt.Key.Key_Down)
+    assert box.currentData() == method
     window.refresh()
 
 

@@ -129,9 +129,10 @@ class TimelineBar(QWidget):
 
     def set_playing(self, playing: bool) -> None:
         """Show whether the iterations are being played."""
-        self._playing = playing
-        self._buttons["play"].setIcon(icon("pause" if playing else "play"))
-        self._explain()
+        if playing != self._playing:
+            self._playing = playing
+            self._buttons["play"].setIcon(icon("pause" if playing else "play"))
+            self._explain()
 
     def set_settings(self, limit: int, speed: int) -> None:
         """Show the memory that may be taken, in MB, and the iterations a second."""

@@ -31,18 +31,23 @@ class TrackSlider(QSlider):
         self._kept, self._marks = kept, tuple(marks)
         self.update()
 
+    def place(self, number: float) -> int:
+        """How many pixels from the left a number stands."""
+        groove, handle = self._groove(), self._handle_width()
+        share = number / max(self.maximum(), 1)
+        return round(groove.x() + handle / 2 + share * (groove.width() - handle))
+
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the marks below the slider: a line under what is kept where that is not all, ticks where it paused."""
         super().paintEvent(event)
         painter = QPainter(self)
-        groove = self._groove()
         y = self.height() - _STRIP
         if 0 < len(self._kept) < self.maximum() + 1:
             for left, right in self._stretches():
-                x = self._x(left, groove)
-                painter.fillRect(x, y, max(self._x(right, groove) - x, 1), _STRIP, QColor(str(BLUE)))
+                x = self.place(left)
+                painter.fillRect(x, y, max(self.place(right) - x, 1), _STRIP, QColor(str(BLUE)))
         for number in self._marks:
-            x = self._x(number, groove) - _MARK // 2
+            x = self.place(number) - _MARK // 2
             painter.fillRect(x, y - _STRIP, _MARK, 2 * _STRIP, QColor(str(WORSE)))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
@@ -60,11 +65,6 @@ class TrackSlider(QSlider):
         begins = self._kept[np.append(0, breaks + 1)]
         ends = self._kept[np.append(breaks, len(self._kept) - 1)]
         return zip(begins - 0.25, ends + 0.25, strict=True)
-
-    def _x(self, number: float, groove: QRect) -> int:
-        handle = self._handle_width()
-        share = number / max(self.maximum(), 1)
-        return round(groove.x() + handle / 2 + share * (groove.width() - handle))
 
     def _option(self) -> QStyleOptionSlider:
         option = QStyleOptionSlider()

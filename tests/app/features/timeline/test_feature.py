@@ -8,44 +8,64 @@ import pytest
 from PIL import Image
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QPushButton, QSpinBox
+from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QPushButton, QSpinBox, QToolButton
 
+from hexmend.run import Stop
 from hexmend_app.features.film.feature import WIDTH
+from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run import Phase
-from tests.app.driving import LEFT, click, drag, open_and_wait, phase, pixels
+from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels
+from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
 
-ENDLESS = {"tolerance": 0.0, "max_iterations": 1_000_000}
+ENDLESS = Stop(tolerance=0.0, max_iterations=1_000_000)
 
 
-def key(window, key, modifier=Qt.KeyboardModifier.NoModifier):
-    QTest.keyClick(window, key, modifier)
+def named(widget, kind, name):
+    """The part of a widget that has this name."""
+    return next(one for one in widget.findChildren(kind) if one.accessibleName() == name)
 
 
 def stepped(window, qtbot, iterations=12, method="local-sd"):
     """Make so many iterations by the Step button, and hold."""
     panel = window.features["smooth"].panel
-    panel.set_method(method)
-    panel.stop_form.set_values(ENDLESS)
-    box = next(b for b in panel.findChildren(QSpinBox) if b.accessibleName() == "Iterations of a step")
+    choose(window, method, ENDLESS)
+    box = named(panel, QSpinBox, "Iterations of a step")
     box.setFocus()
     box.selectAll()
     QTest.keyClicks(box, str(iterations))
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    window.refresh()
     return window.session.smoothing.record
 
 
 def press(window, name):
-    button = window.features["timeline"].panel.button(name)
-    assert button.isEnabled()
-    QTest.mouseClick(button, LEFT)
+    window.refresh()
+    press_button(window.features["timeline"].panel.button(name))
+
+
+def slider(window):
+    return named(window.features["timeline"].panel, TrackSlider, "Iteration")
 
 
 def slider_place(window, number):
     """Where a number stands on the slider."""
-    slider = window.features["timeline"].panel._slider
-    return QPoint(slider._x(number, slider._groove()), slider.height() // 2)
+    window.refresh()
+    return QPoint(slider(window).place(number), slider(window).height() // 2)
+
+
+def go(window, qtbot, number):
+    """Press the slider where a number stands."""
+    QTest.mouseClick(slider(window), LEFT, pos=slider_place(window, number))
+    qtbot.waitUntil(at(window, number), timeout=PATIENCE)
+    window.refresh()
+
+
+def said(window):
+    """The sentence below the buttons of the run."""
+    window.refresh()
+    return named(window.features["smooth"].panel, QLabel, "Outcome").text()
 
 
 def at(window, number):
@@ -67,15 +87,15 @@ def test_the_bar_waits_for_a_run(window):
 
 def test_everything_follows_the_slider(window, qtbot):
     record = stepped(window, qtbot)
-    slider = window.features["timeline"].panel._slider
     newest, picture = window.session.document.now, pixels(window)
-    drag(slider, slider_place(window, 12), slider_place(window, 3))
-    qtbot.waitUntil(at(window, 3), timeout=2000)
+    drag(slider(window), slider_place(window, 12), slider_place(window, 3))
+    qtbot.waitUntil(at(window, 3), timeout=PATIENCE)
+    window.refresh()
     state = window.session.document.now
     assert state.summary.q_mean == pytest.approx(record.rows[3]["q_mean"], abs=1e-6)
     assert state.summary.inverted == record.rows[3]["inverted"]
     assert np.abs(pixels(window) - picture).max() > 50
-    assert window.counts.text().endswith(f"{state.summary.inverted:,} inverted")
+    assert named(window, QLabel, "Hexes").text().endswith(f"{state.summary.inverted:,} inverted")
     assert state.figures.inverted[window.features["inspect"].worst_list.elements[0]]
     assert state is not newest
 
@@ -104,7 +124,7 @@ def test_buttons_and_playing(window, qtbot):
     assert at(window, 0)()
     press(window, "play")
     assert window.features["timeline"].panel.button("play").accessibleName() == "Hold"
-    qtbot.waitUntil(lambda: not window.session.timeline.playing, timeout=10_000)
+    qtbot.waitUntil(lambda: not window.session.timeline.playing, timeout=PATIENCE)
     assert at(window, 12)()
     press(window, "back")
     press(window, "back")
@@ -117,16 +137,15 @@ def test_buttons_and_playing(window, qtbot):
 
 def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
     first = stepped(window, qtbot)
-    QTest.mouseClick(window.features["timeline"].panel._slider, LEFT, pos=slider_place(window, 4))
-    qtbot.waitUntil(at(window, 4), timeout=2000)
-    window.features["smooth"].panel.stop_form.set_values({"max_iterations": 3})
-    window.features["smooth"].panel.set_method("laplacian")
+    go(window, qtbot, 4)
+    choose(window, "laplacian", Stop(tolerance=0.0, max_iterations=3))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):  # of the run that is left
         key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     second = window.session.smoothing.record
     assert (second.name, second.parent.record, second.parent.number, second.newest) == ("Laplacian", first, 4, 3)
-    runs = window.features["timeline"].panel._runs
+    window.refresh()
+    runs = named(window.features["timeline"].panel, QComboBox, "Run")
     assert [runs.itemText(i) for i in range(runs.count())] == ["Local steepest descent", "Laplacian"]
     assert runs.currentText() == "Laplacian"
     runs.setFocus()
@@ -142,16 +161,15 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
 def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     window.features["smooth"].panel.show_break_points()
     check(window, "A hex inverts")
-    window.features["smooth"].panel.set_method("laplacian")
-    window.features["smooth"].panel.stop_form.set_values(ENDLESS)
+    choose(window, "laplacian", ENDLESS)
     with qtbot.waitSignal(window.session.smoothing.hit, timeout=PATIENCE) as hit:
         click(window, "Run")
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     frame = hit.args[0]
     assert window.session.selection.hex == frame.hit.hexes[0]
-    assert window.features["smooth"].panel._sentence.text() == f"Paused at a break-point: {frame.hit.sentence}."
+    assert said(window) == f"Paused at a break-point: {frame.hit.sentence}."
     assert at(window, frame.iteration.number)()
-    assert frame.hit.sentence in window.features["timeline"].panel._slider.toolTip()
+    assert frame.hit.sentence in slider(window).toolTip()
 
 
 @pytest.mark.parametrize(
@@ -162,15 +180,16 @@ def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, me
     mesh = window.session.document.now.mesh
     node = int(np.flatnonzero(mesh.free)[100])
     window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
+    window.refresh()
     check(window, text)  # a node is taken from the selection
     form = window.features["smooth"].panel.breakpoint_form
-    form._move.setValue(0.001)
-    form._cuts.setValue(0)
+    named(form, QDoubleSpinBox, "How much the node moves").setValue(0.001)
+    named(form, QSpinBox, "Most cuts of the line search").setValue(0)
     window.session.selection.choose(None)
-    window.features["smooth"].panel.set_method(method)
+    choose(window, method)
     with qtbot.waitSignal(window.session.smoothing.hit, timeout=PATIENCE) as hit:
         click(window, "Run")
-    assert hit.args[0].hit.sentence in window.features["smooth"].panel._sentence.text()
+    assert hit.args[0].hit.sentence in said(window)
     assert window.session.selection.node == (node if chooses else None)
 
 
@@ -178,10 +197,9 @@ def test_what_is_saved_is_the_iteration_shown(window, qtbot, tmp_path):
     from hexmend import io
 
     record = stepped(window, qtbot)
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=5000):
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Stop")
-    QTest.mouseClick(window.features["timeline"].panel._slider, LEFT, pos=slider_place(window, 5))
-    qtbot.waitUntil(at(window, 5), timeout=2000)
+    go(window, qtbot, 5)
     path = Path(tmp_path) / "five.vtu"
     assert window.features["save"].mesh(path)
     np.testing.assert_array_equal(io.read(path).points, window.session.document.now.mesh.points)
@@ -196,18 +214,21 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     record = stepped(window, qtbot)
     each = (window.session.history.bytes) // 12
     window.session.history.limit = 4 * each
-    menu = window.features["timeline"].panel._more.menu()
+    menu = named(window.features["timeline"].panel, QToolButton, "Timeline settings").menu()
     choices = {action.text(): action for action in menu.actions()}
     choices["128 MiB"].trigger()
     choices["30 iterations"].trigger()
     assert window.session.history.limit == 128 << 20
     assert window.session.timeline.speed == 30
     assert (QSettings().value("history_megabytes"), QSettings().value("iterations_played")) == (128, 30)
-    assert "Positions are kept of 5 of them" in window.features["timeline"].panel._slider.toolTip()
+    window.refresh()
+    assert "Positions are kept of 5 of them" in slider(window).toolTip()
     assert not choices["Forget this run"].isEnabled()  # it is under way
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=5000):
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Stop")
+    window.refresh()
     choices["Forget this run"].trigger()
+    window.refresh()
     assert record not in window.session.history.records
     assert not window.actions["iteration_play"].isEnabled()
 
@@ -215,30 +236,28 @@ def test_memory_and_speed_are_remembered(window, qtbot):
 def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
     stepped(window, qtbot)
     open_and_wait(qtbot, window, mesh_file)
-    assert window.features["timeline"].panel._runs.count() == 0
+    window.refresh()
+    assert named(window.features["timeline"].panel, QComboBox, "Run").count() == 0
     assert not window.features["timeline"].panel.button("play").isEnabled()
 
 
 def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbot):
     record = stepped(window, qtbot, 4)
-    panel = window.features["smooth"].panel
     click(window, "Step")
-    qtbot.waitUntil(at(window, 8), timeout=5000)
-    method = panel._method
-    method.setFocus()
-    QTest.keyClicks(method, "Laplacian")  # chooses it
-    assert panel.method() == "laplacian"
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
+    qtbot.waitUntil(lambda: at(window, 8)() and phase(window, Phase.PAUSED)(), timeout=PATIENCE)
+    window.refresh()
+    choose_by_keys(window, "laplacian")
+    assert window.session.order.method == "laplacian"
     click(window, "Step")
     qtbot.waitUntil(at(window, 12), timeout=PATIENCE)
     assert [row["method"] for row in record.rows[1:]] == ["local-sd"] * 8 + ["laplacian"] * 4
-    panel.stop_form.set_values({"max_iterations": 15})
-    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=5000)
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=5000) as ended:
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    choose(window, "laplacian", Stop(tolerance=0.0, max_iterations=15))
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE) as ended:
         click(window, "Resume")
     assert ended.args[0].iterations == 15
-    assert "After iteration 8" in panel._sentence.text()
-    assert "After iteration 12" in panel._sentence.text()
+    assert "After iteration 8" in said(window)
+    assert "After iteration 12" in said(window)
     assert window.session.document.undo_title == "Local steepest descent"
     window.session.document.undo()
     assert window.session.document.now is window.session.document.start
@@ -248,7 +267,7 @@ def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot)
     record = stepped(window, qtbot, 3, "local-nr")
     with qtbot.assertNotEmitted(window.features["smooth"].panel.change_requested):
         click(window, "Step")
-        qtbot.waitUntil(at(window, 6), timeout=5000)
+        qtbot.waitUntil(at(window, 6), timeout=PATIENCE)
     assert {row["method"] for row in record.rows} == {"local-nr"}
 
 
@@ -263,7 +282,7 @@ def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkey
     said = [window.busy.text()]
     show = window.busy.show_work
     monkeypatch.setattr(window.busy, "show_work", lambda text, *others: (said.append(text), show(text, *others)))
-    qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=60_000)
+    qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=PATIENCE)
     assert said == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
     assert "6 frames" in " ".join(window.messages.messages()[-1])
     with Image.open(path) as film:
@@ -296,8 +315,7 @@ def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path
 
 def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(window, qtbot):
     stepped(window, qtbot, 6)
-    QTest.mouseClick(window.features["timeline"].panel._slider, LEFT, pos=slider_place(window, 2))
-    qtbot.waitUntil(at(window, 2), timeout=2000)
+    go(window, qtbot, 2)
     kept = window.session.document.now
     key(window, Qt.Key.Key_V)
     key(window, Qt.Key.Key_V)
