@@ -152,7 +152,10 @@ def test_brushing_the_histogram_keeps_a_range_in_view(window, qtbot):
     assert high == pytest.approx(0.6, abs=0.03)
     assert (np.abs(pixels(window) - whole).sum(axis=2) > 60).mean() > 0.01
     QTest.mouseClick(
-        next(b for b in window.features["histogram"].panel.findChildren(QPushButton) if b.accessibleName() == "Show all"), LEFT
+        next(
+            b for b in window.features["histogram"].panel.findChildren(QPushButton) if b.accessibleName() == "Show all"
+        ),
+        LEFT,
     )
     qtbot.waitUntil(lambda: window.session.view.look.quality_range is None, timeout=3000)
 
