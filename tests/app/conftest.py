@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
+
 import pytest
 import shiboken6
 from PySide6.QtCore import QEvent, QSettings
@@ -13,6 +15,7 @@ from hexmend_app.shell.window import Window
 from hexmend_app.state.task import running
 from hexmend_app.widgets.style import apply_style
 from tests.app.driving import open_and_wait
+from tests.app.resetting import SIZE, Resetting, lay_out, settle
 from tests.guards import windows_close
 
 
@@ -20,6 +23,9 @@ def pytest_collection_modifyitems(items):
     """Themes first: another theme is put on all windows that there have been."""
     items.sort(key=lambda item: item.path.name != "test_theme.py")
 
+
+#: The window that tests share, once there is one.
+SHARED: list[Window] = []
 
 #: Windows of tests that are over. Garbage, they would take along what VTK draws with at whatever moment Python collects
 #: it, and crash there.
@@ -40,7 +46,7 @@ def windows_are_closed(nothing_is_left_behind, request):
         yield
         return
     request.getfixturevalue("qapp")
-    with windows_close():
+    with windows_close(SHARED):
         yield
 
 
@@ -68,23 +74,68 @@ def mesh_file(tmp_path_factory):
 
 
 @pytest.fixture
-def window(qtbot, tmp_path, mesh_file, monkeypatch):
-    """A window with a mesh open in it."""
-    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, str(tmp_path / "settings"))
-    QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, str(tmp_path / "settings"))
-    monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Discard)
+def fresh_window(qtbot, tmp_path, mesh_file, monkeypatch):
+    """A window of the test's own, with a mesh open in it."""
+    with kept_apart(tmp_path / "settings"):
+        window = made(qtbot, mesh_file)
+        yield window
+        close(window)
+
+
+@pytest.fixture(scope="session")
+def shared(qapp, tmp_path_factory, mesh_file):
+    """The window that tests share, and what brings it back to how it was."""
+    resetting = None
+
+    def share(qtbot):
+        nonlocal resetting
+        if resetting is None:
+            SHARED.append(made(qtbot, mesh_file))
+            resetting = Resetting(SHARED[0], mesh_file)
+        return resetting
+
+    with kept_apart(tmp_path_factory.mktemp("settings")):
+        yield share
+        for window in SHARED:
+            close(window)
+
+
+@pytest.fixture
+def window(qtbot, shared):
+    """The window that tests share, with a mesh open in it, as if it were new."""
+    resetting = shared(qtbot)
+    resetting.reset(qtbot)
+    yield resetting.window
+    resetting.end()
+
+
+@contextmanager
+def kept_apart(settings):
+    """Settings in a folder of their own, and no question that waits for an answer."""
+    for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
+        QSettings.setPath(form, QSettings.Scope.UserScope, str(settings))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Discard)
+        yield
+
+
+def made(qtbot, path):
+    """A window in which a mesh is open."""
     application()
     window = Window()
-    window.resize(1400, 900)
+    window.resize(*SIZE)
     window.show()
     qtbot.waitExposed(window)
     window.furnish()
     window.build_canvas()
-    open_and_wait(qtbot, window, mesh_file)
-    window.windowHandle().requestActivate()
-    qtbot.waitUntil(window.isActiveWindow, timeout=5000)  # or shortcuts go nowhere
-    qtbot.wait(30)
-    yield window
+    open_and_wait(qtbot, window, path)
+    lay_out(window, window.docks.state())
+    settle(qtbot, window)
+    return window
+
+
+def close(window):
+    """Close a window for good."""
     window.close()
     CLOSED.append(window)
     # PySide would take what is made later at the same place in memory for the window's QWindow.

@@ -100,7 +100,7 @@ class Drawer(Tabs):
         """Leave nothing but the tabs, or show the page in front."""
         if folded == self.folded:
             return
-        if folded and self.height() > self.tabBar().height():
+        if folded and self.isVisible() and self.height() > self.tabBar().height():
             self.height_unfolded = self.height()
         self.folded = folded
         self.findChild(QStackedWidget).setVisible(not folded)

@@ -81,7 +81,7 @@ class Smoothing(QObject):
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
         self._timer.timeout.connect(self._look)
-        document.mesh_replaced.connect(self.shut_down)  # what was begun while the other mesh was read
+        document.mesh_replaced.connect(self._on_another)
 
     @property
     def busy(self) -> bool:
@@ -162,6 +162,12 @@ class Smoothing(QObject):
             self._worker.end()
             self._worker.task.wait()
             self._finish(self._worker)
+
+    def _on_another(self) -> None:
+        """Forget the run on the mesh that was open, and what was begun while the other was read."""
+        self.shut_down()
+        self.work = self.record = None
+        self._set_phase(Phase.IDLE)
 
     def shut_down(self) -> None:
         """End the run and wait until its thread is gone; nothing is emitted any more."""

@@ -27,7 +27,6 @@ def test_the_window_is_there_first_and_then_its_mesh(moments):
     assert set(moments["window"]["modules"]) <= set(moments["picture"]["modules"])
 
 
-@pytest.mark.xfail(strict=True, reason="the window imports what draws in it before it is shown")
 def test_the_window_is_painted_before_what_draws_in_it_is_loaded(moments):
     assert loaded(moments["window"]) & LATER == set()
 

@@ -127,22 +127,15 @@ class ElementPanel(QWidget):
 
     def _lay_out(self, page: QWidget) -> None:
         head = QHBoxLayout()
-        for part in (self._title, self._state):
-            head.addWidget(part)
-        head.addStretch()
-        for part in (self._in_view, self._fly):
-            head.addWidget(part)
+        head.addWidget(self._title, 1)
+        head.addWidget(self._fly)
         figures = QGridLayout()
         figures.setVerticalSpacing(2)
-        half = -(-len(METRICS) // 2)
         for at, metric in enumerate(metrics_offered()):
-            row, column = at % half, 3 * (at // half)
             title = QLabel(metric.title)
             explain(title, metric.title, described(metric).removeprefix("<qt>").removesuffix("</qt>"))
-            figures.addWidget(title, row, column)
-            figures.addWidget(self._values[metric.name], row, column + 1)
-        figures.setColumnMinimumWidth(2, 10)
-        figures.setRowStretch(half, 1)
+            figures.addWidget(title, at, 0)
+            figures.addWidget(self._values[metric.name], at, 1)
         corners = QGridLayout()
         corners.setVerticalSpacing(2)
         corners.setHorizontalSpacing(14)
@@ -154,21 +147,19 @@ class ElementPanel(QWidget):
         for row, labels in enumerate(self._corners, start=1):
             for column, label in enumerate(labels):
                 corners.addWidget(label, row, column)
-        corners.setRowStretch(9, 1)
-        middle = QHBoxLayout()
-        middle.setSpacing(28)
-        middle.addLayout(figures, 1)
-        middle.addLayout(corners, 1)
+        for words in (self._state, self._neighbours, self._about_node):
+            words.setWordWrap(True)  # or the column of panels would be as wide as the longest of them
         column = QVBoxLayout(page)
         column.setContentsMargins(8, 6, 8, 6)
         column.addLayout(head)
-        column.addLayout(middle, 1)
+        column.addWidget(self._state)
+        column.addWidget(self._in_view)
+        column.addLayout(corners)
+        column.addWidget(self._about_node)
+        column.addWidget(self._pin)
         column.addWidget(self._neighbours)
-        foot = QHBoxLayout()
-        foot.addWidget(self._about_node)
-        foot.addStretch()
-        foot.addWidget(self._pin)
-        column.addLayout(foot)
+        column.addLayout(figures)
+        column.addStretch()
 
     @property
     def corners_in_view(self) -> bool:

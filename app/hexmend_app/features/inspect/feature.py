@@ -107,6 +107,7 @@ class FeatureInspect(Feature):
                 place=Place.DRAWER,
                 order=2,
                 help="All there is to know of the chosen hex and its nodes.",
+                scrolls=True,
             ),
         )
 

@@ -1,0 +1,92 @@
+"""All that can be seen of a window, and all that its session holds, as a value that two windows can be compared by."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import is_dataclass
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PySide6.QtCore import QObject, QSettings
+from PySide6.QtWidgets import QApplication, QComboBox, QScrollBar, QTabBar, QWidget
+
+#: Properties of widgets and actions that show what was done to them.
+_PROPERTIES = (
+    "enabled", "text", "plainText", "checked", "value", "minimum", "maximum", "currentIndex", "currentText", "toolTip",
+    "title", "windowTitle", "accessibleDescription", "placeholderText", "rowCount", "count",
+)  # fmt: skip
+#: What the room is shared between; how a panel shares its own comes of that, and of when it was first seen.
+_LAID_OUT = ("Tabs", "Drawer", "Canvas", "QtInteractor")
+_PLAIN = (bool, int, float, str, bytes, type(None), Enum, Path)
+
+
+def everything(window: QWidget) -> Counter[str]:
+    """What is seen of a window, each panel brought to the front, and what its session holds: a line for each thing."""
+    lines: Counter[str] = Counter()
+    _widgets(window, "", lines)
+    for one in QApplication.topLevelWidgets():
+        if one.isVisible() and one is not window:
+            lines[f"open: {type(one).__name__} {one.windowTitle()}"] += 1
+    focus = QApplication.focusWidget()
+    lines[f"focus: {type(focus).__name__} {focus.accessibleName() if focus else ''}"] += 1
+    for id, action in window.actions.items():
+        lines[f"action {id}: {action.isEnabled()} {action.isChecked()} {action.text()} {action.toolTip()}"] += 1
+    for name, part in vars(window.session).items():
+        if not name.startswith("_"):
+            _state(part, f"session.{name}", lines)
+    camera = window.canvas.viewport.camera
+    for name in ("Position", "FocalPoint", "ViewUp", "ParallelProjection", "ViewAngle"):
+        lines[f"camera {name}: {np.round(getattr(camera, f'Get{name}')(), 6).tolist()}"] += 1
+    lines[f"look that is drawn: {window.canvas.viewport.frame.look}"] += 1
+    lines[f"hexes that are drawn: {window.canvas.viewport.shown}"] += 1
+    lines[f"settings: {sorted(QSettings().allKeys())}"] += 1
+    layout = window.docks.state()
+    lines[f"layout: {layout}"] += 1
+    for panel in window.docks.ids():
+        window.show_panel(panel)
+        window.refresh()
+        QApplication.processEvents()
+        _widgets(window.docks, panel, lines)
+    window.docks.restore(layout)
+    return lines
+
+
+def _widgets(widget: QWidget, above: str, lines: Counter[str]) -> None:
+    if not widget.isVisible():
+        return
+    path = f"{above}/{type(widget).__name__} {widget.accessibleName()}".rstrip()
+    meta = widget.metaObject()
+    known = {meta.property(k).name() for k in range(meta.propertyCount())}
+    shown = [f"{name}={widget.property(name)}" for name in _PROPERTIES if name in known]
+    if type(widget).__name__ in _LAID_OUT:
+        shown.append(f"size={widget.width()} × {widget.height()}")
+    if isinstance(widget, QComboBox | QTabBar):
+        texts = widget.itemText if isinstance(widget, QComboBox) else widget.tabText
+        shown.append(f"items={[texts(k) for k in range(widget.count())]}")
+    if isinstance(widget, QScrollBar):
+        shown = [f"scrolled={widget.value()}"]
+    lines[f"{path}: {' '.join(shown)}"] += 1
+    for child in widget.children():
+        if isinstance(child, QWidget):
+            _widgets(child, path, lines)
+
+
+def _state(part: Any, name: str, lines: Counter[str]) -> None:
+    kinds = [kind for kind in type(part).mro() if kind.__module__.startswith("hexmend")]
+    names = {one for one in getattr(part, "__dict__", ()) if not one.startswith("_")}
+    names |= {one for kind in kinds for one, what in vars(kind).items() if isinstance(what, property)}
+    for one in sorted(names):
+        if not one.startswith("_"):
+            lines[f"{name}.{one}: {_plain(getattr(part, one))}"] += 1
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, _PLAIN):
+        return repr(value)
+    if isinstance(value, tuple | list | set | frozenset):
+        return [_plain(one) for one in value]
+    if is_dataclass(value) and not any(isinstance(one, np.ndarray) for one in vars(value).values()):
+        return {name: _plain(one) for name, one in vars(value).items() if not name.startswith("_")}
+    return type(value).__name__ if not isinstance(value, QObject) else "part"

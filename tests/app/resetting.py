@@ -1,0 +1,172 @@
+"""The window that tests share, brought back to how it was when it was first seen."""
+
+from __future__ import annotations
+
+from weakref import WeakKeyDictionary
+
+from PySide6.QtCore import QPoint, QSettings
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractItemView,
+    QAbstractSlider,
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QLineEdit,
+    QTabBar,
+    QWidget,
+)
+
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import DEFAULT_METHOD, METHODS
+from hexmend_app.state.look import Look
+from hexmend_app.state.timeline import SPEED
+from hexmend_app.widgets import theming
+from tests.app.driving import open_and_wait
+
+SIZE = 1400, 900
+
+
+class Resetting:
+    """Knows how a window was, and brings it back to that.
+
+    Parameters
+    ----------
+    window : Window
+        As tests are to find it, with a mesh open.
+    path : Path
+        The mesh's file.
+    """
+
+    def __init__(self, window, path):
+        self.window, self.path = window, path
+        self._layout = window.docks.state()
+        self._inputs: WeakKeyDictionary[QWidget, object] = WeakKeyDictionary()
+        for widget in window.findChildren(QWidget):
+            setting = _setting(widget)
+            if setting is not None:
+                self._inputs[widget] = setting
+
+    def end(self):
+        """End what is going on."""
+        _close_others(self.window)
+        for feature in self.window.features.values():
+            feature.close()
+        session = self.window.session
+        session.smoothing.end_now()
+        session.comparison.cancel()
+        session.opener.cancel()
+
+    def reset(self, qtbot):
+        """Put everything back, and open the mesh anew."""
+        window, session = self.window, self.window.session
+        self.end()
+        session.stepping.leave()
+        QSettings().clear()
+        theming.wear()
+        self._put_back()
+        for method in (*METHODS.values(), METHODS[DEFAULT_METHOD]):
+            session.order.choose(Stage(method(), Stop()))
+        session.order.begun = None
+        while session.chain.stages:
+            session.chain.remove(0)
+        session.chain.rename("")
+        session.timeline.hold()
+        session.timeline.set_speed(SPEED)
+        session.views.close_all()
+        session.view.change(**{name: getattr(Look(), name) for name in Look.__dataclass_fields__})
+        session.view.set_handles(True)
+        session.view.set_snap(True)
+        session.view.set_rings(1)
+        window.canvas.set_parallel(False)
+        window.showNormal()
+        window.resize(*SIZE)
+        open_and_wait(qtbot, window, self.path)
+        self._put_back()
+        window.messages.clear()
+        window.refresh()
+        lay_out(window, self._layout)
+        settle(qtbot, window)
+
+    def _put_back(self):
+        for widget, setting in list(self._inputs.items()):
+            if _setting(widget) != setting:
+                _set(widget, setting)
+        for view in self.window.findChildren(QAbstractItemView):
+            if view.selectionModel() is not None:
+                view.clearSelection()
+
+
+def lay_out(window, layout):
+    """Let panels stand as they did."""
+    for panel in window.docks.ids():
+        window.docks.show_panel(panel)  # what is closed in the layout is closed again
+    for _ in range(2):  # first what is in front, then what room that has
+        window.docks.restore(layout)
+        QApplication.processEvents()
+
+
+def settle(qtbot, window):
+    """Look at the whole mesh from a corner, with the window in front and the keyboard at no part of it."""
+    window.refresh()
+    window.canvas.look_along("iso")
+    window.canvas.fit()
+    QTest.mouseMove(window, QPoint(1, 1))
+    window.activateWindow()
+    window.windowHandle().requestActivate()
+    qtbot.waitUntil(window.isActiveWindow, timeout=5000)  # or shortcuts go nowhere
+    if QApplication.focusWidget() is not None:
+        QApplication.focusWidget().clearFocus()
+    QApplication.processEvents()
+
+
+def _close_others(window):
+    """Close menus and dialogs."""
+    while (popup := QApplication.activePopupWidget()) is not None:
+        popup.close()
+    for one in QApplication.topLevelWidgets():
+        if one is not window and one.isVisible():
+            one.close()
+
+
+def _setting(widget):
+    """What a hand has set in a widget; None where it cannot be set."""
+    if isinstance(widget, QComboBox):
+        return widget.currentText() if widget.isEditable() else widget.currentIndex()
+    if isinstance(widget, QTabBar):
+        return widget.currentIndex()
+    if isinstance(widget, QAbstractSpinBox):
+        return widget.text()
+    if isinstance(widget, QAbstractButton):
+        return widget.isChecked() if widget.isCheckable() else None
+    if isinstance(widget, QAbstractSlider):
+        return widget.value()
+    if isinstance(widget, QLineEdit) and not isinstance(widget.parentWidget(), QAbstractSpinBox | QComboBox):
+        return widget.text()
+    return None
+
+
+def _set(widget, setting):
+    """Set a widget as a hand would, so that whoever listens hears of it."""
+    if isinstance(widget, QComboBox):
+        if widget.isEditable():
+            widget.setCurrentText(setting)
+        else:
+            widget.setCurrentIndex(setting)
+            widget.activated.emit(setting)
+    elif isinstance(widget, QTabBar):
+        widget.setCurrentIndex(setting)
+    elif isinstance(widget, QAbstractSpinBox):
+        widget.lineEdit().setText(setting)
+        widget.interpretText()
+        widget.editingFinished.emit()
+    elif isinstance(widget, QAbstractButton):
+        widget.click() if widget.isEnabled() else widget.setChecked(setting)
+    elif isinstance(widget, QAbstractSlider):
+        widget.setValue(setting)
+    else:
+        widget.setText(setting)
+        widget.textEdited.emit(setting)
+        widget.editingFinished.emit()
