@@ -88,3 +88,8 @@ def _all_but(dug: frozenset[int], m: int) -> np.ndarray:
     answer = np.ones(m, dtype=bool)
     answer[list(dug)] = False
     return answer
+
+
+def same_mask(one: np.ndarray | None, other: np.ndarray | None) -> bool:
+    """Whether two masks leave the same hexes."""
+    return one is other or (one is not None and other is not None and np.array_equal(one, other))

@@ -11,7 +11,7 @@ from hexmend_app.scene.camera.eye import Eye
 from hexmend_app.scene.camera.fitting import bounds_of
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.element_colours import ElementColours
-from hexmend_app.scene.filters import Filters
+from hexmend_app.scene.filters import Filters, same_mask
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.arrows import ArrowLayer
 from hexmend_app.scene.layers.axes import Axes
@@ -100,7 +100,7 @@ class Viewport:
         if measured:
             self.colours.measure(frame)
         keep = self.kept()
-        if looked or not _same(keep, self._keep):
+        if looked or not same_mask(keep, self._keep):
             self._keep = keep
             self._rebuild()
         elif measured or pinned:
@@ -247,8 +247,3 @@ class Viewport:
             self._plotter.render_window.RemoveRenderer(layer)
         self._plotter.renderer.clear_actors()
         self._plotter.remove_all_lights()
-
-
-def _same(one: np.ndarray | None, other: np.ndarray | None) -> bool:
-    """Whether two masks show the same hexes."""
-    return one is other or (one is not None and other is not None and np.array_equal(one, other))

@@ -7,11 +7,11 @@ import pytest
 import pyvista as pv
 
 from hexmend.mesh import Mesh
+from hexmend.movement import Moment, Movement
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame, same_hexes
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import ColourScale, Look, Structure
-from hexmend_app.state.movement import Moment, Movement
 from tests.core.grids import grid, scrambled
 
 MESH = grid(4)
