@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QBrush, QColor, QKeyEvent
-from PySide6.QtWidgets import QDialog, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from hexmend_app.shell.ranking import Entry, ranked
 from hexmend_app.widgets.style import MUTED, dress, explain, note
@@ -14,8 +14,7 @@ from hexmend_app.widgets.style import MUTED, dress, explain, note
 #: Keys that move in the list while the cursor stands in the field.
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 
-#: How wide names may be, in pixels; keys stand behind them.
-_NAMES = 430
+_WIDTH = 590
 
 
 class _Field(QLineEdit):
@@ -58,13 +57,14 @@ class CommandPalette(QDialog):
         self._list.setAccessibleName("Commands")
         self._list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._list.header().setStretchLastSection(False)
-        self._list.setColumnWidth(0, _NAMES)
+        self._list.header().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        self._list.header().setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
         self._nothing = note("Nothing has these letters.")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         for part in (self._field, self._list, self._nothing):
             layout.addWidget(part)
-        self.resize(_NAMES + 160, 380)
+        self.resize(_WIDTH, 380)
         self._field.textChanged.connect(self._fill)
         self._field.returnPressed.connect(self._carry_out)
         self._list.itemClicked.connect(self._carry_out)
@@ -78,7 +78,6 @@ class CommandPalette(QDialog):
         self._found = ranked(self._entries, self._field.text())
         self._list.clear()
         self._list.addTopLevelItems([_item(one) for one in self._found])
-        self._list.resizeColumnToContents(1)
         self._list.setCurrentItem(self._list.topLevelItem(0))
         self._nothing.setVisible(not self._found)
 

@@ -45,6 +45,10 @@ def rows(step: NodeStep) -> list[Row]:
     return said
 
 
+#: Share of an energy below which a difference is rounding.
+_ROUNDING = 1e-12
+
+
 def _scale(step: NodeStep) -> str:
     return "mesh" if step.whole else "patch"
 
@@ -57,7 +61,7 @@ def _energy(step: NodeStep) -> Row:
     before, after = _finite(step.energy), _finite(step.energy_after)
     of = "of the whole mesh" if step.whole else f"of its {counted(step.hexes.size, 'hex')}, the patch"
     meaning = f"The sum of η(H){_power(step)} {of}, in mean edge lengths of it; 0 if all were cubes."
-    rises = step.move > 0 and step.energy_after > step.energy
+    rises = step.move > 0 and step.energy_after > step.energy * (1 + _ROUNDING)
     if rises:
         why = "other nodes move too" if METHODS[step.method].optimises else "this method does not look at it"
         meaning += f" It rises: {why}."

@@ -73,6 +73,7 @@ class FeatureOutcome(Feature):
         elif advice is None:
             self.panel.show_none()
         self._shown = advice
+        self.panel.say_where(self._where())
         self.panel.set_busy(not self.session.editable)
 
     def _on_ended(self, result: Result) -> None:
@@ -93,6 +94,20 @@ class FeatureOutcome(Feature):
         if self._idle is not None:
             return self._idle[1:]
         return ("", None) if record is None else (record.name, self._advice.get(record))
+
+    def _where(self) -> str:
+        """What the view shows, where that is not what the run that is explained has left."""
+        timeline = self.session.timeline
+        record, moment = timeline.record, timeline.moment
+        if self._idle is not None or record is None or record.result is None:
+            return ""
+        if moment is None:
+            return "The mesh shown is none of this run's."
+        if moment.record is record and moment.number == record.result:
+            return ""
+        if not moment.number:
+            return "The mesh is shown as it was before the run."
+        return f"The mesh is shown as it was at {moment.name}."
 
     def _show_elements(self, hexes: list[int]) -> None:
         self.session.view.isolate(hexes)

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
-from hexmend_app.widgets.style import INVERTED_TEXT, TEXT, dress, explain, icon, note, tint
+from hexmend_app.widgets.style import AMBER, INVERTED_TEXT, TEXT, dress, explain, icon, note, tint
 from hexmend_app.widgets.wording import counted
 
 _HINT = "No run has ended yet. Here you will see why it stopped, which hexes are still inverted, and what to try next."
@@ -64,6 +64,8 @@ class OutcomePanel(QWidget):
         self._next = QLabel("What to try next")
         self._next.setFont(font)
         self._nothing = note()
+        self._where = note("", AMBER)
+        self._where.hide()
         self._rows = QGridLayout()
         self._rows.setColumnStretch(0, 1)
         self._rows.setVerticalSpacing(6)
@@ -83,7 +85,8 @@ class OutcomePanel(QWidget):
         column = QVBoxLayout(inside)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(6)
-        for part in (self._title, self._why, self._left, self._locked, self._loose, self._next, self._nothing):
+        parts = (self._title, self._where, self._why, self._left, self._locked, self._loose, self._next, self._nothing)
+        for part in parts:
             column.addWidget(part)
         column.addLayout(self._rows)
         column.addStretch()
@@ -99,6 +102,11 @@ class OutcomePanel(QWidget):
         """Say that nothing is known yet, and why."""
         self._hint.setText(hint)
         self._stack.setCurrentIndex(0)
+
+    def say_where(self, sentence: str) -> None:
+        """Say that what the view shows is not what the run left, and what it is instead; "" where it is just that."""
+        self._where.setText(sentence)
+        self._where.setVisible(bool(sentence))
 
     def show_advice(self, title: str, advice: Advice) -> None:
         """Explain the end of a run."""

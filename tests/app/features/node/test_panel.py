@@ -60,6 +60,8 @@ def test_the_energy_of_a_method_that_does_not_look_at_it_may_rise():
     up = dataclasses.replace(step, energy_after=step.energy + 1)
     assert "does not look at it" in row(up, "Energy").meaning
     assert "rises" not in row(dataclasses.replace(step, energy_after=step.energy - 0.1), "Energy").meaning
+    rounded = dataclasses.replace(step, energy_after=np.nextafter(step.energy, np.inf))
+    assert "rises" not in row(rounded, "Energy").meaning
     assert "whole mesh" in row(step_of("global-sd"), "Energy").meaning
 
 
