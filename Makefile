@@ -6,7 +6,7 @@ BIN    := $(VENV)/bin
 MESH   ?=
 CXX_SOURCES = $(shell find core/native -name "*.cpp" -o -name "*.hpp")
 
-.PHONY: help run test lint format bench study pins wheel clean
+.PHONY: help run test lint format bench study docs pins wheel clean
 .NOTPARALLEL:
 
 help:
@@ -15,6 +15,7 @@ help:
 	@echo "make lint              check the style;  make format  mends it"
 	@echo "make bench             measure speed and memory"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
+	@echo "make docs              write the tables of methods, metrics and formats anew"
 	@echo "make wheel             build a wheel and the sources' archive, and try the wheel: dist/"
 	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
@@ -44,6 +45,9 @@ bench: $(VENV)/.app $(VENV)/.kernels
 
 study: $(VENV)/.app $(VENV)/.kernels
 	@$(BIN)/hexmend study thesis --quick -o build/study
+
+docs: $(VENV)/.app $(VENV)/.kernels
+	@$(BIN)/python scripts/tables.py
 
 wheel: $(VENV)/.wheel
 	@scripts/wheel $(BIN)

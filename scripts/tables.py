@@ -1,0 +1,85 @@
+"""Writes the tables of methods, metrics and formats into README.md and docs, between their marks; a test compares.
+
+Use: python scripts/tables.py
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+from hexmend.io import FORMATS
+from hexmend.quality import METRICS
+from hexmend.smoothers import METHODS
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    lines = [head, ["---"] * len(head), *([cell.replace("|", r"\|") for cell in row] for row in rows)]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines).replace("| --- ", "|---").replace("|--- |", "|---|")
+
+
+def methods() -> str:
+    """The methods, the default first."""
+    order = sorted(METHODS.values(), key=lambda method: method.name != "mend")
+    return table(("name", "what", "from"), ((f"`{one.name}`", one.help, one.source) for one in order))
+
+
+def metrics() -> str:
+    """The metrics, those of the thesis first."""
+    order = sorted(METRICS.values(), key=lambda metric: ("q", "scaled-jacobian", metric.name).index(metric.name))
+    which = {1: "higher", -1: "lower", 0: "–"}
+    rows = (
+        (f"`{one.name}`", one.formula, _range(one.full_range), _range(one.acceptable), which[one.better])
+        for one in order
+    )
+    return table(("name", "formula", "range", "acceptable", "better"), rows)
+
+
+def formats() -> str:
+    """The formats."""
+    rows = (
+        (
+            one.title,
+            ", ".join(f"`{suffix}`" for suffix in one.suffixes),
+            " or ".join(one.encodings),
+            "yes" if one.holds_hex_sets else "no",
+        )
+        for one in FORMATS.values()
+    )
+    return table(("format", "suffix", "written as", "named groups of hexes"), rows)
+
+
+#: Which table stands in which file.
+TABLES: dict[str, tuple[str, Callable[[], str]]] = {
+    "methods": ("README.md", methods),
+    "metrics": ("docs/method.md", metrics),
+    "formats": ("README.md", formats),
+}
+
+
+def written(name: str, text: str) -> str:
+    """A file's text with one of `TABLES` as it is now.
+
+    Raises
+    ------
+    ValueError
+        Where the file has no place for it, `<!-- table: NAME -->` to `<!-- end -->`.
+    """
+    place = re.compile(rf"(<!-- table: {name} -->\n).*?(\n<!-- end -->)", re.DOTALL)
+    if len(place.findall(text)) != 1:
+        raise ValueError(f"there are {len(place.findall(text))} places for the table of {name}: expected one")
+    return place.sub(lambda found: found[1] + TABLES[name][1]() + found[2], text)
+
+
+def _range(ends: tuple[float, float]) -> str:
+    return " to ".join(f"{end:g}".replace("inf", "∞").replace("-", "−") for end in ends)
+
+
+if __name__ == "__main__":
+    for name, (file, _) in TABLES.items():
+        path = ROOT / file
+        path.write_text(written(name, path.read_text(encoding="utf-8")), encoding="utf-8")
