@@ -93,7 +93,6 @@ class Drawer(Tabs):
         self.height_unfolded = 260
         self.folded = False
         self.tabBarClicked.connect(self._on_click)
-        self._clicked = -1
         self.set_folded(True)
 
     def set_folded(self, folded: bool) -> None:

@@ -130,13 +130,6 @@ class Source:
         self.pos += size
         return self.data[self.pos - size : self.pos]
 
-    def place_of_number(self, start: int, index: int) -> str:
-        """The place of the number `index` (from 0) after the byte `start`."""
-        for k, word in enumerate(_WORD.finditer(self.data, start)):
-            if k == index:
-                return self.place(word.start())
-        return self.place(len(self.data))
-
     def _numeric_end(self) -> int:
         """Where the numbers from here on end: before the next word that holds a letter."""
         end = self.pos
