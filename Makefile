@@ -27,7 +27,7 @@ run: $(VENV)/.app $(VENV)/.kernels
 
 test: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest -n 2 --dist worksteal
 
 lint: $(VENV)/.test
 	@$(BIN)/ruff check

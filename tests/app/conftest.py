@@ -94,6 +94,13 @@ def shared(qapp, tmp_path_factory, mesh_file):
             resetting = Resetting(SHARED[0], mesh_file)
         return resetting
 
+    def forget():
+        nonlocal resetting
+        resetting = None
+        close(SHARED.pop())
+
+    share.forget = forget
+
     with kept_apart(tmp_path_factory.mktemp("settings")):
         yield share
         for window in SHARED:
@@ -106,6 +113,9 @@ def window(qtbot, shared):
     resetting = shared(qtbot)
     resetting.reset(qtbot)
     yield resetting.window
+    if not resetting.window.isVisible():
+        shared.forget()
+        pytest.fail("a test that closes its window asks for fresh_window", pytrace=False)
     resetting.end()
 
 

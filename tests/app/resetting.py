@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
+from hexmend_app.state.history import LIMIT
 from hexmend_app.state.look import Look
 from hexmend_app.state.timeline import SPEED
 from hexmend_app.widgets import theming
@@ -73,6 +74,7 @@ class Resetting:
         while session.chain.stages:
             session.chain.remove(0)
         session.chain.rename("")
+        session.history.limit = LIMIT
         session.timeline.hold()
         session.timeline.set_speed(SPEED)
         session.views.close_all()

@@ -337,7 +337,8 @@ def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
     assert window.session.document.undo_title is None
 
 
-def test_closing_while_running_leaves_no_thread(window, qtbot):
+def test_closing_while_running_leaves_no_thread(fresh_window, qtbot):
+    window = fresh_window
     endless(window)
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
@@ -347,7 +348,8 @@ def test_closing_while_running_leaves_no_thread(window, qtbot):
     assert not window.isVisible()
 
 
-def test_cancelling_keeps_the_window_and_its_run(window, qtbot, monkeypatch):
+def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatch):
+    window = fresh_window
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     with monkeypatch.context() as patched:

@@ -397,7 +397,8 @@ def test_a_sweep_can_be_begun_before_anything_was_explained(window, qtbot):
     np.testing.assert_array_equal(window.session.document.now.mesh.points[step.node], step.after)
 
 
-def test_closing_while_a_step_is_worked_out_leaves_no_thread(window, qtbot):
+def test_closing_while_a_step_is_worked_out_leaves_no_thread(fresh_window, qtbot):
+    window = fresh_window
     choose(window, "global-nr")
     key(window, Qt.Key.Key_D)
     qtbot.waitUntil(lambda: window.session.explainer.busy, timeout=5000)

@@ -245,7 +245,8 @@ def begin_searching(window):
 
 
 @pytest.mark.parametrize("searching", [False, True])
-def test_closing_before_it_is_found_leaves_no_thread(window, qtbot, mesh_file, searching):
+def test_closing_before_it_is_found_leaves_no_thread(fresh_window, qtbot, mesh_file, searching):
+    window = fresh_window
     if window.session.finder.structure is None:
         qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE).wait()
     window.session.document.replace(window.session.document.start, mesh_file)
