@@ -50,10 +50,14 @@ class Viewport:
         Draw the axes in a corner.
     filters : Filters, optional
         Those of another view, whose elements are shown here too where the mesh has the same hexes.
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane, axes: bool = True, filters: Filters | None = None):
-        self._plotter = plotter
+    def __init__(
+        self, plotter: pv.BasePlotter | Pane, axes: bool = True, filters: Filters | None = None, pen: float = 1.0
+    ):
+        self._plotter, self._pen = plotter, pen
         self.frame: Frame | None = None
         self.filters = filters
         self._fast = False
@@ -62,13 +66,13 @@ class Viewport:
         plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=1.0))
         plotter.render_window.SetMultiSamples(0)
         self.colours = ElementColours()
-        self.body = Body(plotter)
+        self.body = Body(plotter, pen)
         self._outline: Silhouette | None = None
-        self._structure = StructureLayers(plotter)
-        self._arrows = ArrowLayer(plotter)
-        self.chosen = Chosen(plotter)
+        self._structure = StructureLayers(plotter, pen)
+        self._arrows = ArrowLayer(plotter, pen)
+        self.chosen = Chosen(plotter, pen)
         self._picker = Picker(plotter, (self.body.skin, self.body.section))
-        self.axes = Axes(plotter) if axes else None
+        self.axes = Axes(plotter, pen) if axes else None
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
@@ -111,7 +115,7 @@ class Viewport:
         if self.filters is None or not self.filters.suit(mesh):
             self.filters = Filters(mesh)
         self.body.set_mesh(mesh)
-        self._outline = Silhouette(self._plotter, mesh)
+        self._outline = Silhouette(self._plotter, mesh, self._pen)
         self._outline.set_dark(self._dark)
         self._structure.set_mesh(mesh)
         self.chosen.set_mesh(mesh)

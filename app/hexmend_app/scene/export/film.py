@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
 from hexmend.movement import Moment, Movement
-from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
+from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, pen_of, strip_height
 from hexmend_app.scene.export.shots import Shot
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
@@ -57,7 +57,7 @@ def pictures(
     strip = strip_height(size)
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - 2 * strip))
     try:
-        viewport = Viewport(plotter)
+        viewport = Viewport(plotter, pen=pen_of(size))
         seen_last: Moment | None = None
         for shot in shots:
             mesh, figures = shot.state.mesh, shot.state.figures

@@ -36,13 +36,15 @@ class Body:
     Parameters
     ----------
     plotter : pyvista.BasePlotter or Pane
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane):
-        self.skin, self.section = Surface(plotter, "skin"), Surface(plotter, "section")
+    def __init__(self, plotter: pv.BasePlotter | Pane, pen: float = 1.0):
+        self.skin, self.section = Surface(plotter, "skin", pen), Surface(plotter, "section", pen)
         self._halos = (
-            (self.skin, Halo(plotter, "halo of skin")),
-            (self.section, Halo(plotter, "halo of section")),
+            (self.skin, Halo(plotter, "halo of skin", pen)),
+            (self.section, Halo(plotter, "halo of section", pen)),
         )
         self._coarse: pv.PolyData | None = None  # of the skin, drawn while the camera moves
         self._steady = False  # nothing but the camera has moved since the last fine frame

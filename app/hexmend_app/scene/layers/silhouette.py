@@ -32,9 +32,11 @@ class Silhouette:
     plotter : pyvista.BasePlotter
     mesh : Mesh
         Its boundary is drawn where its nodes are; `move` says where they go.
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, mesh: Mesh):
+    def __init__(self, plotter: pv.BasePlotter, mesh: Mesh, pen: float = 1.0):
         faces = mesh.topology.boundary_faces
         edges = sharp_edges(mesh.points, faces)
         self._lines = lines = form_lines(edges)
@@ -49,7 +51,7 @@ class Silhouette:
         self._actor = plotter.add_mesh(
             self._poly if len(cells) else pv.PolyData(np.zeros((1, 3))),
             name="outline",
-            line_width=1,
+            line_width=pen,
             lighting=False,
             culling=None if lines else "back",
             reset_camera=False,
