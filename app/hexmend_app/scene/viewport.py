@@ -17,6 +17,7 @@ from hexmend_app.scene.layers.arrows import ArrowLayer
 from hexmend_app.scene.layers.axes import Axes
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.chosen import Chosen
+from hexmend_app.scene.layers.ghosts import Ghosts
 from hexmend_app.scene.layers.silhouette import Silhouette
 from hexmend_app.scene.layers.structure import StructureLayers
 from hexmend_app.scene.palette import BACKGROUND
@@ -67,6 +68,7 @@ class Viewport:
         plotter.render_window.SetMultiSamples(0)
         self.colours = ElementColours()
         self.body = Body(plotter, pen)
+        self._ghosts = Ghosts(plotter, pen)
         self._outline: Silhouette | None = None
         self._structure = StructureLayers(plotter, pen)
         self._arrows = ArrowLayer(plotter, pen)
@@ -82,6 +84,7 @@ class Viewport:
         if self.axes is not None:
             self.axes.set_dark(dark)
         self.chosen.set_dark(dark)
+        self._ghosts.set_dark(dark)
         if self._outline is not None:
             self._outline.set_dark(dark)
 
@@ -125,6 +128,7 @@ class Viewport:
         frame, keep = self.frame, self._keep
         look, points = frame.look, frame.mesh.points
         self.body.rebuild(frame, keep, self.colours)
+        self._ghosts.draw(frame, self.filters.ghosts(frame), keep)
         self._arrows.draw(frame, self._keep, self.body)
         self._outline.move(points)
         self._outline.show(look.outline and (keep is not None or look.clip is not None))
@@ -134,6 +138,7 @@ class Viewport:
         """The same faces, elsewhere and in other colours."""
         frame = self.frame
         self.body.move(frame, self._keep, self.colours)
+        self._ghosts.move(frame)
         self._arrows.draw(frame, self._keep, self.body)
         self._outline.move(frame.mesh.points)
         self._structure.move(frame.mesh.points, frame.figures)
@@ -193,8 +198,8 @@ class Viewport:
 
     @property
     def places(self) -> np.ndarray:
-        """The corners of what is shown, (k, 3); of the mesh where nothing is left of it."""
-        places, mesh = self.body.places, self.frame.mesh
+        """The corners of what is shown, ghosts too, (k, 3); of the mesh where nothing is left of it."""
+        places, mesh = np.concatenate([self.body.places, self._ghosts.places]), self.frame.mesh
         return places if len(places) else mesh.points[mesh.topology.used]
 
     def view(self, direction: str | tuple[float, float, float]) -> None:

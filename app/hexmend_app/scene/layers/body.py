@@ -72,13 +72,15 @@ class Body:
         for surface in (self.skin, self.section):
             surface.show_edges(frame.look.edges)
         faces = self.faces = self._visible(frame, keep)
-        self.whole = quads(faces.places(frame.mesh.points), faces.quads, colours.of(faces.hexes), faces.hexes)
+        self._opened = self._skin.opened(faces, keep) if frame.look.neutral else None
+        coloured = colours.of(faces.hexes, self._opened)
+        self.whole = quads(faces.places(frame.mesh.points), faces.quads, coloured, faces.hexes)
         self._draw(frame, keep, colours)
 
     def move(self, frame: Frame, keep: np.ndarray | None, colours: ElementColours) -> None:
         """Draw the same faces elsewhere and in other colours; parameters are those of `rebuild`."""
         set_points(self.whole, self.faces.places(frame.mesh.points))
-        set_colours(self.whole, colours.of(self.faces.hexes))
+        set_colours(self.whole, colours.of(self.faces.hexes, self._opened))
         self._draw(frame, keep, colours)
 
     def _visible(self, frame: Frame, keep: np.ndarray | None) -> Faces:
