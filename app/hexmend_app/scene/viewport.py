@@ -130,8 +130,7 @@ class Viewport:
         self.body.rebuild(frame, keep, self.colours)
         self._ghosts.draw(frame, self.filters.ghosts(frame), keep)
         self._arrows.draw(frame, self._keep, self.body)
-        self._outline.move(points)
-        self._outline.show(look.outline and (keep is not None or look.clip is not None))
+        self._outline.show(look, points, keep)
         self._structure.choose(look, points, frame.figures, self.body.faces, keep)
 
     def _move(self) -> None:
