@@ -77,7 +77,7 @@ def figure(
     """
     width, height = size
     unit = strip_height(size)
-    strip, line = unit if bar else 0, round(_CAPTION * unit)
+    strip, line = unit if bar and not look.neutral else 0, round(_CAPTION * unit)
     rows = len(panels) // columns(len(panels)) if wipe is None else 1
     plotter = pv.Plotter(
         off_screen=True, shape=(1, ROOM), border=False, window_size=(width, height - strip - rows * line)

@@ -59,10 +59,10 @@ def picture(
     transparent : bool
         Leave the background out.
     bar : bool
-        Draw the colour bar below; a picture too small for it has none.
+        Draw the colour bar below; a picture too small for it has none, nor one without colours.
     """
     width, height = size
-    strip = strip_height(size) if bar else 0
+    strip = strip_height(size) if bar and not frame.look.neutral else 0
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
     try:
         viewport = Viewport(plotter, filters=filters, pen=pen_of(size))

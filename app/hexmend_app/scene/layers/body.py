@@ -127,7 +127,7 @@ class Body:
             self.skin.stand_in(self._coarse)
 
     def _coarsened(self) -> pv.PolyData:
-        light = self._light
+        light = self.light
         if light is None:
             return coarse(self.whole)
         of_faces = light[: self.skin.corners].reshape(-1, 4).mean(axis=1)
@@ -154,7 +154,7 @@ class Body:
         return [surface for surface in (self.skin, self.section) if surface.shown]
 
     @property
-    def _light(self) -> np.ndarray | None:
+    def light(self) -> np.ndarray | None:
         """What reaches the corners of the scene; None where that is not known, or not wanted."""
         if not self._shading or self._lit is None or self._scene is None:
             return None
@@ -162,7 +162,7 @@ class Body:
         return light if scene.same(self._scene) else None
 
     def _refine(self) -> None:
-        light, begin = self._light, 0
+        light, begin = self.light, 0
         for surface in self._shown:
             end = begin + surface.corners
             surface.refine(fine(surface.poly, None if light is None else light[begin:end]))
@@ -171,7 +171,7 @@ class Body:
     @property
     def unlit(self) -> Polygons | None:
         """What stands in a fine frame without the light that is wanted; None where there is nothing to work out."""
-        if self._scene is None or not self._shading or self._light is not None:
+        if self._scene is None or not self._shading or self.light is not None:
             return None
         return self._scene
 
