@@ -54,7 +54,7 @@ class Panes:
         self._others: dict[int, tuple[Mesh, Viewport]] = {}  # by renderer
         self._order: list[int] = []
         self.wipe: Wipe | None = None
-        self._arrangement = Arrangement(self._window)
+        self._arrangement = Arrangement(self._window, pen)
         self.eye = Eye(lambda: self.seen, lambda: self._arrangement.aspect)
         self.arrange()
         self._watch(self.first)
