@@ -55,7 +55,7 @@ class CameraView(QWidget):
         self.interactor.setAccessibleDescription(
             "Arrow keys turn the mesh, Shift and arrow keys shift it, + and − zoom; F shows all of it."
         )
-        self.panes = Panes(self.interactor)
+        self.panes = Panes(self.interactor, pen=self.devicePixelRatioF())
         self.viewport = self.panes.first
         self._once = OncePerFrame(self.interactor)
         self._rest = QTimer(self, interval=_REST, singleShot=True)

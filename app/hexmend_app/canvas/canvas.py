@@ -248,6 +248,7 @@ class Canvas(CameraView):
     def _show_colours(self) -> None:
         colouring = self.colouring
         if colouring is not None:
+            self.colour_bar.setVisible(not self.viewport.frame.look.neutral)
             self.colour_bar.set_label(colouring.title)
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)

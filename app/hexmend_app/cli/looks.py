@@ -45,6 +45,8 @@ def add_arguments(parser: argparse.ArgumentParser, size: str) -> None:
         metavar="NAMES",
         help="draw irregular, boundary or sharp edges, fixed, free or locked nodes; several separated by commas",
     )
+    parser.add_argument("--neutral", action="store_true", help="white outside and one colour inside, no values")
+    parser.add_argument("--no-shading", action="store_true", help="do not darken what little light reaches")
     parser.add_argument("--no-edges", action="store_true", help="leave the hexes' edges out")
 
 
@@ -78,6 +80,8 @@ def look_of(args: argparse.Namespace, mesh: Mesh) -> Look:
         quality_range=quality_range,
         scale=ColourScale(metric.name, args.colour_map, mode, ends),
         edges=not args.no_edges,
+        shading=not args.no_shading,
+        neutral=args.neutral,
         structure=_structure(args.structure) if args.structure else Structure(),
     )
 

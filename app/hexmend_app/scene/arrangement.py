@@ -42,6 +42,8 @@ class Arrangement:
     Parameters
     ----------
     window : vtkRenderWindow
+    pen : float
+        How many pixels wide a thin line is.
 
     Attributes
     ----------
@@ -49,8 +51,8 @@ class Arrangement:
         Pixels of the window that are left free above each of several views side by side, for what is said of it.
     """
 
-    def __init__(self, window: vtkRenderWindow):
-        self._window = window
+    def __init__(self, window: vtkRenderWindow, pen: float = 1.0):
+        self._window, self._pen = window, pen
         self._size = (0, 0)
         self._wiped = False
         self._seen: Sequence[Viewport] = ()
@@ -122,7 +124,7 @@ class Arrangement:
             renderer = view.layers[0]
             edges = _inner(renderer.GetViewport())
             if edges:
-                self._borders.append((renderer, renderer.add_border(LINE.of(self._dark), 1, edges=edges)))
+                self._borders.append((renderer, renderer.add_border(LINE.of(self._dark), self._pen, edges=edges)))
 
     def at(self, x: float, y: float) -> Viewport:
         """The view at a place in pixels of the window, from its lower left corner."""

@@ -20,6 +20,9 @@ MAPS = ("viridis", "cividis", "plasma", "inferno")
 #: The map of changes, in whose middle is none: from brown for worse to teal for better.
 DIVERGING = "BrBG"
 
+#: Colours of what shows no value: the outside of the mesh, and what is opened by a cut or a filter.
+OUTSIDE, OPENED = (0xF2, 0xF2, 0xEF), (0xF6, 0xC9, 0x4C)
+
 #: Colour of inverted elements, in no map of ours: magenta. In colours of changes it is that of the newly inverted; what
 #: was so before is duller, and what no longer is is yellow.
 INVERTED = tuple(bytes.fromhex(MAGENTA[1:]))
@@ -95,9 +98,24 @@ class Colouring:
         np.clip(place, 0, 255, out=place)
         # What has no value (nan) is inverted, or else drawn as the lowest.
         answer = self.table[np.nan_to_num(place, copy=False, nan=0.0).astype(np.uint8)]
+        return self._set_apart(answer, kinds)
+
+    def neutral(self, opened: np.ndarray, kinds: np.ndarray) -> np.ndarray:
+        """Colour of faces that show no value, (k, 3) uint8, but what is set apart.
+
+        Parameters
+        ----------
+        opened : (k,) bool
+            Whether each lies inside the mesh.
+        kinds : (k,) bool or uint8
+            As for `colours`.
+        """
+        return self._set_apart(np.array([OUTSIDE, OPENED], np.uint8)[opened.astype(np.intp)], kinds)
+
+    def _set_apart(self, colours: np.ndarray, kinds: np.ndarray) -> np.ndarray:
         for kind, one in enumerate(self.apart, start=1):
-            answer[kinds == kind] = one.colour
-        return answer
+            colours[kinds == kind] = one.colour
+        return colours
 
     def label(self, value: float) -> str:
         """A value as it stands on the colour bar, with three digits of the range."""

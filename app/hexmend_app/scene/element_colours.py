@@ -49,9 +49,19 @@ class ElementColours:
         self.measure(self._frame)
         return (before.low, before.high) != (self.colouring.low, self.colouring.high)
 
-    def of(self, hexes: np.ndarray | slice) -> np.ndarray:
-        """The colours of some hexes, (k, 3) uint8."""
-        return self.colouring.colours(self.values[hexes], self._kinds[hexes])
+    def of(self, hexes: np.ndarray | slice, opened: np.ndarray | None = None) -> np.ndarray:
+        """The colours of faces of some hexes, (k, 3) uint8.
+
+        Parameters
+        ----------
+        hexes : (k,) int32 or slice
+        opened : (k,) bool, optional
+            Of a neutral look, which faces lie inside the mesh; None for all.
+        """
+        kinds = self._kinds[hexes]
+        if not self._frame.look.neutral:
+            return self.colouring.colours(self.values[hexes], kinds)
+        return self.colouring.neutral(np.ones(len(kinds), bool) if opened is None else opened, kinds)
 
     @property
     def ends(self) -> tuple[float, float]:

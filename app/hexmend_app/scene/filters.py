@@ -51,13 +51,30 @@ class Filters:
             self._part(
                 "isolation",
                 look.isolation,
-                lambda: topology.ring_of(look.isolation.hexes, look.isolation.rings),
+                lambda: topology.ring_of(look.isolation.hexes, 0),
             ),
             self._part("dug", look.dug or None, lambda: _all_but(look.dug, self._mesh.n_hexes)),
             self._part("quality", chosen and (chosen, figures), lambda: self._within(chosen, points, figures)),
         )
         masks = [mask for mask in parts if mask is not None]
         return reduce(np.logical_and, masks) if masks else None
+
+    def ghosts(self, frame: Frame) -> np.ndarray | None:
+        """The hexes around what is isolated, as many rings of them as the look wants, (m,) bool; None for none.
+
+        They are none of those that are kept, whatever else is hidden; what is cut or dug away is no ghost either.
+        """
+        around = frame.look.isolation
+        if around is None or not around.rings:
+            self._known.pop("ghosts", None)
+            return None
+        topology = self._mesh.topology
+        near = self._part("ghosts", around, lambda: topology.ring_of(around.hexes, around.rings))
+        isolated, others = (
+            self._known["isolation"][1],
+            [self._known[name][1] for name in ("clip", "dug") if name in self._known],
+        )
+        return reduce(np.logical_and, [near, ~isolated, *others])
 
     def left(self, frame: Frame) -> np.ndarray | None:
         """The hexes of which something is shown after a smooth cut too, (m,) bool; None for all."""

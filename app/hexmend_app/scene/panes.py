@@ -39,20 +39,22 @@ class Panes:
         With a row of `ROOM` renderers.
     filters : Filters, optional
         Those of another window's view, whose elements are shown where the mesh has the same hexes.
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, filters: Filters | None = None):
-        self._plotter = plotter
+    def __init__(self, plotter: pv.BasePlotter, filters: Filters | None = None, pen: float = 1.0):
+        self._plotter, self._pen = plotter, pen
         self._window = plotter.render_window
         for renderer in list(plotter.renderers)[1:]:
             self._window.RemoveRenderer(renderer)
         plotter.renderers[0].SetViewport(0, 0, 1, 1)
-        self.first = Viewport(Pane(plotter, 0), filters=filters)
+        self.first = Viewport(Pane(plotter, 0), filters=filters, pen=pen)
         self._dark = False
         self._others: dict[int, tuple[Mesh, Viewport]] = {}  # by renderer
         self._order: list[int] = []
         self.wipe: Wipe | None = None
-        self._arrangement = Arrangement(self._window)
+        self._arrangement = Arrangement(self._window, pen)
         self.eye = Eye(lambda: self.seen, lambda: self._arrangement.aspect)
         self.arrange()
         self._watch(self.first)
@@ -112,7 +114,7 @@ class Panes:
 
     def _open(self, mesh: Mesh, figures: ElementQuality) -> int:
         at = min(set(range(1, ROOM)) - set(self._others))
-        view = Viewport(Pane(self._plotter, at), axes=False, filters=self.first.filters)
+        view = Viewport(Pane(self._plotter, at), axes=False, filters=self.first.filters, pen=self._pen)
         view.set_dark(self._dark)
         view.draw(Frame(mesh, figures).beside(self.first.frame))
         self._others[at] = mesh, view

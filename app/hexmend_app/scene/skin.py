@@ -81,5 +81,23 @@ class Skin:
         skin.outer(self._neighbours, keep, outer)
         return Faces(*self._faces_of(keep, outer, fine), shrink, True)
 
+    def opened(self, faces: Faces, keep: np.ndarray | None = None) -> np.ndarray:
+        """True for faces that lie inside the mesh: something is hidden behind them, (k,) bool.
+
+        Parameters
+        ----------
+        faces : Faces
+            As `visible` or `shrunk` has found them, for the same `keep`.
+        keep : (m,) bool, optional
+        """
+        # They come hex by hex, and in the order of a hex's faces.
+        hexes = faces.hexes[np.flatnonzero(np.diff(faces.hexes, prepend=-1))]
+        behind = self._neighbours[hexes]
+        inside = behind >= 0
+        if len(faces.quads) == 6 * len(hexes):
+            return inside.ravel()
+        keep = self._all if keep is None else keep
+        return inside[~(inside & keep[behind])]
+
     def _faces_of(self, keep: np.ndarray, chosen: np.ndarray, hidden: bool) -> tuple[np.ndarray, ...]:
         return skin.faces_of(self._hexes, self._neighbours, keep, chosen, hidden)

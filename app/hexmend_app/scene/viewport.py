@@ -17,6 +17,7 @@ from hexmend_app.scene.layers.arrows import ArrowLayer
 from hexmend_app.scene.layers.axes import Axes
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.chosen import Chosen
+from hexmend_app.scene.layers.ghosts import Ghosts
 from hexmend_app.scene.layers.silhouette import Silhouette
 from hexmend_app.scene.layers.structure import StructureLayers
 from hexmend_app.scene.palette import BACKGROUND
@@ -50,10 +51,14 @@ class Viewport:
         Draw the axes in a corner.
     filters : Filters, optional
         Those of another view, whose elements are shown here too where the mesh has the same hexes.
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane, axes: bool = True, filters: Filters | None = None):
-        self._plotter = plotter
+    def __init__(
+        self, plotter: pv.BasePlotter | Pane, axes: bool = True, filters: Filters | None = None, pen: float = 1.0
+    ):
+        self._plotter, self._pen = plotter, pen
         self.frame: Frame | None = None
         self.filters = filters
         self._fast = False
@@ -62,13 +67,14 @@ class Viewport:
         plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=1.0))
         plotter.render_window.SetMultiSamples(0)
         self.colours = ElementColours()
-        self.body = Body(plotter)
+        self.body = Body(plotter, pen)
+        self._ghosts = Ghosts(plotter, pen)
         self._outline: Silhouette | None = None
-        self._structure = StructureLayers(plotter)
-        self._arrows = ArrowLayer(plotter)
-        self.chosen = Chosen(plotter)
+        self._structure = StructureLayers(plotter, pen)
+        self._arrows = ArrowLayer(plotter, pen)
+        self.chosen = Chosen(plotter, pen)
         self._picker = Picker(plotter, (self.body.skin, self.body.section))
-        self.axes = Axes(plotter) if axes else None
+        self.axes = Axes(plotter, pen) if axes else None
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
@@ -78,6 +84,7 @@ class Viewport:
         if self.axes is not None:
             self.axes.set_dark(dark)
         self.chosen.set_dark(dark)
+        self._ghosts.set_dark(dark)
         if self._outline is not None:
             self._outline.set_dark(dark)
 
@@ -111,7 +118,7 @@ class Viewport:
         if self.filters is None or not self.filters.suit(mesh):
             self.filters = Filters(mesh)
         self.body.set_mesh(mesh)
-        self._outline = Silhouette(self._plotter, mesh)
+        self._outline = Silhouette(self._plotter, mesh, self._pen)
         self._outline.set_dark(self._dark)
         self._structure.set_mesh(mesh)
         self.chosen.set_mesh(mesh)
@@ -121,15 +128,16 @@ class Viewport:
         frame, keep = self.frame, self._keep
         look, points = frame.look, frame.mesh.points
         self.body.rebuild(frame, keep, self.colours)
+        self._ghosts.draw(frame, self.filters.ghosts(frame), keep)
         self._arrows.draw(frame, self._keep, self.body)
-        self._outline.move(points)
-        self._outline.show(look.outline and (keep is not None or look.clip is not None))
+        self._outline.show(look, points, keep)
         self._structure.choose(look, points, frame.figures, self.body.faces, keep)
 
     def _move(self) -> None:
         """The same faces, elsewhere and in other colours."""
         frame = self.frame
         self.body.move(frame, self._keep, self.colours)
+        self._ghosts.move(frame)
         self._arrows.draw(frame, self._keep, self.body)
         self._outline.move(frame.mesh.points)
         self._structure.move(frame.mesh.points, frame.figures)
@@ -189,8 +197,8 @@ class Viewport:
 
     @property
     def places(self) -> np.ndarray:
-        """The corners of what is shown, (k, 3); of the mesh where nothing is left of it."""
-        places, mesh = self.body.places, self.frame.mesh
+        """The corners of what is shown, ghosts too, (k, 3); of the mesh where nothing is left of it."""
+        places, mesh = np.concatenate([self.body.places, self._ghosts.places]), self.frame.mesh
         return places if len(places) else mesh.points[mesh.topology.used]
 
     def view(self, direction: str | tuple[float, float, float]) -> None:

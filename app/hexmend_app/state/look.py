@@ -187,7 +187,7 @@ class Look:
     dug : frozenset of int
         Elements that are hidden one by one.
     outline : bool
-        Draw the outline of the whole where a part is hidden.
+        Draw sharp edges, and the outline of the whole where a part is hidden.
     shrink : float
         The share of its size by which each element is drawn smaller, about its centre; not where a cut is smooth.
     quality_range : ValueRange, optional

@@ -86,3 +86,19 @@ def test_nothing_kept_is_nothing_seen():
     mesh = grid(2)
     faces, _ = visible_faces(mesh, np.zeros(8, dtype=bool))
     assert len(faces.quads) == len(faces.nodes) == 0
+
+
+@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([None, "in sight", "all", "fine"]))
+def test_a_face_is_opened_where_the_mesh_goes_on_behind_it(size, seed, shrunk):
+    mesh = grid(*size)
+    keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.6
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("hexmend_app.scene.skin.WHOLE", 10_000 if shrunk == "all" else 0)
+        one = Skin(mesh)
+        faces = one.visible(keep) if shrunk is None else one.shrunk(0.2, keep, shrunk == "fine")
+    boundary = {frozenset(face) for face in mesh.topology.boundary_faces.tolist()}
+    nodes = faces.nodes[faces.quads] if shrunk is None else None
+    if nodes is None:  # they have nodes of their own, eight by eight
+        nodes = mesh.hexes[faces.hexes[:, None], faces.quads % 8]
+    expected = [frozenset(face) not in boundary for face in nodes.tolist()]
+    np.testing.assert_array_equal(one.opened(faces, keep), np.array(expected, bool))

@@ -93,10 +93,10 @@ def test_a_cut_through_nodes_is_closed(seen):
 
 def test_faces_turned_inside_out_are_seen(seen):
     viewport, pixels = seen
+    show(viewport, look=Look(edges=False, outline=False))
     background = pixels()[0, 0]
     drawn = (pixels() != background).any(axis=2).sum()
     mirrored = MESH.with_points(MESH.points * [-1, 1, 1] + [4, 0, 0])
-    show(viewport, look=Look(edges=False))
     show(viewport, mirrored)
     assert magenta(pixels()) > 0.9 * drawn
 

@@ -25,8 +25,8 @@ _SHRINK = (
 )
 _CUT_SMOOTHLY = "Hexes that are cut through cannot be shrunk: choose <i>Whole hexes</i> for the cut."
 _RINGS = (
-    "How much is shown around the hexes that are isolated: ring 1 are those that share a node with them, ring 2 "
-    "those that share one with ring 1, and so on."
+    "How much stands as ghosts around the hexes that are isolated: ring 1 are those that share a node with them, "
+    "ring 2 those that share one with ring 1, and so on."
 )
 
 
@@ -71,11 +71,11 @@ class InsidePanel(QWidget):
         explain(self._undo, "Undo digging", "Bring back the hex that was dug away last.")
         self._put_back = QPushButton(icon("restore"), "")
         explain(self._put_back, "Put back", "Bring back all hexes that were dug away.")
-        self._outline = QCheckBox("Outline what is hidden")
+        self._outline = QCheckBox("Sharp edges and outline")
         explain(
             self._outline,
-            "Outline what is hidden",
-            "Where a part is hidden, draw the sharp edges of the whole mesh; of a round body, its shade.",
+            "Sharp edges and outline",
+            "Draw where the boundary has an edge; where a part is hidden, paler; of a round body, its shade.",
         )
         self._shown = note()
         self._shown.setFont(tabular(self._shown.font()))

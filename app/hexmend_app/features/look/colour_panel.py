@@ -40,6 +40,8 @@ _MAPS = {
     DIVERGING: "For changes: from brown for worse over white for none to teal for better.",
 }
 _OF_VALUES = "All maps are perceptually uniform and readable without telling red from green."
+NEUTRAL = "Draw the outside white and what is opened in one colour, to see shapes; inverted hexes stay magenta."
+SHADING = "Darken what little light reaches, once the view rests: steps, holes and depths are seen at a glance."
 _BOXES = (("low", 0.0), ("high", 1.0))
 
 
@@ -50,9 +52,13 @@ class ColourPanel(QWidget):
     -------
     scale_changed(ColourScale)
         The user chose. Of numbers, only finished ones: entered, stepped, or left for another field.
+    neutral_changed(bool), shading_changed(bool)
+        The user wants no colours of values, or some; shades, or none.
     """
 
     scale_changed = Signal(object)
+    neutral_changed = Signal(bool)
+    shading_changed = Signal(bool)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -74,6 +80,9 @@ class ColourPanel(QWidget):
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
         explain(self._low, "Lowest value", "The value of the first colour; pin the range to set it.")
         explain(self._high, "Highest value", "The value of the last colour; pin the range to set it.")
+        self._neutral, self._shading = QCheckBox("Neutral"), QCheckBox("Shading")
+        explain(self._neutral, "Neutral", NEUTRAL)
+        explain(self._shading, "Shading", SHADING)
         self._problem = note(colour=WORSE)
         self._problem.hide()
         self._lay_out()
@@ -82,6 +91,8 @@ class ColourPanel(QWidget):
         self._map.activated.connect(self._on_map)
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
         self._mode.chosen.connect(lambda key: self._on_mode(RangeMode(key)))
+        self._neutral.clicked.connect(self.neutral_changed)
+        self._shading.clicked.connect(self.shading_changed)
         for box in (self._low, self._high):
             box.changed.connect(lambda box=box: self._on_number(box))
             box.editingFinished.connect(self._on_numbers)
@@ -111,12 +122,23 @@ class ColourPanel(QWidget):
         for part in (self._low, QLabel("to"), self._high):
             numbers.addWidget(part, 0 if isinstance(part, QLabel) else 1)
         grid.addLayout(numbers, 3, 0, 1, 3)
-        grid.addWidget(self._problem, 4, 0, 1, 3)
+        drawn = QHBoxLayout()
+        drawn.setSpacing(16)
+        for part in (self._neutral, self._shading):
+            drawn.addWidget(part)
+        drawn.addStretch()
+        grid.addLayout(drawn, 4, 0, 1, 3)
+        grid.addWidget(self._problem, 5, 0, 1, 3)
 
     def set_scale(self, scale: ColourScale) -> None:
         """Show a choice, without a signal."""
         if scale != self._scale:
             self._take(scale)
+
+    def set_drawn(self, neutral: bool, shading: bool) -> None:
+        """Show whether the colours stand for values, and whether there are shades; without a signal."""
+        self._neutral.setChecked(neutral)
+        self._shading.setChecked(shading)
 
     def scale(self) -> ColourScale:
         """The choice that is shown."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from hexmend.movement import MOVEMENTS, Movement
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
-from hexmend_app.features.look.colour_panel import ColourPanel
+from hexmend_app.features.look.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.scene.frame import Frame
 from hexmend_app.state.kinds import isolate, of_kind
 from hexmend_app.state.look import Arrows, Look
@@ -30,10 +30,12 @@ class FeatureLook(Feature):
         self._seen = Seen()
         self.panel = ColourPanel()
         self.panel.scale_changed.connect(lambda scale: view.change(scale=scale))
+        self.panel.neutral_changed.connect(lambda on: view.change(neutral=on))
+        self.panel.shading_changed.connect(lambda on: view.change(shading=on))
         view.metric_wanted.connect(self.panel.choose_metric)
 
     def actions(self) -> Sequence[Action]:
-        """Edges."""
+        """Edges, shades, and colours or none."""
         view = self._view
         return (
             Action(
@@ -47,6 +49,24 @@ class FeatureLook(Feature):
                 tool="Edges",
                 handle=lambda on: view.change(edges=on),
                 checked=lambda: view.look.edges,
+            ),
+            Action(
+                id="shading",
+                text="S&hading",
+                menu="View",
+                part=1,
+                help=SHADING,
+                handle=lambda on: view.change(shading=on),
+                checked=lambda: view.look.shading,
+            ),
+            Action(
+                id="neutral",
+                text="&Neutral colours",
+                menu="View",
+                part=1,
+                help=NEUTRAL,
+                handle=lambda on: view.change(neutral=on),
+                checked=lambda: view.look.neutral,
             ),
         )
 
@@ -73,6 +93,7 @@ class FeatureLook(Feature):
         session = self.session
         self.panel.setEnabled(session.document.is_open)
         self.panel.set_scale(self._view.look.scale)
+        self.panel.set_drawn(self._view.look.neutral, self._view.look.shading)
         if self._canvas is None or not session.document.is_open:
             return
         now, movement, look = session.document.now, self._movement, self._drawable

@@ -13,7 +13,7 @@ from hexmend.mesh import Mesh
 from hexmend.movement import Movement
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.arrangement import columns
-from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
+from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, pen_of, strip_height
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.panes import ROOM, Panes
@@ -77,13 +77,13 @@ def figure(
     """
     width, height = size
     unit = strip_height(size)
-    strip, line = unit if bar else 0, round(_CAPTION * unit)
+    strip, line = unit if bar and not look.neutral else 0, round(_CAPTION * unit)
     rows = len(panels) // columns(len(panels)) if wipe is None else 1
     plotter = pv.Plotter(
         off_screen=True, shape=(1, ROOM), border=False, window_size=(width, height - strip - rows * line)
     )
     try:
-        panes = Panes(plotter, filters)
+        panes = Panes(plotter, filters, pen_of(size))
         first, *others = panels
         panes.draw(Frame(first.mesh, first.figures, movement, look))
         panes.show([(other.mesh, other.figures) for other in others], wipe)

@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
 from hexmend.movement import Moment, Movement
-from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, strip_height
+from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, pen_of, strip_height
 from hexmend_app.scene.export.shots import Shot
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.viewport import Viewport
@@ -55,9 +55,9 @@ def pictures(
     """
     width, height = size
     strip = strip_height(size)
-    plotter = pv.Plotter(off_screen=True, window_size=(width, height - 2 * strip))
+    plotter = pv.Plotter(off_screen=True, window_size=(width, height - (1 if look.neutral else 2) * strip))
     try:
-        viewport = Viewport(plotter)
+        viewport = Viewport(plotter, pen=pen_of(size))
         seen_last: Moment | None = None
         for shot in shots:
             mesh, figures = shot.state.mesh, shot.state.figures
@@ -92,12 +92,13 @@ def _place(
 
 
 def _framed(seen: Image.Image, shot: Shot, viewport: Viewport, size: tuple[int, int], strip: int) -> Image.Image:
-    """A caption above, the colour bar below."""
+    """A caption above, and below the colour bar where there are colours."""
     whole = paper(size, seen.mode)
     whole.paste(seen, (0, strip))
     if strip:
         at = (round(0.3 * strip), strip / 2)
         ImageDraw.Draw(whole).text(at, shot.caption, INK, letters(0.42 * strip), anchor="lm")
+    if strip and not viewport.frame.look.neutral:
         bar = colour_bar(viewport.colouring, viewport.colours.apart, (size[0], strip), seen.mode)
         whole.paste(bar, (0, size[1] - strip))
     return whole

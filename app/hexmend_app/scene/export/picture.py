@@ -22,6 +22,9 @@ INK = (31, 38, 48)
 #: What a picture can be written as.
 SUFFIXES = (".png",)
 
+#: Height of a picture up to which thin lines are a pixel wide.
+_ONE_PIXEL = 900
+
 #: Width and height in pixels below which there is no room for the colour bar.
 _SMALLEST_WITH_BAR = (320, 160)
 
@@ -56,13 +59,13 @@ def picture(
     transparent : bool
         Leave the background out.
     bar : bool
-        Draw the colour bar below; a picture too small for it has none.
+        Draw the colour bar below; a picture too small for it has none, nor one without colours.
     """
     width, height = size
-    strip = strip_height(size) if bar else 0
+    strip = strip_height(size) if bar and not frame.look.neutral else 0
     plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
     try:
-        viewport = Viewport(plotter, filters=filters)
+        viewport = Viewport(plotter, filters=filters, pen=pen_of(size))
         viewport.draw(frame)
         viewport.chosen.show_node_step(node_step)
         viewport.view(view)
@@ -107,6 +110,12 @@ def write_picture(path: Path, image: Image.Image) -> None:
 def paper(size: tuple[int, int], mode: str) -> Image.Image:
     """Nothing, in a picture of so many pixels: white, or transparent in the mode RGBA."""
     return Image.new(mode, size, (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
+
+
+def pen_of(size: tuple[int, int]) -> float:
+    """How many pixels wide a thin line is in a picture of so many: on paper all sizes of it look alike."""
+    width, height = size
+    return max(1.0, min(height, width * 5 / 8) / _ONE_PIXEL)
 
 
 def strip_height(size: tuple[int, int]) -> int:

@@ -25,6 +25,9 @@ _INK, _RIM = "#11151c", "#ffffff"
 #: Length of a head as a share of its arrow and in mean edge lengths at most, and its half width as a share of that.
 _HEAD, _LONGEST, _WIDTH = 0.4, 0.35, 0.36
 
+#: Widths of the rim around a shaft, and of the shaft, in pixels.
+_RIM_WIDTH, _SHAFT_WIDTH = 3.0, 1.75
+
 #: How strongly arrows are drawn where something hides them.
 _HIDDEN = 0.3
 
@@ -45,13 +48,16 @@ class ArrowLayer:
     Parameters
     ----------
     plotter : pyvista.BasePlotter
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter):
+    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
         self._inside = overlay(plotter)
         self._points = pv.PolyData()
-        self._front_actors = _actors(plotter.renderer)
-        self._inside_actors = _actors(self._inside)
+        self._front_actors = _actors(plotter.renderer, pen)
+        self._inside_actors = _actors(self._inside, pen)
+        self._pen = pen
         self.drawn = self.moved = 0
         self._through = self._fast = False
         self.hide()
@@ -144,7 +150,7 @@ class ArrowLayer:
             actor.GetProperty().SetOpacity(1.0 if through else _HIDDEN)
         self._inside_actors[0].SetVisibility(through and rimmed)  # around what is pale it would be all that is seen
         for _, shaft, head in (self._front_actors, self._inside_actors):
-            shaft.GetProperty().SetLineWidth(1.75 if fine else 1.0)
+            shaft.GetProperty().SetLineWidth(self._pen * (_SHAFT_WIDTH if fine else 1.0))
             head.GetProperty().SetEdgeVisibility(rimmed)
 
 
@@ -180,9 +186,10 @@ def _polys(places: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
     return shafts, heads
 
 
-def _actors(renderer: vtkRenderer) -> tuple[vtkActor, vtkActor, vtkActor]:
+def _actors(renderer: vtkRenderer, pen: float) -> tuple[vtkActor, vtkActor, vtkActor]:
     """The rim of shafts, shafts, and heads."""
-    rim, shaft, head = (_actor(renderer, *how) for how in ((_RIM, 3.0, -40.0), (_INK, 1.75, -80.0), (_INK, 1.0, -80.0)))
+    lines = (_RIM, _RIM_WIDTH, -40.0), (_INK, _SHAFT_WIDTH, -80.0), (_INK, 1.0, -80.0)
+    rim, shaft, head = (_actor(renderer, colour, pen * width, before) for colour, width, before in lines)
     head.GetProperty().SetEdgeColor(*pv.Color(_RIM).float_rgb)
     head.GetProperty().SetEdgeOpacity(0.6)
     return rim, shaft, head

@@ -21,11 +21,13 @@ class Axes:
     Parameters
     ----------
     plotter : pyvista.BasePlotter or Pane
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane):
+    def __init__(self, plotter: pv.BasePlotter | Pane, pen: float = 1.0):
         self._plotter = plotter
-        self._actor = plotter.add_axes(line_width=2, labels_off=False, viewport=_PLACE)
+        self._actor = plotter.add_axes(line_width=2 * pen, labels_off=False, viewport=_PLACE)
 
     def set_dark(self, dark: bool) -> None:
         """Write the letters for the dark theme's ground, or for the light one's."""

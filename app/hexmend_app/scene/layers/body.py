@@ -36,13 +36,15 @@ class Body:
     Parameters
     ----------
     plotter : pyvista.BasePlotter or Pane
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane):
-        self.skin, self.section = Surface(plotter, "skin"), Surface(plotter, "section")
+    def __init__(self, plotter: pv.BasePlotter | Pane, pen: float = 1.0):
+        self.skin, self.section = Surface(plotter, "skin", pen), Surface(plotter, "section", pen)
         self._halos = (
-            (self.skin, Halo(plotter, "halo of skin")),
-            (self.section, Halo(plotter, "halo of section")),
+            (self.skin, Halo(plotter, "halo of skin", pen)),
+            (self.section, Halo(plotter, "halo of section", pen)),
         )
         self._coarse: pv.PolyData | None = None  # of the skin, drawn while the camera moves
         self._steady = False  # nothing but the camera has moved since the last fine frame
@@ -70,13 +72,15 @@ class Body:
         for surface in (self.skin, self.section):
             surface.show_edges(frame.look.edges)
         faces = self.faces = self._visible(frame, keep)
-        self.whole = quads(faces.places(frame.mesh.points), faces.quads, colours.of(faces.hexes), faces.hexes)
+        self._opened = self._skin.opened(faces, keep) if frame.look.neutral else None
+        coloured = colours.of(faces.hexes, self._opened)
+        self.whole = quads(faces.places(frame.mesh.points), faces.quads, coloured, faces.hexes)
         self._draw(frame, keep, colours)
 
     def move(self, frame: Frame, keep: np.ndarray | None, colours: ElementColours) -> None:
         """Draw the same faces elsewhere and in other colours; parameters are those of `rebuild`."""
         set_points(self.whole, self.faces.places(frame.mesh.points))
-        set_colours(self.whole, colours.of(self.faces.hexes))
+        set_colours(self.whole, colours.of(self.faces.hexes, self._opened))
         self._draw(frame, keep, colours)
 
     def _visible(self, frame: Frame, keep: np.ndarray | None) -> Faces:
@@ -123,7 +127,7 @@ class Body:
             self.skin.stand_in(self._coarse)
 
     def _coarsened(self) -> pv.PolyData:
-        light = self._light
+        light = self.light
         if light is None:
             return coarse(self.whole)
         of_faces = light[: self.skin.corners].reshape(-1, 4).mean(axis=1)
@@ -150,7 +154,7 @@ class Body:
         return [surface for surface in (self.skin, self.section) if surface.shown]
 
     @property
-    def _light(self) -> np.ndarray | None:
+    def light(self) -> np.ndarray | None:
         """What reaches the corners of the scene; None where that is not known, or not wanted."""
         if not self._shading or self._lit is None or self._scene is None:
             return None
@@ -158,7 +162,7 @@ class Body:
         return light if scene.same(self._scene) else None
 
     def _refine(self) -> None:
-        light, begin = self._light, 0
+        light, begin = self.light, 0
         for surface in self._shown:
             end = begin + surface.corners
             surface.refine(fine(surface.poly, None if light is None else light[begin:end]))
@@ -167,7 +171,7 @@ class Body:
     @property
     def unlit(self) -> Polygons | None:
         """What stands in a fine frame without the light that is wanted; None where there is nothing to work out."""
-        if self._scene is None or not self._shading or self._light is not None:
+        if self._scene is None or not self._shading or self.light is not None:
             return None
         return self._scene
 

@@ -26,11 +26,13 @@ class Chosen:
     Parameters
     ----------
     plotter : pyvista.BasePlotter or Pane
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane):
-        self.highlight = Highlight(plotter)
-        self._node_step = NodeStepMarks(plotter)
+    def __init__(self, plotter: pv.BasePlotter | Pane, pen: float = 1.0):
+        self.highlight = Highlight(plotter, pen)
+        self._node_step = NodeStepMarks(plotter, pen)
         self.hex: int | None = None
         self._with_corners = False
 

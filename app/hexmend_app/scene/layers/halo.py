@@ -7,6 +7,7 @@ import pyvista as pv
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray
 
+from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.layers.surface import colours_of
 
@@ -15,19 +16,33 @@ from hexmend_app.scene.layers.surface import colours_of
 # that elements no larger than their outlines still look alike.
 _LINES = (("#4a062b", 3.0, -4.0), ("#ffffff", 1.5, -8.0))
 
+#: Length of an edge, in thin lines' widths, below which regions are outlined instead of their elements.
+_LEAST = 8.0
+
+#: Distance, as a share of the whole, up to which two corners that a cut has made are one.
+_NEARLY = 1e-9
+
 
 class Halo:
-    """Outlines the inverted elements of one surface.
+    """Outlines the inverted elements of one surface; where they are too small for that, the regions they form.
 
     Parameters
     ----------
     plotter : pyvista.BasePlotter
     name : str
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, name: str):
-        self._lines = pv.PolyData()
-        self._actors = [_actor(plotter, f"{name} {k}", *line) for k, line in enumerate(_LINES)]
+    def __init__(self, plotter: pv.BasePlotter, name: str, pen: float = 1.0):
+        self._renderer, self._least = plotter.renderer, _LEAST * pen
+        self._actors = [
+            _actor(plotter, f"{name} {k}", colour, pen * width, before)
+            for k, (colour, width, before) in enumerate(_LINES)
+        ]
+        self._each, self._rims = pv.PolyData(), pv.PolyData()
+        self._size, self._middle = 0.0, np.zeros(3)  # of an edge, in the mesh's unit, and where it is about
+        self._renderer.AddObserver("StartEvent", self._fit)
         self.hide()
 
     def follow(self, poly: pv.PolyData) -> None:
@@ -35,17 +50,17 @@ class Halo:
 
         The points are shared: as they move, the outlines move along.
         """
-        ends = _edges(poly, (colours_of(poly) == INVERTED).all(axis=1)) if poly.GetNumberOfCells() else np.empty(0)
-        if not ends.size:
+        marked = (colours_of(poly) == INVERTED).all(axis=1) if poly.GetNumberOfCells() else np.zeros(0, bool)
+        if not marked.any():
             self.hide()
             return
-        cells = vtkCellArray()
-        cells.SetData(2, numpy_to_vtkIdTypeArray(ends.ravel(), deep=True))
-        lines = pv.PolyData()
-        lines.SetPoints(poly.GetPoints())
-        lines.SetLines(cells)
+        ends, once = outlines(poly, marked)
+        self._each, self._rims = _lines(poly, ends), _lines(poly, ends[once])
+        points = np.asarray(poly.points)
+        self._size = float(np.median(np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)))
+        self._middle = points[ends[:, 0]].mean(axis=0)
         for actor in self._actors:
-            actor.mapper.SetInputData(lines)
+            actor.mapper.SetInputData(self._each)
             actor.SetVisibility(True)
 
     def hide(self) -> None:
@@ -53,9 +68,23 @@ class Halo:
         for actor in self._actors:
             actor.SetVisibility(False)
 
+    def _fit(self, *_: object) -> None:
+        """Outline each element where there is room for that in the picture."""
+        if not self._actors[0].GetVisibility():
+            return
+        room = pixels(self._renderer, self._size, self._middle) >= self._least
+        for actor in self._actors:
+            actor.mapper.SetInputData(self._each if room else self._rims)
 
-def _edges(poly: pv.PolyData, marked: np.ndarray) -> np.ndarray:
-    """Ends of the edges of the marked polygons, each edge once, (k, 2) int64."""
+
+def outlines(poly: pv.PolyData, marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Edges of marked polygons, by their ends (k, 2) int64, and which of them belong to one alone, (k,) bool.
+
+    Parameters
+    ----------
+    poly : pyvista.PolyData
+    marked : (c,) bool
+    """
     polys = poly.GetPolys()
     nodes = vtk_to_numpy(polys.GetConnectivityArray()).astype(np.int64)
     offsets = vtk_to_numpy(polys.GetOffsetsArray())
@@ -64,8 +93,32 @@ def _edges(poly: pv.PolyData, marked: np.ndarray) -> np.ndarray:
     following[offsets[1:] - 1] = nodes[offsets[:-1]]  # a polygon's last edge comes back to its first node
     chosen = np.repeat(marked, np.diff(offsets))
     start, end = nodes[chosen], following[chosen]
-    keys = np.unique(np.minimum(start, end) * poly.GetNumberOfPoints() + np.maximum(start, end))
-    return np.column_stack(np.divmod(keys, poly.GetNumberOfPoints()))
+    if len(nodes) == poly.GetNumberOfPoints():  # each polygon has its own, as a cut leaves them
+        used, places = np.unique(start, return_inverse=True)
+        same = used[_first_at_place(np.asarray(poly.points)[used])]
+        start, end = same[places], same[np.searchsorted(used, end)]
+    keys = np.minimum(start, end) * poly.GetNumberOfPoints() + np.maximum(start, end)
+    keys, count = np.unique(keys, return_counts=True)
+    return np.column_stack(np.divmod(keys, poly.GetNumberOfPoints())), count == 1
+
+
+def _first_at_place(points: np.ndarray) -> np.ndarray:
+    """For each point, the first that lies where it does, but for rounding; (n,) int."""
+    grid = np.round((points - points.min(axis=0)) / (_NEARLY * max(np.ptp(points, axis=0).max(), 1e-300))).astype(
+        np.int64
+    )
+    _, first, which = np.unique(grid, axis=0, return_index=True, return_inverse=True)
+    return first[which.ravel()]
+
+
+def _lines(poly: pv.PolyData, ends: np.ndarray) -> pv.PolyData:
+    """Lines between points of polygons, (k, 2) int64; the points are shared."""
+    cells = vtkCellArray()
+    cells.SetData(2, numpy_to_vtkIdTypeArray(np.ascontiguousarray(ends).ravel(), deep=True))
+    lines = pv.PolyData()
+    lines.SetPoints(poly.GetPoints())
+    lines.SetLines(cells)
+    return lines
 
 
 def _actor(plotter: pv.BasePlotter, name: str, colour: str, width: float, before: float) -> pv.Actor:

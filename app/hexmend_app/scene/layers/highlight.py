@@ -28,15 +28,18 @@ class Highlight:
     Parameters
     ----------
     plotter : pyvista.BasePlotter
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter):
+    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
+        self._pen = pen
         self._layer = overlay(plotter)
         self.box = pv.PolyData(np.zeros((8, 3)), lines=_LINES)
         self._actors = [self._lines(colour, width) for colour, width in ((_HALO, 5), (_LINE, 2))]
         self._texts = [self._text() for _ in range(8)]
         self._point = self._add(pv.PolyData(np.zeros((1, 3))), _LINE)
-        self._point.GetProperty().SetPointSize(12)
+        self._point.GetProperty().SetPointSize(12 * pen)
         self._point.GetProperty().RenderPointsAsSpheresOn()
         self._arrow = self._add(pv.PolyData(), _ARROW)
         self._with_values = False
@@ -50,7 +53,7 @@ class Highlight:
 
     def _lines(self, colour: str, width: int) -> vtkActor:
         actor = self._add(self.box, colour)
-        actor.GetProperty().SetLineWidth(width)
+        actor.GetProperty().SetLineWidth(self._pen * width)
         return actor
 
     def _add(self, poly: pv.PolyData, colour: str) -> vtkActor:
@@ -67,7 +70,7 @@ class Highlight:
         actor = vtkBillboardTextActor3D()
         actor.SetInput(" ")
         how = actor.GetTextProperty()
-        how.SetFontSize(14)
+        how.SetFontSize(round(14 * self._pen))
         how.SetBold(True)
         how.SetColor(1, 1, 1)
         how.SetBackgroundColor(0.07, 0.08, 0.11)
@@ -109,7 +112,7 @@ class Highlight:
 
     def _fit_texts(self, *_: object) -> None:
         """Show the figures where the hex is large enough for them to stand apart."""
-        on = self._with_values and self._pixels() > _ROOM
+        on = self._with_values and self._pixels() > self._pen * _ROOM
         for text in self._texts:
             text.SetVisibility(on)
 

@@ -26,10 +26,12 @@ class Marks:
         Width of the lines or side of the points where there is room, in pixels.
     rim : float
         Width of the dark rim on either side, in pixels.
+    pen : float
+        What a pixel is here: how many of the picture's a thin line is wide.
     """
 
-    def __init__(self, renderer: vtkRenderer, size: float, rim: float):
-        self._size, self._rim = size, rim
+    def __init__(self, renderer: vtkRenderer, size: float, rim: float, pen: float = 1.0):
+        self._size, self._rim, self._pen = size, rim, pen
         self._poly = pv.PolyData()
         self._nodes = np.empty(0, np.int64)
         self._around = self._actor(renderer, coloured=False)
@@ -104,8 +106,8 @@ class Marks:
         """Draw them smaller where there is little room between them, by a share from 0 to 1."""
         size, rim = max(1.0, share * self._size), max(0.5, share * self._rim)
         for actor, width in ((self._filled, size), (self._around, size + 2 * rim)):
-            actor.GetProperty().SetLineWidth(width)
-            actor.GetProperty().SetPointSize(width)
+            actor.GetProperty().SetLineWidth(self._pen * width)
+            actor.GetProperty().SetPointSize(self._pen * width)
 
     def hide(self) -> None:
         """Draw none."""

@@ -29,6 +29,8 @@ class NodeStepMarks:
     Parameters
     ----------
     plotter : pyvista.BasePlotter or Pane
+    pen : float
+        How many pixels wide a thin line is.
 
     Attributes
     ----------
@@ -36,7 +38,8 @@ class NodeStepMarks:
         What is drawn.
     """
 
-    def __init__(self, plotter: pv.BasePlotter):
+    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
+        self._pen = pen
         self._behind, self._front = (overlay(plotter) for _ in range(2))  # the patch, and what is drawn over it
         self.step: NodeStep | None = None
         self._dark = False
@@ -63,7 +66,7 @@ class NodeStepMarks:
         actor.GetMapper().SetInputData(pv.PolyData())
         how = actor.GetProperty()
         how.LightingOff()
-        how.SetLineWidth(width)
+        how.SetLineWidth(self._pen * width)
         how.SetOpacity(opacity)
         how.SetColor(*pv.Color(_RIM).float_rgb)
         if role is not None:

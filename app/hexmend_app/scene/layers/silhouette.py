@@ -1,21 +1,28 @@
-"""What a part of a mesh was cut from, kept in mind: the whole body's sharp edges, or the shape of its inside."""
+"""Sharp edges of the whole body, and the shape of a round one: what a part of a mesh was cut from is kept in mind."""
 
 from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkMapper
 
+from hexmend.kernels import skin
 from hexmend.mesh import Mesh
 from hexmend.structure import sharp_edges
+from hexmend_app.scene.layers.structure import uncut
 from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.palette import SHADE, SILHOUETTE
+from hexmend_app.scene.palette import SHADE, SHARP, SILHOUETTE
+from hexmend_app.state.look import Look
 
 #: Of the ends of sharp edges; where more belong to one sharp edge alone, a round body has facets that are sharp here
 #: and there, and what they give is a heap of splinters. Sharp edges of a body with corners go on at either end.
 _MOST = 0.2
 
-#: How far the shade is drawn behind its place, in VTK's units: behind everything.
-_BEHIND = 66_000.0
+#: How far the shade is drawn behind its place, in VTK's units: behind everything; and sharp edges before theirs.
+_BEHIND, _BEFORE = 66_000.0, -6.0
+
+#: Width of sharp edges, in thin lines.
+_BOLD = 1.75
 
 
 def form_lines(edges: np.ndarray) -> bool:
@@ -25,54 +32,97 @@ def form_lines(edges: np.ndarray) -> bool:
 
 
 class Silhouette:
-    """Draws the sharp edges of a mesh's boundary as thin lines, and a round body as a shade behind what is left of it.
+    """Draws the sharp edges of a mesh's boundary, and what a part of it was cut from.
+
+    Sharp edges of what is shown are dark lines, those of what is hidden are pale. A round body has none that go on
+    into each other: it is a shade behind what is left of it.
 
     Parameters
     ----------
     plotter : pyvista.BasePlotter
     mesh : Mesh
         Its boundary is drawn where its nodes are; `move` says where they go.
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, mesh: Mesh):
-        faces = mesh.topology.boundary_faces
-        edges = sharp_edges(mesh.points, faces)
+    def __init__(self, plotter: pv.BasePlotter, mesh: Mesh, pen: float = 1.0):
+        self._mesh, faces = mesh, mesh.topology.boundary_faces
+        self._edges = edges = sharp_edges(mesh.points, faces)
         self._lines = lines = form_lines(edges)
         cells = edges if lines else faces
         self._nodes, places = np.unique(cells, return_inverse=True)
-        places = places.reshape(cells.shape)
+        self._places = places = places.reshape(cells.shape)
         points = mesh.points[self._nodes]
-        if lines:
-            self._poly = pv.PolyData(points, lines=np.column_stack([np.full(len(places), 2), places]).ravel())
-        else:
-            self._poly = pv.PolyData.from_regular_faces(points, places)
+        self._poly = _lines(points, places) if lines else pv.PolyData.from_regular_faces(points, places)
+        how = {"lighting": False, "reset_camera": False, "pickable": False, "render": False}
         self._actor = plotter.add_mesh(
             self._poly if len(cells) else pv.PolyData(np.zeros((1, 3))),
             name="outline",
-            line_width=1,
-            lighting=False,
+            line_width=pen,
             culling=None if lines else "back",
-            reset_camera=False,
-            pickable=False,
-            render=False,
+            **how,
         )
+        self._sharp = plotter.add_mesh(pv.PolyData(np.zeros((1, 3))), name="sharp edges", line_width=_BOLD * pen, **how)
+        _offset(self._sharp.mapper, _BEFORE, _BEFORE)
         if not lines:
-            mapper = self._actor.mapper
-            mapper.SetResolveCoincidentTopologyToPolygonOffset()
-            mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _BEHIND)
+            _offset(self._actor.mapper, 0.0, _BEHIND)
         self.set_dark(False)
-        self.show(False)
+        self.hide()
 
     def set_dark(self, dark: bool) -> None:
         """Draw for the dark ground, or for the light one."""
         self._actor.prop.color = (SILHOUETTE if self._lines else SHADE).of(dark)
+        self._sharp.prop.color = SHARP.of(dark)
 
-    def show(self, on: bool) -> None:
-        """Draw it or not."""
-        self._actor.SetVisibility(on)
+    def hide(self) -> None:
+        """Draw nothing."""
+        self._actor.SetVisibility(False)
+        self._sharp.SetVisibility(False)
+
+    def show(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> None:
+        """Draw what a look wants of it.
+
+        Parameters
+        ----------
+        look : Look
+        points : (n, 3) float64
+        keep : (m,) bool, optional
+            Hexes that are shown, in whole or in part; None for all.
+        """
+        self.move(points)
+        shown = self._shown(look, points, keep) if look.outline and self._lines else np.zeros(0, bool)
+        self._actor.SetVisibility(look.outline and (keep is not None or look.clip is not None))
+        self._sharp.SetVisibility(bool(shown.any()))
+        if shown.any():
+            lines = _lines(self._poly.points, self._places[shown])
+            lines.SetPoints(self._poly.GetPoints())  # which move
+            self._sharp.mapper.SetInputData(lines)
+
+    def _shown(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> np.ndarray:
+        """True for the sharp edges of elements that are shown, and before a smooth cut; (e,) bool."""
+        answer = np.ones(len(self._edges), bool)
+        if look.shrink:
+            return ~answer  # elements are drawn aside of them
+        if keep is not None:
+            rows = self._mesh.topology.node_corners
+            skin.edges_kept(self._mesh.hexes, rows.start, rows.items, self._edges, keep, answer)
+        return answer & uncut(look, points[self._edges].mean(axis=1))
 
     def move(self, points: np.ndarray) -> None:
         """Take the nodes' places, (n, 3) float64; of a boundary that is fixed, nothing is sent to be drawn anew."""
         places = points[self._nodes]
         if not np.array_equal(places, self._poly.points):
             set_points(self._poly, places)
+
+
+def _lines(points: np.ndarray, ends: np.ndarray) -> pv.PolyData:
+    """Lines between points, (k, 3), by their ends, (e, 2)."""
+    return pv.PolyData(points, lines=np.column_stack([np.full(len(ends), 2), ends]).ravel())
+
+
+def _offset(mapper: vtkMapper, lines: float, polygons: float) -> None:
+    """Draw before, or behind, what is there."""
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, lines)
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, polygons)

@@ -40,15 +40,18 @@ class StructureLayers:
     Parameters
     ----------
     plotter : pyvista.BasePlotter
+    pen : float
+        How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter):
+    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
         self._inside = overlay(plotter)  # what is not hidden is drawn twice, thick
         front = self._front = plotter.renderer
-        self._irregular, self._irregular_inside = Marks(front, 4, 1.25), Marks(self._inside, 1.5, 0.75)
-        self._ends, self._ends_inside = Marks(front, 7, 2), Marks(self._inside, 4, 1.5)
-        self._boundary, self._sharp = Marks(front, 4, 1.25), Marks(front, 3, 0.5)
-        self._nodes, self._locked = Marks(front, 5, 1.5), Marks(front, 5, 1.5)
+        self._room = pen * _ROOM
+        self._irregular, self._irregular_inside = Marks(front, 4, 1.25, pen), Marks(self._inside, 1.5, 0.75, pen)
+        self._ends, self._ends_inside = Marks(front, 7, 2, pen), Marks(self._inside, 4, 1.5, pen)
+        self._boundary, self._sharp = Marks(front, 4, 1.25, pen), Marks(front, 3, 0.5, pen)
+        self._nodes, self._locked = Marks(front, 5, 1.5, pen), Marks(front, 5, 1.5, pen)
         self._lines = (
             self._irregular, self._irregular_inside, self._ends, self._ends_inside, self._boundary, self._sharp,
         )  # fmt: skip
@@ -163,7 +166,7 @@ class StructureLayers:
         shown = [marks for marks in (*self._lines, self._nodes, self._locked) if marks.shown]
         if shown:
             camera = self._front.GetActiveCamera()
-            share = min(1.0, pixels(self._front, self._spacing, np.array(camera.GetFocalPoint())) / _ROOM)
+            share = min(1.0, pixels(self._front, self._spacing, np.array(camera.GetFocalPoint())) / self._room)
             for marks in shown:
                 least = 0.5 if marks is self._nodes else 0.0 if marks.count > _MANY else 1.0
                 marks.fit(max(share, least))

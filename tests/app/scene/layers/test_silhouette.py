@@ -7,6 +7,7 @@ import pyvista as pv
 from hexmend.mesh import Mesh
 from hexmend.structure import sharp_edges
 from hexmend_app.scene.layers.silhouette import Silhouette, form_lines
+from hexmend_app.state.look import Look
 from tests.core.grids import grid
 from tests.core.test_topology import closed
 
@@ -47,6 +48,6 @@ def test_a_mesh_without_boundary_has_no_silhouette():
     plotter = pv.Plotter(off_screen=True)
     mesh = Mesh(np.random.default_rng(0).random((27, 3)), closed((3, 3, 3)))
     silhouette = Silhouette(plotter, mesh)
-    silhouette.show(True)
+    silhouette.show(Look(), mesh.points, None)
     silhouette.move(mesh.points)
     plotter.close()

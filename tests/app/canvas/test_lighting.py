@@ -1,0 +1,47 @@
+"""Light on the mesh comes beside the window, once nothing moves."""
+
+import numpy as np
+
+from hexmend_app.state.look import Look
+from tests.patience import PATIENCE
+
+
+def rested(window, qtbot):
+    """Wait until the view has its light."""
+    window.canvas.rest()
+    body = window.canvas.viewport.body
+    qtbot.waitUntil(lambda: body.light is not None and not window.canvas.lighting.under_way, timeout=PATIENCE)
+    return body
+
+
+def test_a_view_that_rests_is_shaded(window, qtbot):
+    body = rested(window, qtbot)
+    assert body.unlit is None
+    assert body.light.min() < 1
+
+
+def test_a_change_calls_for_other_light(window, qtbot):
+    body = rested(window, qtbot)
+    before = body.light
+    heard = []
+    window.canvas.lighting.lit.connect(lambda: heard.append(1))
+    window.session.view.change(dug=frozenset(np.arange(40).tolist()))
+    qtbot.waitUntil(lambda: bool(heard), timeout=PATIENCE)
+    assert body.light is not before
+
+
+def test_without_shading_nothing_is_worked_out(window, qtbot):
+    rested(window, qtbot)
+    window.session.view.change(shading=False, dug=frozenset({3}))
+    qtbot.waitUntil(lambda: window.canvas.viewport.frame.look == window.session.view.look, timeout=PATIENCE)
+    window.canvas.panes.still()
+    window.canvas.lighting.start()
+    assert not window.canvas.lighting.under_way
+    assert window.session.view.look == Look(shading=False, dug=frozenset({3}))
+
+
+def test_closing_waits_for_it(window):
+    window.canvas.panes.still()
+    window.canvas.lighting.start()
+    window.canvas.lighting.shut_down()
+    assert not window.canvas.lighting.under_way
