@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from PySide6.QtWidgets import QLabel, QMenu
 
@@ -111,3 +113,9 @@ def test_every_folder_is_a_feature():
     names = [finding.name_of(kind) for kind in finding.found()]
     assert {"open", "smooth", "histogram", "cut", "compare"} <= set(names)
     assert len(names) == len(set(names))
+
+
+def test_the_page_of_keys_in_the_docs_is_what_the_features_declare(window):
+    """`make docs` writes it."""
+    page = Path(__file__).resolve().parents[3] / "docs" / "keys.md"
+    assert page.read_text(encoding="utf-8") == as_markdown(window.menus.declared())
