@@ -12,7 +12,7 @@ import pytest
 from hexmend import gallery, io
 
 TEXT = (Path(__file__).resolve().parents[2] / "docs/extending.md").read_text(encoding="utf-8")
-(EXAMPLE,) = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
+EXAMPLE, _ = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
 PROGRAM = """
 import json, sys
 from hexmend.cli.main import main
