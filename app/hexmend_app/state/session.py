@@ -73,8 +73,8 @@ class Session(QObject):
         self.explainer = Explainer(self)
         self.stepping = Stepping(self.document, self)
         self.comparison = Comparison(self.document, self)
-        self.views = Views(self.document, self)
         self.kept = KeptMoments(self)
+        self.views = Views(self.document, self.kept, self)
         self.commands = Commands(self)
         self._editable = False
         self.document.mesh_replaced.connect(self._on_another)

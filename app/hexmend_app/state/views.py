@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.document import Document, State
+from hexmend_app.state.kept import KeptMoments
 
 #: Views beside that of the mesh as it is now.
 MOST = 3
@@ -48,7 +49,12 @@ class Wipe:
 
 
 class Views(QObject):
-    """The views beside that of the mesh as it is now.
+    """The views beside that of the mesh as it is now; the distributions of what they show are kept as long as they do.
+
+    Parameters
+    ----------
+    document : Document
+    kept : KeptMoments
 
     Signals
     -------
@@ -61,8 +67,9 @@ class Views(QObject):
     changed = Signal()
     wiped = Signal()
 
-    def __init__(self, document: Document, parent: QObject | None = None):
+    def __init__(self, document: Document, kept: KeptMoments, parent: QObject | None = None):
         super().__init__(parent)
+        self._kept = kept
         self.all: tuple[Shown, ...] = ()
         self.wipe: Wipe | None = None
         document.mesh_replaced.connect(self.close_all)
@@ -125,7 +132,14 @@ class Views(QObject):
     def _take(self, *all: Shown) -> None:
         if all == self.all:
             return
-        self.all = all
+        before, self.all = self.all, all
+        for one in before:
+            kept = None if self.shows(one.state) else self._kept.of(one.state)
+            if kept is not None:
+                self._kept.remove(kept.slot)
+        for one in all:
+            if self._kept.of(one.state) is None:
+                self._kept.keep(one.name, one.state)
         if self.wipe is not None and max(self.wipe.left, self.wipe.right) > len(all):
             self.wipe = replace(self.wipe, left=0, right=len(all)) if all else None
         self.changed.emit()

@@ -4,6 +4,7 @@ import pytest
 
 from hexmend import gallery
 from hexmend_app.state.document import Document, State
+from hexmend_app.state.kept import KeptMoments
 from hexmend_app.state.views import MOST, Views, Wipe
 
 
@@ -16,7 +17,7 @@ def document(qapp):
 
 @pytest.fixture
 def views(document):
-    return Views(document)
+    return Views(document, KeptMoments())
 
 
 @pytest.fixture
@@ -84,3 +85,18 @@ def test_the_edge_stays_within_the_view(views, states, asked, low, high):
     views.move_wipe(asked)
     assert low <= views.wipe.at <= high
     assert told == [views.wipe.at]
+
+
+def test_distributions_are_kept_as_long_as_a_view_shows_them(document, states):
+    kept = KeptMoments()
+    views = Views(document, kept)
+    views.show("first", states[0])
+    views.show("second", states[1])
+    assert [one.name for one in kept.all] == ["first", "second"]
+    views.show("first", states[2])
+    assert [one.name for one in kept.all] == ["second", "first"]
+    assert kept.of(states[0]) is None
+    views.close(1)
+    assert [one.name for one in kept.all] == ["second"]
+    views.close_all()
+    assert kept.all == ()

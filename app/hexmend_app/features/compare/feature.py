@@ -4,33 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from hexmend.recipe import Stage
 from hexmend.report import write_comparison
 from hexmend.report.comparison import LINES
 from hexmend.smoothers import METHODS
-from hexmend_app.canvas.captions import Caption
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
 from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_of
-from hexmend_app.scene.palette import BLUE, KEPT, Role
 from hexmend_app.state.comparison import Compared
 from hexmend_app.state.document import State
 from hexmend_app.widgets.questions import ask_comparison
 from hexmend_app.widgets.wording import counted
 
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
-
 #: Methods that are ticked at first: the plain one, the fast one, an optimiser of the thesis, and the default.
 TICKED = ("laplacian", "getme", "local-sd", "mend")
-
-#: Share of the view's width by which a stroke of a key moves the wipe's edge.
-STEP = 0.02
-
-#: What the view of the mesh as it is now is called, as in the histogram.
-_NOW = "now"
 
 
 class FeatureCompare(Feature):
@@ -41,8 +29,7 @@ class FeatureCompare(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        self._comparison, self._views, self._kept = session.comparison, session.views, session.kept
-        self._canvas: Canvas | None = None
+        self._comparison, self._views = session.comparison, session.views
         self._seen = Seen()
         panel = self.panel = ComparePanel(TICKED)
         panel.run_requested.connect(self._run)
@@ -54,8 +41,7 @@ class FeatureCompare(Feature):
         panel.offer_changed.connect(host.refresh_soon)
 
     def actions(self) -> Sequence[Action]:
-        """Compare, keep beside, wipe."""
-        views, several, wiping = self._views, self._several, self._wiping
+        """Compare, and end that."""
         return (
             Action(
                 id="compare",
@@ -77,61 +63,6 @@ class FeatureCompare(Feature):
                 handle=self._comparison.cancel,
                 enabled=lambda: self._comparison.busy and not self._comparison.ending,
             ),
-            Action(
-                id="beside",
-                text="Keep &in a view",
-                menu="Compare",
-                part=1,
-                keys="V",
-                icon="view-split-vertical",
-                help="Show the mesh as it is now in a view of its own, to which what comes can be compared.",
-                handle=self._show_this_beside,
-                enabled=lambda: not views.full,
-                in_view=True,
-            ),
-            Action(
-                id="wipe",
-                text="&Wipe",
-                menu="Compare",
-                part=1,
-                keys="W",
-                icon="compare",
-                help="Lay two views over one another, with an edge between them that is dragged.",
-                handle=views.set_wiping,
-                enabled=several,
-                checked=wiping,
-            ),
-            Action(
-                id="wipe_left",
-                text="Wipe to the &left",
-                menu="Compare",
-                part=1,
-                keys="[",
-                help="See more of the view at the right.",
-                handle=lambda: self._step_wipe(-1),
-                enabled=wiping,
-            ),
-            Action(
-                id="wipe_right",
-                text="Wipe to the ri&ght",
-                menu="Compare",
-                part=1,
-                keys="]",
-                help="See more of the view at the left.",
-                handle=lambda: self._step_wipe(1),
-                enabled=wiping,
-            ),
-            Action(
-                id="close_views",
-                text="Close &other views",
-                menu="Compare",
-                part=1,
-                keys="Ctrl+W",
-                help="Show the mesh as it is now alone.",
-                handle=self._close_all,
-                enabled=several,
-                in_view=True,
-            ),
         )
 
     def panels(self) -> Sequence[Panel]:
@@ -147,92 +78,22 @@ class FeatureCompare(Feature):
             ),
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view."""
-        self._canvas = canvas
-        canvas.frame.view_closed.connect(self._close)
-        canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
-        canvas.frame.wipe_moved.connect(self._views.move_wipe)
-        canvas.frame.wipe_stepped.connect(self._step_wipe)
-
     def refresh(self) -> None:
         """Show what the methods reached, and what can be done with it."""
         comparison, views, session = self._comparison, self._views, self.session
-        if self._canvas is not None and session.document.is_open:
-            if self._seen.another("views", views.all, views.wipe and (views.wipe.left, views.wipe.right)):
-                self._canvas.show_beside([(one.state.mesh, one.state.figures) for one in views.all], views.wipe)
-                self._seen.another("wipe", views.wipe)
-            elif self._seen.another("wipe", views.wipe) and views.wipe is not None:
-                self._canvas.move_wipe(views.wipe)
-            now = session.document.now
-            if self._seen.another("captions", views.all, views.wipe, self._kept.all, now if views.all else None):
-                self._show_captions()
         if self._seen.another("table", comparison.results, comparison.initial, views.all, comparison.busy):
             entries = [self._initial(), *(self._entry(name, comparison.of(name)) for name in METHODS)]
             self.panel.set_entries(entries, views.full, comparison.busy)
         runnable = session.editable and not comparison.busy  # two at once would spoil each other's times
-        self.panel.set_state(runnable, session.editable, self._several(), self._wiping())
+        self.panel.set_state(runnable, session.editable, bool(views.all), views.wipe is not None)
         self._say()
-
-    def _several(self) -> bool:
-        return bool(self._views.all)
-
-    def _wiping(self) -> bool:
-        return self._views.wipe is not None
-
-    # Views
-
-    def show(self, name: str, state: State) -> None:
-        """Show a state of the open mesh in a view under a caption, and its distribution in the histogram.
-
-        A view of the same name shows this state from then on; where there is no room for another, nothing happens.
-        """
-        before = next((one.state for one in self._views.all if one.name == name), None)
-        if before is not None or not self._views.full:
-            if before is not None:
-                self._forget(before)
-            if self._kept.of(state) is None:
-                self._kept.keep(name, state)
-            self._views.show(name, state)
-
-    def _show_this_beside(self) -> None:
-        moment = self.session.timeline.moment
-        self.show("the mesh as it was" if moment is None else moment.name, self.session.document.now)
-
-    def _close(self, number: int) -> None:
-        self._forget(self._views.all[number - 1].state)
-        self._views.close(number)
-
-    def _close_all(self) -> None:
-        for shown in self._views.all:
-            self._forget(shown.state)
-        self._views.close_all()
 
     def _close_results(self) -> None:
         """Close the views of what is about to be forgotten; others, such as those of iterations, stay."""
         results = [self._comparison.initial, *(one.state for one in self._comparison.results)]
         for number, shown in reversed(list(enumerate(self._views.all, 1))):
             if any(shown.state is state for state in results):
-                self._close(number)
-
-    def _forget(self, state: State) -> None:
-        kept = self._kept.of(state)
-        if kept is not None:
-            self._kept.remove(kept.slot)
-
-    def _step_wipe(self, way: int) -> None:
-        if self._views.wipe is not None:
-            self._views.move_wipe(self._views.wipe.at + way * STEP)
-
-    def _show_captions(self) -> None:
-        shown = [(_NOW, self.session.document.now, BLUE)]
-        shown += [(one.name, one.state, self._colour(one.state)) for one in self._views.all]
-        captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
-        self._canvas.frame.set_captions(captions, self._views.wipe)
-
-    def _colour(self, state: State) -> Role | None:
-        kept = self._kept.of(state)
-        return None if kept is None else KEPT[kept.slot]
+                self._views.close(number)
 
     # The table
 
@@ -284,9 +145,9 @@ class FeatureCompare(Feature):
     def _toggle(self, name: str, on: bool) -> None:
         state = self._state_of(name)
         if on:
-            self.show(title_of(name), state)
+            self._views.show(title_of(name), state)
         else:
-            self._close(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
+            self._views.close(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
 
     def _take(self, name: str) -> None:
         title = "go back to the compared mesh" if name == INITIAL else METHODS[name].title

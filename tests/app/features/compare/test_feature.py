@@ -18,8 +18,8 @@ from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend_app.canvas.captions import CaptionRow, WipeRow
 from hexmend_app.canvas.wipe_handle import WipeHandle
+from hexmend_app.features.beside.feature import STEP
 from hexmend_app.features.compare.comparison_table import METHOD, VIEW, title_of
-from hexmend_app.features.compare.feature import STEP
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.document import State
 from hexmend_app.state.look import ColourScale, RangeMode
@@ -238,10 +238,10 @@ def test_a_view_is_closed_by_its_button_and_the_rest_by_a_key(compared):
 
 def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
     first, second = (compared.session.comparison.of(name).state for name in ("getme", "laplacian"))
-    compared.features["compare"].show("iteration 7", first)
+    compared.session.views.show("iteration 7", first)
     compared.refresh()
     assert captions(compared) == ["now", "iteration 7"]
-    compared.features["compare"].show("iteration 7", second)
+    compared.session.views.show("iteration 7", second)
     compared.refresh()
     assert captions(compared) == ["now", "iteration 7"]
     assert compared.canvas.panes.all[1].frame.mesh.points is second.mesh.points
@@ -250,7 +250,7 @@ def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
 
 def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(compared, qtbot):
     mesh = compared.session.document.now.mesh
-    compared.features["compare"].show("mine", State.of(mesh.with_points(mesh.points)))
+    compared.session.views.show("mine", State.of(mesh.with_points(mesh.points)))
     tick(compared, "getme", VIEW)
     tick(compared, "initial", VIEW)
     assert captions(compared) == ["now", "mine", title_of("getme"), "initial"]
