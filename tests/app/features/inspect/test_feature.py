@@ -29,6 +29,7 @@ def click_view(window, modifier=Qt.KeyboardModifier.NoModifier, pos=None):
 
 
 def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtbot):
+    window.show_panel("worst")
     click_view(window)
     chosen = window.session.selection.hex
     assert chosen is not None
@@ -39,6 +40,16 @@ def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtb
     assert window.session.selection.hex is None
     drag(window.canvas.interactor, centre(window), centre(window) + QPoint(40, 0))
     assert window.session.selection.hex is None
+
+
+def test_a_click_in_the_view_leaves_it_its_room(window):
+    size = window.canvas.size()
+    click_view(window)
+    assert window.session.selection.hex is not None
+    assert not window.in_front("hex")
+    assert window.canvas.size() == size
+    window.docks.drawer.set_folded(False)
+    assert window.in_front("hex")
 
 
 def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
