@@ -11,9 +11,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLineEdit
 
 from hexmend.quality import METRICS
+from hexmend.run import Stop
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.shell.palette import CommandPalette
-from tests.app.driving import LEFT, click, drag
+from tests.app.driving import LEFT, choose, click, drag, key
 from tests.patience import PATIENCE
 
 
@@ -21,45 +22,64 @@ def centre(window):
     return window.canvas.interactor.rect().center()
 
 
+def click_view(window, modifier=Qt.KeyboardModifier.NoModifier, pos=None):
+    """Click in the view, and let the window show what came of it."""
+    QTest.mouseClick(window.canvas.interactor, LEFT, modifier, pos=centre(window) if pos is None else pos)
+    window.refresh()
+
+
 def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtbot):
-    QTest.mouseClick(window.canvas.interactor, LEFT, pos=centre(window))
+    window.show_panel("worst")
+    click_view(window)
     chosen = window.session.selection.hex
     assert chosen is not None
     neighbours = window.session.document.now.mesh.topology.face_neighbours[chosen]
     assert (neighbours < 0).any()  # what is seen lies at the surface
     assert window.in_front("hex")
-    QTest.mouseClick(window.canvas.interactor, LEFT, pos=QPoint(3, 3))
+    click_view(window, pos=QPoint(3, 3))
     assert window.session.selection.hex is None
     drag(window.canvas.interactor, centre(window), centre(window) + QPoint(40, 0))
     assert window.session.selection.hex is None
 
 
+def test_a_click_in_the_view_leaves_it_its_room(window):
+    size = window.canvas.size()
+    click_view(window)
+    assert window.session.selection.hex is not None
+    assert not window.in_front("hex")
+    assert window.canvas.size() == size
+    window.docks.drawer.set_folded(False)
+    assert window.in_front("hex")
+
+
 def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
     camera = window.canvas.viewport.camera
     before = np.array(camera.GetFocalPoint())
-    QTest.keyClick(window, Qt.Key.Key_N)
+    key(window, Qt.Key.Key_N)
     worst = window.session.selection.hex
     assert worst == window.features["inspect"].worst_list.elements[0]
     middle = window.session.document.now.mesh.points[window.session.document.now.mesh.hexes[worst]].mean(axis=0)
     qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=5000)
     assert not np.allclose(before, middle)
-    QTest.keyClick(window, Qt.Key.Key_N)
-    QTest.keyClick(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
+    key(window, Qt.Key.Key_N)
+    key(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
     assert window.session.selection.hex == worst
     assert window.session.view.look.isolation.hexes == (worst,)
-    QTest.keyClick(window, Qt.Key.Key_Escape)
+    key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.isolation is None
     assert window.session.selection.hex == worst
-    QTest.keyClick(window, Qt.Key.Key_Escape)
+    key(window, Qt.Key.Key_Escape)
     assert window.session.selection.hex is None
 
 
 def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
-    QTest.keyClick(window, Qt.Key.Key_N)
+    key(window, Qt.Key.Key_N)
     worst = window.session.selection.hex
-    window.features["smooth"].panel.stop_form.set_values({"tolerance": 1e-2})
+    choose(window, window.session.order.method, Stop(tolerance=1e-2))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
+    window.show_panel("worst")
+    window.refresh()
     assert window.session.selection.hex == worst
     assert not window.session.document.now.figures.inverted[worst]
     assert window.features["inspect"].worst_list.elements[0] == window.session.document.now.figures.q.argmin()
@@ -81,33 +101,36 @@ def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
     window.features["inspect"].panel.node_chosen.emit(inner)
     assert window.session.selection.node == inner
     window.show_panel("hex")
-    qtbot.wait(50)
+    window.refresh()
     pin = next(b for b in window.features["inspect"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
     assert not pin.isChecked()
     QTest.mouseClick(pin, LEFT, pos=QPoint(8, pin.height() // 2))
     assert window.session.document.now.mesh.pinned[inner]
     assert window.session.document.undo_title == "pin"
-    window.features["smooth"].panel.set_method("laplacian")
+    choose(window, "laplacian")
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     np.testing.assert_array_equal(window.session.document.now.mesh.points[inner], mesh.points[inner])
     window.session.commands.undo()
+    window.refresh()
     assert pin.isChecked()
     window.session.commands.undo()
     assert window.session.document.now.mesh.free[inner]
+    window.refresh()
     assert not pin.isChecked()
 
 
 def test_a_node_of_the_boundary_cannot_be_let_go(window):
     mesh = window.session.document.now.mesh
     window.session.selection.choose(0, int(mesh.hexes[0, 0]))
+    window.refresh()
     pin = next(b for b in window.features["inspect"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
     assert pin.isChecked()
     assert not pin.isEnabled()
 
 
 def test_every_command_is_found_by_name(window, qtbot):
-    QTest.keyClick(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
     palette = window.findChild(CommandPalette)
     qtbot.waitExposed(palette)
     assert any("Isometric" in text for text in palette.found())
@@ -131,11 +154,13 @@ def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix)
 def test_what_is_saved_is_what_is_drawn(window, tmp_path):
     histogram, now = window.features["histogram"].panel, window.session.document.now
     histogram.metric_chosen.emit("condition")
+    window.refresh()
     histogram.keep_requested.emit()
     histogram.renamed.emit(0, "as it was, before")
     histogram.head.bins.setValue(20)
     histogram.head.cumulative.setChecked(True)
     histogram.head.scale.button("log").click()
+    window.refresh()
     for suffix in (".csv", ".svg"):
         assert window.features["histogram"].save(tmp_path / f"drawn{suffix}")
     with open(tmp_path / "drawn.csv", newline="") as file:
@@ -156,6 +181,7 @@ def test_what_is_saved_is_what_is_drawn(window, tmp_path):
         assert f"<!-- {text}" in drawing
     assert all(colour in drawing for colour in (KEPT[0].of(dark=False), "#0072b2"))
     histogram.head.scale.button("linear").click()
+    window.refresh()
     assert window.features["histogram"].save(tmp_path / "linear.svg")
     assert (tmp_path / "linear.svg").read_text() != drawing
 
@@ -169,27 +195,26 @@ def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
 
 
 def test_a_click_with_ctrl_digs_and_a_key_brings_back(window, qtbot):
-    view, ctrl = window.canvas.interactor, Qt.KeyboardModifier.ControlModifier
-    QTest.mouseClick(view, LEFT, pos=centre(window))
+    click_view(window)
     first = window.session.selection.hex
-    QTest.mouseClick(view, LEFT, ctrl, pos=centre(window))
+    click_view(window, Qt.KeyboardModifier.ControlModifier)
     assert window.session.view.look.dug == {first}
     assert window.session.selection.hex is None
     qtbot.wait(100)
-    QTest.mouseClick(view, LEFT, pos=centre(window))
+    click_view(window)
     behind = window.session.selection.hex
     assert behind not in (None, first)
-    QTest.keyClick(window, Qt.Key.Key_Delete)
+    key(window, Qt.Key.Key_Delete)
     assert window.session.view.look.dug == {first, behind}
-    QTest.keyClick(window, Qt.Key.Key_Backspace)
+    key(window, Qt.Key.Key_Backspace)
     assert window.session.view.look.dug == {first}
-    QTest.keyClick(window, Qt.Key.Key_Backspace)
+    key(window, Qt.Key.Key_Backspace)
     assert not window.session.view.look.dug
 
 
 def test_the_chosen_element_is_isolated_by_key(window):
-    QTest.mouseClick(window.canvas.interactor, LEFT, pos=centre(window))
-    QTest.keyClick(window, Qt.Key.Key_I)
+    click_view(window)
+    key(window, Qt.Key.Key_I)
     assert window.session.view.look.isolation.hexes == (window.session.selection.hex,)
-    QTest.keyClick(window, Qt.Key.Key_Escape)
+    key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.isolation is None

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel, QPushButton
+from PySide6.QtWidgets import QAbstractButton, QCheckBox, QLabel, QPushButton, QTabBar
 
 from hexmend.node_step import Verdict, explain
 from hexmend.smoothers import METHODS
@@ -21,22 +22,8 @@ from hexmend_app.state.run import Phase
 from hexmend_app.state.task import running
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.theming import Choice
-from tests.app.driving import LEFT, click, phase, pixels
+from tests.app.driving import LEFT, choose_by_keys, click, key, named, phase, pixels, press, tick
 from tests.patience import PATIENCE
-
-BOX = QPoint(8, 8)
-
-
-def choose(window, name):
-    """Choose a method as a hand does."""
-    box = next(b for b in window.features["smooth"].panel.findChildren(QComboBox) if b.accessibleName() == "Method")
-    box.setFocus()
-    QTest.keyClick(box, Qt.Key.Key_Home)
-    for _ in range(box.count()):
-        if box.currentData() == name:
-            return
-        QTest.keyClick(box, Qt.Key.Key_Down)
-    raise AssertionError(f"{name} is not offered")
 
 
 def shown(window):
@@ -44,6 +31,7 @@ def shown(window):
 
 
 def wait_for_step(window, qtbot, method, node=None):
+    window.refresh()
     qtbot.waitUntil(
         lambda: (
             shown(window) is not None
@@ -52,22 +40,32 @@ def wait_for_step(window, qtbot, method, node=None):
         ),
         timeout=PATIENCE,
     )
+    window.refresh()
     return shown(window)
-
-
-def key(window, key, *modifiers):
-    window.setFocus()
-    held = Qt.KeyboardModifier.NoModifier
-    for modifier in modifiers:
-        held |= modifier
-    QTest.keyClick(window, key, held)
 
 
 def button(window, text):
     return next(b for b in window.features["node"].panel.findChildren(QPushButton) if b.text() == text)
 
 
+def patch_alone(window):
+    return named(window.features["node"].panel, QCheckBox, "Patch alone")
+
+
+def seen(image, role, dark=False):
+    """How many pixels of a picture, (h, w, 3), have the colour of a role."""
+    colour = [int(role.of(dark)[k : k + 2], 16) for k in (1, 3, 5)]
+    return int((np.abs(image[..., :3].astype(int) - colour).max(axis=2) < 12).sum())
+
+
+def grabbed(widget):
+    """What a widget shows, (h, w, 4), red first."""
+    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGBA8888)
+    return np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine() // 4, 4)
+
+
 def texts(window):
+    window.refresh()
     panel = window.features["node"].panel
     labels = " ".join(unescape(one.text()) for one in panel.findChildren(QLabel) if one.isVisible())
     return labels + (panel.figures.toPlainText().replace("\xa0", " ") if panel.figures.isVisible() else "")
@@ -80,7 +78,7 @@ def said(window, qtbot, words):
 @pytest.fixture
 def at_work(window, qtbot):
     """The window with a local method, and a node of the worst element chosen by key."""
-    choose(window, "local-sd")
+    choose_by_keys(window, "local-sd")
     key(window, Qt.Key.Key_D)
     wait_for_step(window, qtbot, "local-sd")
     return window
@@ -118,9 +116,7 @@ def test_the_trials_are_numbered_in_the_plot(at_work):
 
 def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once(at_work, qtbot):
     window = at_work
-    label = next(
-        one for one in window.features["node"].panel.findChildren(QLabel) if one.accessibleName() == "Free nodes"
-    )
+    label = named(window.features["node"].panel, QLabel, "Free nodes")
     mesh, before = window.session.document.now.mesh, window.session.selection.node
     other = next(int(i) for i in mesh.hexes[window.session.selection.hex] if mesh.free[i] and i != before)
     assert f'href="{other}"' in label.text()
@@ -133,7 +129,7 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
         qtbot.wait(5)
     assert window.session.selection.node != before
     wait_for_step(window, qtbot, "local-sd")
-    choose(window, "local-mnr")
+    choose_by_keys(window, "local-mnr")
     step = wait_for_step(window, qtbot, "local-mnr")
     assert "Shift" in texts(window)
     window.features["smooth"].panel.form.set_values({"p": 3.0})
@@ -144,7 +140,7 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
 
 @pytest.mark.parametrize("name", list(METHODS))
 def test_every_method_is_explained(at_work, qtbot, name):
-    choose(at_work, name)
+    choose_by_keys(at_work, name)
     wait_for_step(at_work, qtbot, "getme" if name == "general" else name)
     assert at_work.features["node"].panel.plot.isVisible() == bool(len(shown(at_work).curve))
     words = texts(at_work)
@@ -154,7 +150,7 @@ def test_every_method_is_explained(at_work, qtbot, name):
 
 
 def test_a_node_that_is_fixed_has_no_step_and_says_why(window, qtbot):
-    choose(window, "local-sd")
+    choose_by_keys(window, "local-sd")
     window.show_panel("node")
     said(window, qtbot, "Click a hex in the view")
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=window.canvas.interactor.rect().center())
@@ -173,7 +169,8 @@ def test_a_node_that_is_fixed_has_no_step_and_says_why(window, qtbot):
 
 def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
     window = at_work
-    window.features["smooth"].panel._sections[0].expand()
+    if not window.features["smooth"].panel.form.isVisible():
+        press(named(window.features["smooth"].panel, QAbstractButton, "Parameters"))
     editor = window.features["smooth"].panel.form.editor("p")
     target = editor.widget if hasattr(editor, "widget") else editor
     target.setFocus()
@@ -190,11 +187,11 @@ def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_mad
     window = at_work
     with qtbot.waitSignal(window.session.smoothing.phase_changed, timeout=PATIENCE):
         click(window, "Run")
-    window.features["node"]._refresh()
+    window.refresh()
     if window.session.smoothing.phase in (Phase.RUNNING, Phase.PREPARING):
         assert "A run is under way" in texts(window)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    choose(window, "local-sd")
+    choose_by_keys(window, "local-sd")
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     wait_for_step(window, qtbot, "local-sd")
@@ -205,15 +202,14 @@ def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_mad
     assert window.session.document.now is now
     click(window, "Stop")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    qtbot.waitUntil(button(window, "Next node").isEnabled, timeout=5000)
+    qtbot.waitUntil(button(window, "Next node").isEnabled, timeout=PATIENCE)
 
 
 def test_nothing_is_worked_out_while_another_panel_is_in_front(at_work, qtbot):
     window = at_work
-    window.show_panel("histogram")
-    qtbot.waitUntil(lambda: shown(window) is None, timeout=5000)
-    choose(window, "getme")
-    qtbot.wait(50)
+    window.show_panel("convergence")
+    qtbot.waitUntil(lambda: shown(window) is None, timeout=PATIENCE)
+    choose_by_keys(window, "getme")
     assert not window.session.explainer.busy
     window.show_panel("node")
     wait_for_step(window, qtbot, "getme")
@@ -224,42 +220,39 @@ def test_nothing_is_worked_out_while_another_panel_is_in_front(at_work, qtbot):
 
 def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictures(at_work, qtbot, tmp_path):
     window = at_work
-    box = window.features["node"].panel._patch
-    QTest.mouseClick(box, LEFT, pos=BOX)
+    box = patch_alone(window)
+    tick(box)
     step = shown(window)
     assert window.session.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size
-    qtbot.waitUntil(lambda: not window.canvas.flying, timeout=5000)
-
-    def seen(image, role):
-        colour = [int(role.light[k : k + 2], 16) for k in (1, 3, 5)]
-        return int((np.abs(image - colour).max(axis=2) < 12).sum())
+    qtbot.waitUntil(lambda: not window.canvas.flying, timeout=PATIENCE)
 
     assert min(seen(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(step.before - 100.0)))
     window.session.view.set_handles(False)
+    window.refresh()
     assert window.canvas.viewport.shown == 0
     assert seen(pixels(window), UPHILL) > 20
     assert window.features["save"].picture(tmp_path / "step.png", (800, 600))
     assert seen(np.asarray(Image.open(tmp_path / "step.png").convert("RGB")).astype(int), UPHILL) > 20
     window.messages.clear()  # Esc is for a message first
-    qtbot.waitUntil(lambda: window.actions["back"].isEnabled(), timeout=5000)
+    qtbot.waitUntil(lambda: window.actions["back"].isEnabled(), timeout=PATIENCE)
     key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.isolation is None
     assert not box.isChecked()
     window.session.selection.choose(None)
-    qtbot.waitUntil(lambda: shown(window) is None, timeout=5000)
+    qtbot.waitUntil(lambda: shown(window) is None, timeout=PATIENCE)
     assert seen(pixels(window), UPHILL) == 0
 
 
 def test_the_marks_and_the_plot_follow_the_theme(at_work, qtbot):
     try:
+        assert seen(pixels(at_work), UPHILL, dark=True) < 20
+        assert seen(grabbed(at_work.features["node"].panel.plot), SEARCH, dark=True) < 20
         theming.choose(Choice.DARK)
-        qtbot.wait(20)
-        arrow = at_work.canvas.viewport.chosen._node_step._arrows[UPHILL][1]
-        wanted = [int(UPHILL.dark[k : k + 2], 16) / 255 for k in (1, 3, 5)]
-        assert arrow.GetProperty().GetColor() == pytest.approx(wanted)
-        assert at_work.features["node"].panel.plot._curve.opts["pen"].color().name() == SEARCH.dark
+        at_work.refresh()
+        assert seen(pixels(at_work), UPHILL, dark=True) > 20
+        assert seen(grabbed(at_work.features["node"].panel.plot), SEARCH, dark=True) > 20
     finally:
         theming.choose(Choice.LIGHT)
 
@@ -270,7 +263,7 @@ def test_the_marks_and_the_plot_follow_the_theme(at_work, qtbot):
 def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot):
     window = at_work
     start = window.session.document.now
-    QTest.mouseClick(button(window, "Next node"), LEFT)
+    press(button(window, "Next node"))
     step = wait_for_step(window, qtbot, "local-sd")
     assert step.verdict is Verdict.MOVED
     points = window.session.document.now.mesh.points
@@ -278,7 +271,7 @@ def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot)
     assert (points != start.mesh.points).any(axis=1).sum() == 1
     assert "Local steepest descent. Moved." in texts(window)
     assert "1 of" in texts(window)
-    QTest.mouseClick(button(window, "10 nodes"), LEFT)
+    press(button(window, "10 nodes"))
     key(window, Qt.Key.Key_F11)
     assert window.session.stepping.sweep.done == 12
     assert window.session.document.undo_title is None
@@ -297,12 +290,12 @@ def test_a_finished_sweep_is_the_methods_iteration(at_work, qtbot):
     mesh = window.session.document.now.mesh
     expected = next(itertools.islice(METHODS["local-sd"]().steps(mesh), 1, None)).points
     key(window, Qt.Key.Key_F11, Qt.KeyboardModifier.ShiftModifier)
-    QTest.mouseClick(button(window, "Finish"), LEFT)
+    press(button(window, "Finish"))
     np.testing.assert_allclose(window.session.document.now.mesh.points, expected, rtol=0, atol=1e-13)
     assert window.session.stepping.sweep is None
     free = int(mesh.free.sum())
     assert window.session.document.undo_title == f"sweep of local-sd, {free:,} nodes"
-    qtbot.waitUntil(lambda: shown(window).node == window.session.selection.node, timeout=5000)
+    qtbot.waitUntil(lambda: shown(window).node == window.session.selection.node, timeout=PATIENCE)
     assert "Moved." in texts(window)
 
 
@@ -326,14 +319,14 @@ def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, t
     key(window, Qt.Key.Key_F11)
     stepped = window.session.document.now
     if what == "run":
-        window.features["smooth"].panel.set_method("laplacian")
+        choose_by_keys(window, "laplacian")
         click(window, "Step")
         qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
         click(window, "Stop")
         qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
         window.session.commands.undo()
     elif what == "method":
-        choose(window, "local-nr")
+        choose_by_keys(window, "local-nr")
         wait_for_step(window, qtbot, "local-nr")
         key(window, Qt.Key.Key_F11)
         assert window.session.stepping.sweep.done == 1
@@ -355,12 +348,12 @@ def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, t
 
 def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qtbot):
     window = at_work
-    window.features["smooth"].panel.set_method("laplacian")
+    choose_by_keys(window, "laplacian")
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     click(window, "Stop")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    choose(window, "local-sd")
+    choose_by_keys(window, "local-sd")
     wait_for_step(window, qtbot, "local-sd")
     key(window, Qt.Key.Key_F11)
     stepped = window.session.document.now
@@ -369,8 +362,9 @@ def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qt
     assert window.session.stepping.sweep is None
     np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
     assert window.session.document.undo_title == "sweep of local-sd, 1 node"
+    now = window.session.document.now.mesh.points
+    qtbot.waitUntil(lambda: np.array_equal(shown(window).before, now[shown(window).node]), timeout=PATIENCE)
     wait_for_step(window, qtbot, "local-sd")
-    np.testing.assert_array_equal(shown(window).before, window.session.document.now.mesh.points[shown(window).node])
     window.session.commands.undo()
     window.session.commands.redo()
     assert window.session.document.now is stepped
@@ -378,7 +372,7 @@ def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qt
 
 def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
     window = at_work
-    choose(window, "mend")
+    choose_by_keys(window, "mend")
     wait_for_step(window, qtbot, "mend")
     for id in ("next_node", "ten_nodes", "finish_sweep"):
         assert not window.actions[id].isEnabled()
@@ -389,7 +383,7 @@ def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
 
 
 def test_a_sweep_can_be_begun_before_anything_was_explained(window, qtbot):
-    choose(window, "local-nr")
+    choose_by_keys(window, "local-nr")
     key(window, Qt.Key.Key_F11)
     qtbot.waitUntil(lambda: window.session.stepping.sweep is not None, timeout=PATIENCE)
     step = wait_for_step(window, qtbot, "local-nr")
@@ -399,9 +393,9 @@ def test_a_sweep_can_be_begun_before_anything_was_explained(window, qtbot):
 
 def test_closing_while_a_step_is_worked_out_leaves_no_thread(fresh_window, qtbot):
     window = fresh_window
-    choose(window, "global-nr")
+    choose_by_keys(window, "global-nr")
     key(window, Qt.Key.Key_D)
-    qtbot.waitUntil(lambda: window.session.explainer.busy, timeout=5000)
+    qtbot.waitUntil(lambda: window.session.explainer.busy, timeout=PATIENCE)
     window.close()
     assert running() == ()
 
@@ -411,12 +405,13 @@ def test_nothing_is_cut_off(at_work, qtbot, size):
     window = at_work
     key(window, Qt.Key.Key_F11)
     window.resize(*size)
-    qtbot.wait(50)
     panel = window.features["node"].panel
+    tools = named(window, QTabBar, "Tools")
+    qtbot.waitUntil(lambda: panel.mapTo(window, panel.rect().bottomRight()).x() < tools.mapTo(window, QPoint()).x())
     assert window.width() == size[0]
-    for part in [*panel.findChildren(QPushButton), panel._patch, panel._title, panel._progress]:
+    labels = [named(panel, QLabel, name) for name in ("Node", "Progress of the sweep")]
+    for part in [*panel.findChildren(QPushButton), patch_alone(window), *labels]:
         assert part.width() >= part.fontMetrics().horizontalAdvance(part.text()) + 12 * isinstance(part, QPushButton)
         assert panel.rect().contains(part.mapTo(panel, part.rect().bottomRight())), part.text()
-    assert panel.mapTo(window, panel.rect().bottomRight()).x() < window.docks["tools"].x()
     assert panel.figures.document().idealWidth() <= panel.figures.viewport().width()
     assert min(panel.figures.height(), panel.plot.height()) > 100

@@ -95,7 +95,11 @@ def test_everything_follows_the_slider(window, qtbot):
     assert state.summary.q_mean == pytest.approx(record.rows[3]["q_mean"], abs=1e-6)
     assert state.summary.inverted == record.rows[3]["inverted"]
     assert np.abs(pixels(window) - picture).max() > 50
-    assert named(window, QLabel, "Hexes").text().endswith(f"{state.summary.inverted:,} inverted")
+    assert (
+        named(window.docks.drawer.cornerWidget(), QLabel, "Hexes")
+        .text()
+        .endswith(f"{state.summary.inverted:,} inverted")
+    )
     assert state.figures.inverted[window.features["inspect"].worst_list.elements[0]]
     assert state is not newest
 
