@@ -97,7 +97,7 @@ class Viewport:
         moved = another or frame.mesh.points is not last.mesh.points or frame.figures is not last.figures
         pinned = not another and frame.mesh.pinned is not last.mesh.pinned
         looked = another or frame.look != last.look
-        measured = moved or frame.movement is not last.movement or frame.look.scale != last.look.scale
+        measured = moved or frame.movement is not last.movement or not frame.look.coloured_as(last.look)
         if another:
             self._take_mesh()
         elif moved:

@@ -44,6 +44,6 @@ def of_kind(kind: str, mesh: Mesh, figures: ElementQuality, movement: Movement |
 
 
 def isolate(view: View, hexes: np.ndarray) -> None:
-    """Show some hexes alone, whatever range was shown before; none leave the view as it is."""
+    """Show some hexes among ghosts of their neighbours, whatever range was shown before; of none, do nothing."""
     if len(hexes):
-        view.change(quality_range=None, isolation=Isolation(tuple(hexes.tolist()), rings=0))
+        view.change(quality_range=None, isolation=Isolation(tuple(hexes.tolist()), rings=view.rings))

@@ -219,3 +219,7 @@ class Look:
     neutral: bool = False
     structure: Structure = Structure()
     traces: Traces = Traces()
+
+    def coloured_as(self, other: Look) -> bool:
+        """Whether the same elements have the same colours."""
+        return self.scale == other.scale and self.neutral == other.neutral

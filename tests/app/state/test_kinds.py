@@ -54,6 +54,6 @@ def test_what_is_isolated_is_shown_alone_and_whatever_its_value(qapp):
     isolate(view, np.array([], np.int64))
     assert view.look.quality_range is not None
     isolate(view, np.array([3, 8]))
-    assert view.look.isolation == Isolation((3, 8), rings=0)
+    assert view.look.isolation == Isolation((3, 8), rings=view.rings)
     assert view.look.quality_range is None
     assert view.rings == 1  # those that are chosen for the next

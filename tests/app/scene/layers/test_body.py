@@ -6,6 +6,7 @@ import pyvista as pv
 
 from hexmend.quality import measure
 from hexmend_app.scene import occlusion
+from hexmend_app.scene.colours import OPENED, OUTSIDE
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers import body as module
 from hexmend_app.scene.layers.surface import colours_of
@@ -121,3 +122,16 @@ def test_sections_of_a_smooth_cut_face_who_looks_into_them(viewport):
     np.testing.assert_allclose(section.point_normals, np.tile([0, 0, 1], (section.n_points, 1)), atol=1e-6)
     viewport.shade()
     assert viewport.body.unlit is None
+
+
+def test_a_neutral_look_comes_and_goes(viewport):
+    draw(viewport)
+    coloured = colours_of(viewport.body.whole).copy()
+    draw(viewport, Look(dug=STEP.dug, neutral=True))
+    inside = (np.abs(viewport.body.whole.cell_centers().points - 2) < 1e-9).any(axis=1)
+    seen = colours_of(viewport.body.whole)
+    assert inside.any()
+    assert (seen[inside] == OPENED).all()
+    assert (seen[~inside] == OUTSIDE).all()
+    draw(viewport)
+    np.testing.assert_array_equal(colours_of(viewport.body.whole), coloured)
