@@ -38,6 +38,7 @@ def click(window, text):
 
 def press(button: QAbstractButton):
     """Press a button that can be pressed, and let the window show what came of it."""
+    button.window().refresh()
     assert button.isEnabled()
     QTest.mouseClick(button, LEFT)
     button.window().refresh()
@@ -45,6 +46,7 @@ def press(button: QAbstractButton):
 
 def tick(box: QCheckBox):
     """Press a check box's mark, and let the window show what came of it."""
+    box.window().refresh()
     assert box.isEnabled()
     QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
     box.window().refresh()

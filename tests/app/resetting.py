@@ -104,7 +104,7 @@ class Resetting:
 def lay_out(window, layout):
     """Let panels stand as they did."""
     for panel in window.docks.ids():
-        window.docks.show_panel(panel)  # what is closed in the layout is closed again
+        window.docks.offer_panel(panel)  # what is closed in the layout is closed again
     for _ in range(2):  # first what is in front, then what room that has
         window.docks.restore(layout)
         QApplication.processEvents()

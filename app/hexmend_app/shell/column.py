@@ -47,3 +47,16 @@ def column(panels: Sequence[Panel]) -> QScrollArea:
     bar = scroll.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
     scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar + _LONGER)
     return scroll
+
+
+def unfold(page: QWidget, panel: QWidget) -> None:
+    """Show a panel of a page, which may be folded away under its title, and as much of it as there is room for."""
+    around = panel
+    while around is not page:
+        around = around.parentWidget()
+        if isinstance(around, Section):
+            around.expand()
+            if isinstance(page, QScrollArea):
+                page.widget().layout().activate()
+                page.ensureVisible(0, around.geometry().bottom())
+                page.ensureWidgetVisible(around.toggleButton())

@@ -44,6 +44,7 @@ class Docks(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._where: dict[str, tuple[Tabs, QWidget]] = {}
+        self._panels: dict[str, QWidget] = {}
         self.centre = QWidget()
         self.centre.setMinimumSize(*_LEAST_VIEW)
         self.view = QVBoxLayout(self.centre)
@@ -99,6 +100,7 @@ class Docks(QWidget):
         tabs.add(page, title, first.help)
         for panel in panels:
             self._where[panel.id] = (tabs, page)
+            self._panels[panel.id] = panel.widget
 
     def ids(self) -> list[str]:
         """The panels that have tabs, in their order."""
@@ -107,8 +109,11 @@ class Docks(QWidget):
     def show_panel(self, id: str) -> None:
         """Bring a panel to the front, unfolded, and all panels back if they are hidden."""
         self.set_hidden(False)
+        from hexmend_app.shell.column import unfold
+
         tabs, page = self._where[id]
         tabs.bring(page)
+        unfold(page, self._panels[id])
 
     def offer_panel(self, id: str) -> None:
         """Bring a panel to the front of its tabs, which stay folded or hidden if they are."""

@@ -101,7 +101,9 @@ class FeatureRecipe(Feature):
         at = smoothing.record.rows[-1].get("stage") if going and smoothing.record.rows else None
         if self._seen.another("at work", at):
             self.panel.set_at_work(at)
-        if self._seen.another("phase", smoothing.phase) and smoothing.phase is Phase.PAUSED and at is not None:
+        # It may have gone on and paused again since it was last shown.
+        held = (smoothing.record, smoothing.record.newest) if at and smoothing.phase is Phase.PAUSED else None
+        if self._seen.another("held", held) and held is not None:
             self.session.order.show_at_work(smoothing.work.stages[at - 1])
 
     def _some(self) -> bool:

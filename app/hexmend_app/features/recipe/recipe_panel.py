@@ -77,7 +77,7 @@ class RecipePanel(QWidget):
         self._up = self._button("chevron-up", "", "Run the chosen stage earlier.", "Move up")
         self._down = self._button("chevron-down", "", "Run the chosen stage later.", "Move down")
         self._remove = self._button("delete-outline", "", "Take the chosen stage out.", "Remove the stage")
-        self._run = self._button("play", "Run", "Run the stages one after another, as one run.")
+        self._run = self._button("play", "Run", "Run the stages one after another, as one run.", "Run recipe")
         self._load = self._button("folder-open-outline", "Load", "Load a recipe from a TOML file, or one of Hexmend's.")
         self._save = self._button(
             "content-save-outline", "Save", "Save the recipe as TOML, which hexmend smooth takes."

@@ -26,6 +26,7 @@ from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
+from hexmend_app.scene.palette import Role
 from hexmend_app.state.order import Order
 from hexmend_app.widgets.parameter_form import ParameterForm
 from hexmend_app.widgets.section import Section
@@ -65,6 +66,7 @@ class SmoothingPanel(QWidget):
         super().__init__(parent)
         self._order = order
         self._name = ""
+        self._refused = False
         self._state = "idle"
         self._placed = False
 
@@ -143,12 +145,7 @@ class SmoothingPanel(QWidget):
         self._show_method(stage.smoother.name, stage.smoother.values())
         with QSignalBlocker(self.stop_form):
             self.stop_form.set_values(stage.stop.values())
-
-    def tell(self, sentence: str) -> None:
-        """Say something below the buttons, beside how far the run is."""
-        tint(self._sentence, MUTED)
-        self._sentence.setText(sentence)
-        self._sentence.setVisible(bool(sentence))
+        self._refused = False
 
     def set_state(self, state: str) -> None:
         """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
@@ -167,7 +164,13 @@ class SmoothingPanel(QWidget):
         if seconds is not None:
             parts.append(f"{seconds:.2f} s")
         self._progress.setText("  ·  ".join(parts) or "Not run yet")
-        self.tell(sentence)
+        if not self._refused:
+            self._tell(sentence, MUTED)
+
+    def _tell(self, sentence: str, role: Role) -> None:
+        tint(self._sentence, role)
+        self._sentence.setText(sentence)
+        self._sentence.setVisible(bool(sentence))
 
     def show_break_points(self) -> None:
         """Unfold what a run pauses at."""
@@ -211,14 +214,13 @@ class SmoothingPanel(QWidget):
         }[name]()
 
     def _show_problem(self) -> None:
-        """Say which value is wrong."""
+        """Say which value is wrong, until it is so no more."""
         for form, section in zip((self.form, self.stop_form), self._sections, strict=False):
             if form.problems():
                 section.expand()
                 form.show_problem()
-                tint(self._sentence, WORSE)
-                self._sentence.setText("Correct the marked value first.")
-                self._sentence.setVisible(True)
+                self._refused = True
+                self._tell("Correct the marked value first.", WORSE)
                 return
 
     def _on_method(self) -> None:
@@ -231,6 +233,7 @@ class SmoothingPanel(QWidget):
 
     def _stage(self) -> Stage | None:
         """What the forms show; None while a value is wrong."""
+        self._refused = self._refused and bool(self.form.problems() or self.stop_form.problems())
         if self.form.problems() or self.stop_form.problems():
             return None
         try:

@@ -81,8 +81,8 @@ class FeatureStructure(Feature):
         if self._seen.another("found", session.finder.structure, session.document.start):
             self.panel.set_found(session.finder.structure)
         now = session.document.now
-        pinned = None if now.mesh.pinned is None else now.mesh.pinned.tobytes()
-        if self._seen.another("counts", pinned, now.summary.free_nodes, now.summary.locked_inverted):
+        counted = now.mesh.pinned, now.summary.free_nodes, now.summary.locked_inverted
+        if self._seen.another("counts", session.document.start, *counted):
             mesh, boundary = now.mesh, now.mesh.topology.boundary
             pinned = 0 if mesh.pinned is None else np.count_nonzero(mesh.pinned & mesh.topology.used & ~boundary)
             self.panel.set_nodes(

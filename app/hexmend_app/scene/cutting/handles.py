@@ -19,9 +19,9 @@ class Handles:
 
     def __init__(self, plotter: pv.BasePlotter, widget: vtkAbstractWidget):
         self._widget = widget
+        self._renderer = plotter.renderer
         self._dragging = False
         widget.SetInteractor(plotter.iren.interactor)
-        widget.SetCurrentRenderer(plotter.renderer)
         widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
         widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
         widget.AddObserver("InteractionEvent", self._announce)
@@ -35,6 +35,8 @@ class Handles:
         if not on:
             self._dragging = False  # VTK does not say that a drag ends which is cut short
         if bool(self._widget.GetEnabled()) != on:
+            if on:  # switched off, VTK forgets where it was, and takes the view that the mouse was over last
+                self._widget.SetCurrentRenderer(self._renderer)
             self._widget.SetEnabled(on)
 
     def _drag(self, on: bool) -> None:

@@ -33,11 +33,12 @@ def panel(qtbot):
 
 
 @pytest.fixture
-def mesh_file(tmp_path):
-    """A tangled mesh that can be peeled."""
-    path = tmp_path / "cube.vtu"
-    io.write(path, gallery.make("cube", size=1000, scramble=0.3, seed=1))
-    return path
+def window(window, qtbot, tmp_path):
+    """The window with a tangled mesh in it that can be peeled."""
+    io.write(tmp_path / "cube.vtu", gallery.make("cube", size=1000, scramble=0.3, seed=1))
+    open_and_wait(qtbot, window, tmp_path / "cube.vtu")
+    window.refresh()
+    return window
 
 
 def faces(window):

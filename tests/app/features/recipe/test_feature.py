@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QFileDialog, QLineEdit, QListWidget, QPushButton
+from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QLabel, QLineEdit, QListWidget, QPushButton
 
 from hexmend import io
 from hexmend.optimise import Stop
@@ -14,7 +14,8 @@ from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS
 from hexmend_app.state.chain import Chain
 from hexmend_app.state.run import Phase
-from tests.app.driving import LEFT, click, open_and_wait, phase
+from hexmend_app.widgets.section import Section
+from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
 from tests.patience import PATIENCE
 
 SHORT = Stop(max_iterations=3, tolerance=0)
@@ -22,28 +23,23 @@ SHORT = Stop(max_iterations=3, tolerance=0)
 
 @pytest.fixture
 def panel(window, qtbot):
-    for section in window.features["smooth"].panel._sections:
-        section.collapse()
-    window.features["smooth"].panel._sections[2].expand()
-    qtbot.wait(30)
+    window.show_panel("recipe")
+    qtbot.waitUntil(window.features["recipe"].panel.isVisible)
     return window.features["recipe"].panel
 
 
 def button(panel, name):
-    return next(b for b in panel.findChildren(QPushButton) if b.accessibleName() == name)
-
-
-def press(panel, name):
-    assert button(panel, name).isEnabled()
-    QTest.mouseClick(button(panel, name), LEFT)
+    panel.window().refresh()
+    return named(panel, QPushButton, name)
 
 
 def stages(panel):
+    panel.window().refresh()
     shown = panel.findChild(QListWidget)
     return [shown.item(at).text() for at in range(shown.count())]
 
 
-def choose(panel, at):
+def click_on(panel, at):
     shown = panel.findChild(QListWidget)
     place = shown.visualItemRect(shown.item(at)).center()
     QTest.mouseClick(shown.viewport(), LEFT, pos=place)
@@ -51,8 +47,26 @@ def choose(panel, at):
 
 
 def add(window, panel, method, values=None, stop=SHORT):
-    window.features["smooth"].panel.choose(method, values or {}, stop.values())
-    press(panel, "Add")
+    choose(window, method, stop, **(values or {}))
+    press(button(panel, "Add"))
+
+
+def said(window):
+    """The sentence below the buttons that hold a run."""
+    window.refresh()
+    return named(window.features["smooth"].panel, QLabel, "Outcome").text()
+
+
+def type_value(window, name, text):
+    """Give the method at hand another value, as a hand does."""
+    panel = window.features["smooth"].panel
+    next(one for one in panel.findChildren(Section) if one.text() == "Parameters").expand()
+    editor = panel.form.editor(name).lineEdit()
+    editor.setFocus()
+    editor.selectAll()
+    QTest.keyClicks(editor, text)
+    QTest.keyClick(editor, Qt.Key.Key_Return)
+    window.refresh()
 
 
 def test_a_chain_is_stages_in_order():
@@ -86,37 +100,38 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
         "2  Local steepest descent (p 4, at most 3 iterations, tolerance 0)",
         "3  Mend (Guard on)",
     ]
-    press(panel, "Move up")  # the one added last is chosen
+    press(button(panel, "Move up"))  # the one added last is chosen
     assert [stage.smoother.name for stage in window.session.chain.stages] == ["getme", "mend", "local-sd"]
-    choose(panel, 0)
+    click_on(panel, 0)
     assert not button(panel, "Move up").isEnabled()
-    press(panel, "Remove the stage")
+    press(button(panel, "Remove the stage"))
     assert [stage.smoother.name for stage in window.session.chain.stages] == ["mend", "local-sd"]
-    choose(panel, 1)
-    window.features["smooth"].panel.set_method("laplacian")
-    press(panel, "Replace the stage")
+    click_on(panel, 1)
+    choose(window, "laplacian")
+    press(button(panel, "Replace the stage"))
     assert window.session.chain.stages[1].smoother == METHODS["laplacian"]()
 
 
 def test_enter_shows_a_stage_above(window, panel):
     add(window, panel, "local-sd", {"p": 4.0})
     add(window, panel, "mend", stop=Stop())
-    choose(panel, 0)
+    click_on(panel, 0)
     QTest.keyClick(panel.findChild(QListWidget), Qt.Key.Key_Return)
+    assert window.session.order.stage == Stage(METHODS["local-sd"](p=4.0), SHORT)
     shown = window.features["smooth"].panel
-    assert (shown.method(), shown.form.values()["p"], shown.stop_form.values()) == ("local-sd", 4, SHORT.values())
+    assert named(shown, QComboBox, "Method").currentText() == METHODS["local-sd"].title
+    assert (shown.form.values()["p"], shown.stop_form.values()) == (4, SHORT.values())
 
 
 def test_a_wrong_value_becomes_no_stage(window, panel):
-    window.features["smooth"].panel.set_method("local-sd")
-    window.features["smooth"].panel._sections[0].expand()
-    editor = window.features["smooth"].panel.form.editor("p").lineEdit()
-    editor.setFocus()
-    editor.selectAll()
-    QTest.keyClicks(editor, "99")
-    press(panel, "Add")
+    choose(window, "local-sd")
+    type_value(window, "p", "99")
+    press(button(panel, "Add"))
     assert stages(panel) == []
-    assert "Correct the marked value" in window.features["smooth"].panel._sentence.text()
+    QApplication.processEvents()
+    assert "Correct the marked value" in said(window)
+    type_value(window, "p", "3")
+    assert "Correct" not in said(window)
 
 
 def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
@@ -125,30 +140,32 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     add(window, panel, "local-sd")
     recipe = window.session.chain.recipe
     seen = set()
-    window.session.smoothing.iterated.connect(lambda frame: seen.add(window.features["smooth"].panel._sentence.text()))
-    press(panel, "Run recipe")
+    window.session.smoothing.iterated.connect(lambda frame: seen.add(said(window)))
+    press(button(panel, "Run recipe"))
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     np.testing.assert_array_equal(window.session.document.now.mesh.points, smooth(mesh, recipe).mesh.points)
     assert [row["method"] for row in window.session.smoothing.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
     assert window.session.document.undo_title == recipe.title
-    assert "Stage 1, GETMe" in window.features["smooth"].panel._sentence.text()
-    QTest.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert "Stage 1, GETMe" in said(window)
+    key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert window.session.document.now.mesh.points is mesh.points
 
 
 def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, qtbot):
     add(window, panel, "getme", stop=Stop(max_iterations=100_000, tolerance=0))
     add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
-    QTest.keyClick(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
     window.session.smoothing.pause()
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     click(window, "Step")
-    qtbot.waitUntil(lambda: window.features["smooth"].panel._sentence.text() == "Stage 1 of 2: GETMe, simultaneous.")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    assert said(window) == "Stage 1 of 2: GETMe, simultaneous."
     shown = panel.findChild(QListWidget)
     assert [shown.item(at).font().bold() for at in range(2)] == [True, False]
     assert not any(button(panel, name).isEnabled() for name in ("Add", "Run recipe", "Load"))
     click(window, "Resume")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.refresh()
     assert not any(shown.item(at).font().bold() for at in range(2))
     assert button(panel, "Add").isEnabled()
 
@@ -156,15 +173,17 @@ def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, q
 def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel, qtbot):
     add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
     add(window, panel, "local-sd", stop=Stop(max_iterations=3, tolerance=0))
-    window.features["smooth"].panel.set_method("laplacian")
+    choose(window, "laplacian")
     window.session.smoothing.break_at(Breakpoints(node=free_node(window), move=0.0))
-    press(panel, "Run recipe")
+    press(button(panel, "Run recipe"))
     qtbot.waitUntil(lambda: paused_after(window, 1), timeout=PATIENCE)
-    assert window.features["smooth"].panel.method() == "local-sd"  # the stage at work, not what was shown before
+    window.refresh()
+    assert window.session.order.method == "local-sd"  # the stage at work, not what was shown before
     for number in (2, 3):
         click(window, "Resume")
         qtbot.waitUntil(lambda number=number: paused_after(window, number))
-    window.features["smooth"].panel.form.set_values({"p": 4.0})
+    window.refresh()
+    type_value(window, "p", "4")
     with qtbot.waitSignal(window.session.smoothing.ended) as ended:
         window.session.smoothing.break_at(Breakpoints())
         click(window, "Resume")
@@ -189,11 +208,12 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     add(window, panel, "getme")
     add(window, panel, "mend", {"p": 3.0})
     title = panel.findChild(QLineEdit)
+    window.refresh()
     assert title.placeholderText() == "GETMe, simultaneous; then Mend"
     title.setFocus()
     QTest.keyClicks(title, "Mine")
     QTest.keyClick(title, Qt.Key.Key_Return)
-    press(panel, "Save")
+    press(button(panel, "Save"))
     assert window.messages.messages()[-1][1] == f"Recipe saved to {path}"
     saved = io.read_recipe(path)
     assert saved == window.session.chain.recipe
@@ -201,6 +221,7 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     window.session.chain.take(Recipe.of("laplacian"))
     window.actions["recipe_load"].trigger()
     assert window.session.chain.recipe == saved
+    window.refresh()
     assert title.text() == "Mine"
 
 

@@ -19,7 +19,7 @@ from hexmend_app.shell.program import application
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Look, Structure
 from hexmend_app.state.task import running
-from tests.app.driving import LEFT, click, open_and_wait
+from tests.app.driving import LEFT, choose, click, key, open_and_wait, tick
 from tests.app.driving import pixels as drawn
 from tests.core.grids import grid
 from tests.core.test_structure import tetrahedron
@@ -45,7 +45,14 @@ def five(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500))
     with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "five.vtu")
+    window.session.view.change(shading=False)  # shades come when the view has rested, whenever that is
+    window.refresh()
     return window
+
+
+def press_key(window, name):
+    """Press the key of a layer."""
+    key(window, getattr(Qt.Key, f"Key_{KEYS[name]}"))
 
 
 def press(box):
@@ -60,6 +67,7 @@ def texts(panel, name):
 
 def pixels(window):
     """A fast frame: a fine one has other edges."""
+    window.refresh()
     window.canvas.viewport.moving()
     return drawn(window)
 
@@ -127,46 +135,46 @@ def test_a_click_chooses_one_layer_more(panel):
 @pytest.mark.parametrize("name", ["irregular", "sharp", "fixed", "free"])
 def test_a_key_shows_and_hides_a_layer(five, name):
     before = pixels(five)
-    box = five.structure_panel._layers[name].box
-    QTest.keyClick(five.windowHandle(), KEYS[name])
-    assert five.view.look.structure == Structure(**{name: True})
+    box = five.features["structure"].panel._layers[name].box
+    press_key(five, name)
+    assert five.session.view.look.structure == Structure(**{name: True})
     assert box.isChecked()
-    assert five.actions_by_id[f"show_{name}"].isChecked()
+    assert five.actions[f"show_{name}"].isChecked()
     if name != "free":  # of which none is in sight
         assert (np.abs(pixels(five) - before).sum(axis=2) > 60).sum() > 100
-    QTest.keyClick(five.windowHandle(), KEYS[name])
-    assert five.view.look == Look()
+    press_key(five, name)
+    assert five.session.view.look == Look(shading=False)
     np.testing.assert_array_equal(pixels(five), before)
 
 
 def test_a_mesh_without_them_offers_no_irregular_edges(five):
-    assert not five.actions_by_id["show_boundary"].isEnabled()
-    assert not five.actions_by_id["show_locked"].isEnabled()
-    QTest.keyClick(five.windowHandle(), KEYS["boundary"])
-    assert five.view.look.structure == Structure()
+    assert not five.actions["show_boundary"].isEnabled()
+    assert not five.actions["show_locked"].isEnabled()
+    press_key(five, "boundary")
+    assert five.session.view.look.structure == Structure()
 
 
 def test_irregular_edges_are_found_by_name_and_seen(five, qtbot):
-    five.actions_by_id["commands"].trigger()
+    five.actions["commands"].trigger()
     field = five.findChild(CommandPalette).findChild(QLineEdit)
     QTest.keyClicks(field, "irregular edges inside")
     QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: five.view.look.structure.irregular, timeout=2000)
+    qtbot.waitUntil(lambda: five.session.view.look.structure.irregular, timeout=2000)
     assert count(pixels(five), VALENCES[5]) > 100
 
 
 def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five, qtbot, tmp_path):
-    QTest.keyClick(five.windowHandle(), KEYS["sharp"])
-    QTest.keyClick(five.windowHandle(), KEYS["irregular"])
+    press_key(five, "sharp")
+    press_key(five, "irregular")
     io.write(tmp_path / "cube.vtu", grid(3))
-    with qtbot.waitSignal(five.finder.found, timeout=20000):
+    with qtbot.waitSignal(five.session.finder.found, timeout=20000):
         open_and_wait(qtbot, five, tmp_path / "cube.vtu")
-        assert five.finder.structure is None
+        assert five.session.finder.structure is None
         assert not five.canvas.viewport.frame.look.structure.edges  # the view does not wait for them
     qtbot.wait(10)
     assert five.canvas.viewport.frame.look.structure == Structure(irregular=True, sharp=True)
-    assert texts(five.structure_panel, "sharp") == ["36"]
-    assert five.structure_panel._layers["irregular"].box.isEnabled()  # to be switched off
+    assert texts(five.features["structure"].panel, "sharp") == ["36"]
+    assert five.features["structure"].panel._layers["irregular"].box.isEnabled()  # to be switched off
     assert count(pixels(five), SHARP) > 300
     assert count(pixels(five), VALENCES[5]) == 0
 
@@ -175,33 +183,49 @@ def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
     with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "five.vtu")
-    press(window.features["structure"].panel._layers["irregular"].box)
+    tick(window.features["structure"].panel._layers["irregular"].box)
     marks = window.canvas.viewport._structure._irregular_inside
     before = np.array(marks._poly.points)
     start = window.session.document.now
-    window.features["smooth"].panel.set_method("laplacian")
+    choose(window, "laplacian")
     click(window, "Step")
     qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
+    window.refresh()
     now = np.array(marks._poly.points)
     assert not np.array_equal(now, before)
     np.testing.assert_array_equal(now, window.session.document.now.mesh.points[marks._nodes])
 
 
 def test_a_pinned_node_changes_its_colour(five, qtbot):
-    press(five.structure_panel._layers["fixed"].box)
-    inside = int(np.flatnonzero(five.document.now.mesh.free)[0])
-    five.view.change(peel=1)
+    tick(five.features["structure"].panel._layers["fixed"].box)
+    inside = int(np.flatnonzero(five.session.document.now.mesh.free)[0])
+    five.session.view.change(peel=1)
+    five.refresh()
     assert count(pixels(five), PINNED) == 0
     visible = five.canvas.viewport.body.faces.nodes
-    inside = int(visible[five.document.now.mesh.free[visible]][0])
-    five.commands.pin(inside, True)
+    inside = int(visible[five.session.document.now.mesh.free[visible]][0])
+    five.session.commands.pin(inside, True)
     qtbot.wait(20)
-    assert texts(five.structure_panel, "fixed")[1] == "1 pinned"
+    assert texts(five.features["structure"].panel, "fixed")[1] == "1 pinned"
     nodes = five.canvas.viewport._structure._nodes._poly
     assert (nodes.cell_data["colours"] == pv.Color(PINNED).int_rgb).all(axis=1).sum() == 1
-    five.commands.undo()
+    five.session.commands.undo()
     qtbot.wait(20)
-    assert len(texts(five.structure_panel, "fixed")) == 1
+    assert len(texts(five.features["structure"].panel, "fixed")) == 1
+
+
+def test_another_mesh_with_as_many_free_nodes_has_its_own_boundary(window, qtbot, tmp_path):
+    mesh, one = grid(2), grid(1)
+    apart = Mesh(
+        np.concatenate([mesh.points, one.points + 9]), np.concatenate([mesh.hexes, one.hexes + len(mesh.points)])
+    )
+    panel = window.features["structure"].panel
+    for name, each, boundary in (("one", mesh, 26), ("two", apart, 34)):
+        io.write(tmp_path / f"{name}.vtu", each)
+        open_and_wait(qtbot, window, tmp_path / f"{name}.vtu")
+        window.refresh()
+        assert texts(panel, "free") == ["1"]
+        assert texts(panel, "fixed") == [f"{boundary} boundary"]
 
 
 def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
@@ -211,7 +235,7 @@ def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
     io.write(tmp_path / "locked.vtu", Mesh(points, mesh.hexes))
     with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "locked.vtu")
-    QTest.keyClick(window.windowHandle(), KEYS["locked"])
+    press_key(window, "locked")
     assert count(pixels(window), LOCKED) > 20
     from PIL import Image
 
@@ -223,9 +247,9 @@ def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
 def test_nothing_is_cut_off(five, qtbot, size):
     five.resize(*size)
-    panel = five.structure_panel
+    panel = five.features["structure"].panel
     panel.set_nodes(1_234_567, 12_345, 1_234_567, 12_345)
-    five.view.change(structure=Structure(irregular=True))
+    five.session.view.change(structure=Structure(irregular=True))
     found = structure(tetrahedron())
     valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
     panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))
