@@ -152,5 +152,5 @@ def close(window):
     shiboken6.invalidate(window.windowHandle())
     window.deleteLater()  # with 50 MB that Qt and Mesa have kept for it
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    window.canvas.interactor._forget_context()  # nor for the surface that was drawn on, which is gone too
+    window.canvas.interactor.forget_context()  # nor for the surface that was drawn on, which is gone too
     assert [task.name for task in running()] == []

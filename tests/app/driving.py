@@ -6,6 +6,7 @@ from typing import TypeVar
 
 import numpy as np
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QPushButton, QWidget
 
@@ -96,8 +97,9 @@ def phase(window, phase):
 def pixels(window):
     """What the 3D view shows, (h, w, 3)."""
     window.refresh()
-    window.canvas.interactor.render()
-    return np.asarray(window.canvas.interactor.screenshot(return_img=True)).astype(int)
+    image = window.canvas.interactor.grabFramebuffer().convertToFormat(QImage.Format.Format_RGB888)
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
 
 
 def drag(widget, start, end, steps=12):
@@ -115,7 +117,7 @@ def drag(widget, start, end, steps=12):
 def seen_at(window, place):
     """Where in the view a place of the mesh is seen."""
     interactor = window.canvas.interactor
-    renderer, ratio = interactor.renderer, interactor.devicePixelRatioF()
+    renderer, ratio = window.canvas.panes.pane.renderer, interactor.devicePixelRatioF()
     renderer.SetWorldPoint(*place, 1)
     renderer.WorldToDisplay()
     right, up, _ = renderer.GetDisplayPoint()

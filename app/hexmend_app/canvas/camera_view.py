@@ -9,12 +9,11 @@ import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QWidget
-from pyvistaqt import QtInteractor
 
-from hexmend_app.canvas.once_per_frame import OncePerFrame
+from hexmend_app.canvas.render_widget import RenderWidget
 from hexmend_app.canvas.travel import Travel
 from hexmend_app.canvas.view_keys import move_of
-from hexmend_app.scene.panes import ROOM, Panes
+from hexmend_app.scene.panes import Panes
 from hexmend_app.state.clip import ClipPlane
 from hexmend_app.widgets.style import explain
 
@@ -30,7 +29,7 @@ class CameraView(QWidget):
 
     Attributes
     ----------
-    interactor : QtInteractor
+    interactor : RenderWidget
         Where it is drawn.
     panes : Panes
         The views.
@@ -49,21 +48,20 @@ class CameraView(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.interactor = QtInteractor(self, auto_update=False, shape=(1, ROOM), border=False)
+        self.interactor = RenderWidget(self)
         self.interactor.setMinimumSize(*_LEAST)
         explain(self.interactor, "3D view", "")
         self.interactor.setAccessibleDescription(
             "Arrow keys turn the mesh, Shift and arrow keys shift it, + and − zoom; F shows all of it."
         )
-        self.panes = Panes(self.interactor, pen=self.devicePixelRatioF())
+        self.panes = Panes(self.interactor.render_window, pen=self.devicePixelRatioF())
         self.viewport = self.panes.first
-        self._once = OncePerFrame(self.interactor)
         self._rest = QTimer(self, interval=_REST, singleShot=True)
         self._rest.timeout.connect(self.draw_still)
         self.travel = Travel(self.viewport.camera, self)
         self.travel.moved.connect(self._on_flown)
         self.travel.changed.connect(self.views_changed)
-        watch = self.interactor.iren.add_observer
+        watch = self.interactor.iren.AddObserver
         watch("StartInteractionEvent", lambda *_: self.travel.leave())
         watch("InteractionEvent", lambda *_: self.turning())
         watch("EndInteractionEvent", lambda *_: self._on_turned())
@@ -198,7 +196,7 @@ class CameraView(QWidget):
         """Let go of the graphics while the window still exists."""
         self._rest.stop()
         self.travel.stop()
-        self.interactor.close()
+        self.interactor.let_go()
 
     def on_key(self, event: QKeyEvent) -> None:
         """Lead the camera as a key says, if it says anything."""

@@ -63,8 +63,8 @@ class Canvas(CameraView):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.plane = PlaneWidget(self.interactor, self.plane_dragged.emit)
-        self.box = BoxWidget(self.interactor, self.box_dragged.emit)
+        self.plane = PlaneWidget(self.panes.pane, self.plane_dragged.emit)
+        self.box = BoxWidget(self.panes.pane, self.box_dragged.emit)
         self.colour_bar = ColourBar()
         self._bar_place = Overlay(self.colour_bar, self.interactor, (1.0, 0.5), key="colour_bar")
         layout = QVBoxLayout(self)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import pyvista as pv
 from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.camera.history import Poses
@@ -25,7 +25,7 @@ class Travel(QObject):
 
     Parameters
     ----------
-    camera : pyvista.Camera
+    camera : vtkCamera
 
     Signals
     -------
@@ -38,7 +38,7 @@ class Travel(QObject):
     moved = Signal()
     changed = Signal()
 
-    def __init__(self, camera: pv.Camera, parent: QObject | None = None):
+    def __init__(self, camera: vtkCamera, parent: QObject | None = None):
         super().__init__(parent)
         self._camera = camera
         self._poses = Poses()

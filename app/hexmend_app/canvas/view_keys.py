@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-import pyvista as pv
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera import steering
 
@@ -26,7 +26,7 @@ _ZOOMS = {Qt.Key.Key_Plus: _ZOOM, Qt.Key.Key_Equal: _ZOOM, Qt.Key.Key_Minus: 1 /
 _OTHERS = Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.MetaModifier
 
 
-def move_of(event: QKeyEvent, up: str) -> Callable[[pv.Camera], None] | None:
+def move_of(event: QKeyEvent, up: str) -> Callable[[vtkCamera], None] | None:
     """What a key does to the camera, `up` being the axis that is up; None for a key that says nothing."""
     if event.modifiers() & _OTHERS:
         return None

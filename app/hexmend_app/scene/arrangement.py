@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkActor2D, vtkRenderWindow
+from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkPolyDataMapper2D, vtkRenderer, vtkRenderWindow
 
-from hexmend_app.scene.palette import LINE
+from hexmend_app.scene.palette import LINE, rgb
 from hexmend_app.state.views import Wipe
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ class Arrangement:
         self._wiped = False
         self._seen: Sequence[Viewport] = ()
         self._centres: dict[Viewport, float] = {}  # of the wipe's halves
-        self._borders: list[tuple[pv.Renderer, vtkActor2D]] = []
+        self._borders: list[tuple[vtkRenderer, vtkActor2D]] = []
         self._dark = False
         self.head = 0
 
@@ -122,9 +123,11 @@ class Arrangement:
         self._borders.clear()
         for view in () if self._wiped else self._seen:
             renderer = view.layers[0]
-            edges = _inner(renderer.GetViewport())
-            if edges:
-                self._borders.append((renderer, renderer.add_border(LINE.of(self._dark), self._pen, edges=edges)))
+            sides = _inner(renderer.GetViewport())
+            if sides:
+                line = _line(sides, LINE.of(self._dark), self._pen)
+                renderer.AddViewProp(line)
+                self._borders.append((renderer, line))
 
     def at(self, x: float, y: float) -> Viewport:
         """The view at a place in pixels of the window, from its lower left corner."""
@@ -140,6 +143,24 @@ class Arrangement:
         return self._centres.get(view, 0.0)
 
 
-def _inner(place: Rectangle) -> list[str]:
+#: The ends of a view's left side and of its lower one, as shares of it.
+_LEFT, _LOWER = ((0.0, 1.0, 0.0), (0.0, 0.0, 0.0)), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+
+
+def _inner(place: Rectangle) -> list[tuple]:
     """The sides of a view at which there is another before it, in its row or below."""
-    return [side for side, share in (("left", place[0]), ("bottom", place[1])) if share > 0]
+    return [side for side, share in ((_LEFT, place[0]), (_LOWER, place[1])) if share > 0]
+
+
+def _line(sides: list[tuple], colour: str, width: float) -> vtkActor2D:
+    """A line along sides of a view, so many pixels wide."""
+    shares = vtkCoordinate()
+    shares.SetCoordinateSystemToNormalizedViewport()
+    mapper = vtkPolyDataMapper2D()
+    mapper.SetInputData(pv.line_segments_from_points(np.reshape(sides, (-1, 3))))
+    mapper.SetTransformCoordinate(shares)
+    actor = vtkActor2D()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(rgb(colour))
+    actor.GetProperty().SetLineWidth(2 * width)  # half of it lies beyond the view
+    return actor

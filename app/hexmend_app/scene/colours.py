@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 
 from hexmend.movement import MOVEMENTS, NOTHING, named
+from hexmend_app.resources import resource
 from hexmend_app.scene.palette import INVERTED as MAGENTA
 from hexmend_app.scene.values import better, declared_range
 from hexmend_app.state.look import ColourScale, RangeMode
@@ -55,9 +56,8 @@ def table(name: str) -> np.ndarray:
     """
     if name not in (*MAPS, DIVERGING):
         raise KeyError(f"there is no colour map {name!r}: known are {', '.join(MAPS)}")
-    from matplotlib import colormaps
-
-    colours = (colormaps[name](np.linspace(0, 1, 256))[:, :3] * 255).round().astype(np.uint8)
+    with np.load(resource("colour_maps.npz")) as kept:
+        colours = kept[name]
     colours.flags.writeable = False
     return colours
 

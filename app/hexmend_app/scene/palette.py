@@ -9,6 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
+def rgb(colour: str) -> tuple[float, float, float]:
+    """Red, green and blue of #rrggbb, each from 0 to 1, as VTK takes them."""
+    red, green, blue = bytes.fromhex(colour[1:])
+    return red / 255, green / 255, blue / 255
+
+
 @dataclass
 class Theme:
     """Which theme is worn."""

@@ -2,66 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from vtkmodules.vtkRenderingCore import vtkCamera, vtkLight, vtkRenderer, vtkRenderWindow
 
-import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkRenderWindow
+from hexmend_app.scene.palette import rgb
+
+_LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 
 
 class Pane:
-    """One of a plotter's renderers, with what drawing needs of a plotter.
+    """A renderer under one light: the five of a kit cost twice the frame.
 
-    All panes of a plotter look through the camera of the first.
+    Attributes
+    ----------
+    window : vtkRenderWindow
+    renderer : vtkRenderer
+        All over the window until it is given another place.
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
-        With a row of renderers, one for each pane.
-    at : int
-        Which of them.
+    window : vtkRenderWindow
+        With an interactor.
+    camera : vtkCamera, optional
+        That of another pane, to be looked through here too.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, at: int):
-        self._plotter, self._at = plotter, at
-        self.renderer: pv.Renderer = plotter.renderers[at]
-        if at:
-            self.renderer.camera = plotter.renderers[0].camera
+    def __init__(self, window: vtkRenderWindow, camera: vtkCamera | None = None):
+        self.window = window
+        self.renderer = vtkRenderer()
+        self.renderer.SetActiveCamera(vtkCamera() if camera is None else camera)
+        light = vtkLight()
+        light.SetLightTypeToCameraLight()
+        light.SetPosition(_LIGHT)
+        light.SetFocalPoint(0, 0, 0)
+        self.renderer.AddLight(light)
+        window.AddRenderer(self.renderer)
 
     @property
-    def camera(self) -> pv.Camera:
+    def camera(self) -> vtkCamera:
         """What is looked through."""
-        return self.renderer.camera
+        return self.renderer.GetActiveCamera()
 
-    @property
-    def render_window(self) -> vtkRenderWindow:
-        """The window that this is a part of."""
-        return self._plotter.render_window
-
-    def add_mesh(self, mesh: pv.DataSet, **how: Any) -> pv.Actor:
-        """Draw a mesh here, as `pyvista.Plotter.add_mesh` does."""
-        return self._here(self._plotter.add_mesh, mesh, **how)
-
-    def add_axes(self, **how: Any) -> pv.AxesActor:
-        """Draw the axes in a corner, as `pyvista.Plotter.add_axes` does."""
-        return self._here(self._plotter.add_axes, **how)
-
-    def _here(self, act: Callable, *what: Any, **how: Any) -> Any:
-        """Let the plotter do something here; by itself it does it in the first pane."""
-        self._plotter.subplot(0, self._at)
-        try:
-            return act(*what, **how)
-        finally:
-            self._plotter.subplot(0, 0)
-
-    def add_light(self, light: pv.Light) -> None:
-        """Light what is here."""
-        self.renderer.add_light(light)
-
-    def remove_all_lights(self) -> None:
-        """Leave it dark."""
-        self.renderer.remove_all_lights()
+    def overlay(self) -> vtkRenderer:
+        """What draws over all that is here already, through the same camera, so that nothing of it hides anything."""
+        layer = vtkRenderer()
+        layer.SetLayer(1)
+        layer.InteractiveOff()
+        layer.SetActiveCamera(self.camera)
+        self.window.SetNumberOfLayers(max(2, self.window.GetNumberOfLayers()))
+        self.window.AddRenderer(layer)
+        return layer
 
     def set_background(self, colour: str) -> None:
         """Take another ground."""
-        self.renderer.set_background(colour)
+        self.renderer.SetBackground(rgb(colour))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import pyvista as pv
-
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.arrangement import Arrangement
@@ -16,10 +14,7 @@ from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.picking import Hit
 from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.views import MOST, Wipe
-
-#: How many views a plotter has to have room for: the first, and those beside it.
-ROOM = MOST + 1
+from hexmend_app.state.views import Wipe
 
 
 class Panes:
@@ -28,6 +23,8 @@ class Panes:
     Attributes
     ----------
     first : Viewport
+    pane : Pane
+        Where it is drawn.
     wipe : Wipe or None
         None where all stand side by side.
     eye : Eye
@@ -35,24 +32,20 @@ class Panes:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
-        With a row of `ROOM` renderers.
+    window : vtkRenderWindow
+        With an interactor.
     filters : Filters, optional
         Those of another window's view, whose elements are shown where the mesh has the same hexes.
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, filters: Filters | None = None, pen: float = 1.0):
-        self._plotter, self._pen = plotter, pen
-        self._window = plotter.render_window
-        for renderer in list(plotter.renderers)[1:]:
-            self._window.RemoveRenderer(renderer)
-        plotter.renderers[0].SetViewport(0, 0, 1, 1)
-        self.first = Viewport(Pane(plotter, 0), filters=filters, pen=pen)
+    def __init__(self, window: vtkRenderWindow, filters: Filters | None = None, pen: float = 1.0):
+        self._window, self._pen = window, pen
+        self.pane = Pane(window)
+        self.first = Viewport(self.pane, filters=filters, pen=pen)
         self._dark = False
-        self._others: dict[int, tuple[Mesh, Viewport]] = {}  # by renderer
-        self._order: list[int] = []
+        self._others: list[tuple[Mesh, Viewport]] = []
         self.wipe: Wipe | None = None
         self._arrangement = Arrangement(self._window, pen)
         self.eye = Eye(lambda: self.seen, lambda: self._arrangement.aspect)
@@ -66,7 +59,7 @@ class Panes:
     @property
     def all(self) -> list[Viewport]:
         """The views, the first before those beside it."""
-        return [self.first, *(self._others[at][1] for at in self._order)]
+        return [self.first, *(view for _, view in self._others)]
 
     @property
     def seen(self) -> list[Viewport]:
@@ -82,7 +75,7 @@ class Panes:
         if another:
             self.show([])
         self.first.draw(frame)
-        for _, view in self._others.values():
+        for _, view in self._others:
             view.draw(view.frame.beside(frame))
         self.level()
         if another:
@@ -99,30 +92,22 @@ class Panes:
             None shows all side by side.
         """
         aspect, fitted = self._arrangement.aspect, self.eye.fitted
-        known = {id(mesh): at for at, (mesh, _) in self._others.items()}
-        for at in set(self._others) - {known.get(id(mesh)) for mesh, _ in others}:
-            self._close(at)
-        order = []
-        for mesh, figures in others:
-            at = known.get(id(mesh))
-            order.append(self._open(mesh, figures) if at is None else at)
-        self._order, self.wipe = order, wipe
+        known = {id(mesh): view for mesh, view in self._others}
+        for gone in set(known) - {id(mesh) for mesh, _ in others}:
+            known.pop(gone).close()
+        self._others = [(mesh, known.get(id(mesh)) or self._open(mesh, figures)) for mesh, figures in others]
+        self.wipe = wipe
         self.arrange()
         self.level()
         if fitted and abs(self._arrangement.aspect - aspect) > 1e-6:
             self.eye.fit()
 
-    def _open(self, mesh: Mesh, figures: ElementQuality) -> int:
-        at = min(set(range(1, ROOM)) - set(self._others))
-        view = Viewport(Pane(self._plotter, at), axes=False, filters=self.first.filters, pen=self._pen)
+    def _open(self, mesh: Mesh, figures: ElementQuality) -> Viewport:
+        view = Viewport(Pane(self._window, self.first.camera), axes=False, filters=self.first.filters, pen=self._pen)
         view.set_dark(self._dark)
         view.draw(Frame(mesh, figures).beside(self.first.frame))
-        self._others[at] = mesh, view
         self._watch(view)
-        return at
-
-    def _close(self, at: int) -> None:
-        self._others.pop(at)[1].close()
+        return view
 
     def set_dark(self, dark: bool) -> None:
         """Draw on the dark theme's ground, or on the light one's."""

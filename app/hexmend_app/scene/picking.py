@@ -37,13 +37,13 @@ class Picker:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter or Pane
+    pane : Pane
     surfaces : sequence of Surface
         On which hexes are found.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane, surfaces: Sequence[Surface]):
-        self._plotter, self._surfaces = plotter, surfaces
+    def __init__(self, pane: Pane, surfaces: Sequence[Surface]):
+        self._pane, self._surfaces = pane, surfaces
         self._picker = vtkCellPicker()
         self._picker.PickFromListOn()
         for surface in surfaces:
@@ -53,7 +53,7 @@ class Picker:
         """What is seen of a mesh at a place in pixels from the lower left corner; None beside it."""
         for surface in self._surfaces:
             surface.actor.SetPickable(True)
-        self._picker.Pick(x, y, 0, self._plotter.renderer)
+        self._picker.Pick(x, y, 0, self._pane.renderer)
         for surface in self._surfaces:
             surface.actor.SetPickable(False)
         cell = self._picker.GetCellId()

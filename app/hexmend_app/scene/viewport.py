@@ -1,10 +1,9 @@
-"""The 3D view of one mesh, in whatever plotter: a window's or one off screen."""
+"""The 3D view of one mesh, in a pane of a window, be it on the screen or not."""
 
 from __future__ import annotations
 
 import numpy as np
-import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from hexmend_app.scene import occlusion
 from hexmend_app.scene.camera.eye import Eye
@@ -23,8 +22,6 @@ from hexmend_app.scene.layers.structure import StructureLayers
 from hexmend_app.scene.palette import BACKGROUND
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.picking import Hit, Picker
-
-_LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
 
 
 class Viewport:
@@ -45,8 +42,7 @@ class Viewport:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter or Pane
-        What draws: a window of its own, or a part of one.
+    pane : Pane
     axes : bool
         Draw the axes in a corner.
     filters : Filters, optional
@@ -55,32 +51,28 @@ class Viewport:
         How many pixels wide a thin line is.
     """
 
-    def __init__(
-        self, plotter: pv.BasePlotter | Pane, axes: bool = True, filters: Filters | None = None, pen: float = 1.0
-    ):
-        self._plotter, self._pen = plotter, pen
+    def __init__(self, pane: Pane, axes: bool = True, filters: Filters | None = None, pen: float = 1.0):
+        self._pane, self._pen = pane, pen
         self.frame: Frame | None = None
         self.filters = filters
         self._fast = False
         self._dark = False
-        plotter.remove_all_lights()  # five lights of a kit cost twice the frame of one
-        plotter.add_light(pv.Light(position=_LIGHT, focal_point=(0, 0, 0), light_type="camera light", intensity=1.0))
-        plotter.render_window.SetMultiSamples(0)
+        pane.window.SetMultiSamples(0)
         self.colours = ElementColours()
-        self.body = Body(plotter, pen)
-        self._ghosts = Ghosts(plotter, pen)
+        self.body = Body(pane, pen)
+        self._ghosts = Ghosts(pane.renderer, pen)
         self._outline: Silhouette | None = None
-        self._structure = StructureLayers(plotter, pen)
-        self._arrows = ArrowLayer(plotter, pen)
-        self.chosen = Chosen(plotter, pen)
-        self._picker = Picker(plotter, (self.body.skin, self.body.section))
-        self.axes = Axes(plotter, pen) if axes else None
+        self._structure = StructureLayers(pane, pen)
+        self._arrows = ArrowLayer(pane, pen)
+        self.chosen = Chosen(pane, pen)
+        self._picker = Picker(pane, (self.body.skin, self.body.section))
+        self.axes = Axes(pane, pen) if axes else None
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
         """Draw on the dark theme's ground, or on the light one's, as pictures for reports are."""
         self._dark = dark
-        self._plotter.set_background(BACKGROUND.of(dark))
+        self._pane.set_background(BACKGROUND.of(dark))
         if self.axes is not None:
             self.axes.set_dark(dark)
         self.chosen.set_dark(dark)
@@ -118,7 +110,9 @@ class Viewport:
         if self.filters is None or not self.filters.suit(mesh):
             self.filters = Filters(mesh)
         self.body.set_mesh(mesh)
-        self._outline = Silhouette(self._plotter, mesh, self._pen)
+        if self._outline is not None:
+            self._outline.close()
+        self._outline = Silhouette(self._pane.renderer, mesh, self._pen)
         self._outline.set_dark(self._dark)
         self._structure.set_mesh(mesh)
         self.chosen.set_mesh(mesh)
@@ -186,9 +180,9 @@ class Viewport:
     # From where it is seen
 
     @property
-    def camera(self) -> pv.Camera:
-        """The plotter's camera."""
-        return self._plotter.camera
+    def camera(self) -> vtkCamera:
+        """What is looked through."""
+        return self._pane.camera
 
     @property
     def bounds(self) -> tuple[float, float, float, float, float, float]:
@@ -209,7 +203,7 @@ class Viewport:
 
     def moving(self) -> None:
         """Prepare for fast frames."""
-        self._plotter.render_window.SetMultiSamples(0)
+        self._pane.window.SetMultiSamples(0)
         self._set_fast(True)
 
     def turning(self, views: int = 1) -> None:
@@ -220,7 +214,7 @@ class Viewport:
 
     def still(self) -> None:
         """Prepare for a fine frame: smooth edges."""
-        self._plotter.render_window.SetMultiSamples(4)
+        self._pane.window.SetMultiSamples(4)
         self._set_fast(False)
         self.body.come_to_rest()
 
@@ -246,12 +240,10 @@ class Viewport:
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """What draws this view, one layer over the other."""
-        return self._plotter.renderer, self._structure.layer, self._arrows.layer, *self.chosen.layers
+        return self._pane.renderer, self._structure.layer, self._arrows.layer, *self.chosen.layers
 
     def close(self) -> None:
         """Draw no more, and leave the part of the window to another view."""
         for layer in self.layers:
             layer.RemoveObservers("StartEvent")
-            self._plotter.render_window.RemoveRenderer(layer)
-        self._plotter.renderer.clear_actors()
-        self._plotter.remove_all_lights()
+            self._pane.window.RemoveRenderer(layer)

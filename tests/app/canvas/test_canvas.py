@@ -39,7 +39,7 @@ def canvas(qtbot):
     shiboken6.invalidate(canvas.windowHandle())
     canvas.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    canvas.interactor._forget_context()
+    canvas.interactor.forget_context()
 
 
 def pose(canvas):
@@ -49,7 +49,7 @@ def pose(canvas):
 def rested(qtbot, canvas):
     """Wait until the camera rests, and draw what is seen now."""
     qtbot.waitUntil(lambda: canvas.travel.at_rest, timeout=PATIENCE)
-    canvas.interactor.render()
+    canvas.interactor.grabFramebuffer()
 
 
 def middle(canvas):

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.canvas.view_keys import move_of
 from hexmend_app.scene.camera.directions import UPS, look_from
@@ -22,7 +22,7 @@ def pressed(key, held=PLAIN):
 
 @pytest.mark.parametrize("up", UPS)
 def test_arrows_turn_about_what_is_up_and_with_shift_they_shift(up):
-    camera = pv.Camera()
+    camera = vtkCamera()
     look_from(camera, "iso", up)
     axis, before = np.array(UPS[up][0]), np.array(camera.GetPosition())
     move_of(pressed(Qt.Key.Key_Right), up)(camera)
@@ -34,7 +34,7 @@ def test_arrows_turn_about_what_is_up_and_with_shift_they_shift(up):
 
 
 def test_plus_and_minus_zoom_and_undo_each_other():
-    camera = pv.Camera()
+    camera = vtkCamera()
     far = camera.GetDistance()
     move_of(pressed(Qt.Key.Key_Plus), "z")(camera)
     assert camera.GetDistance() < far

@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hexmend.quality import METRICS
-from hexmend_app.scene.colours import INVERTED, MAPS, Colouring, range_label, resolve, table
+from hexmend_app.scene.colours import DIVERGING, INVERTED, MAPS, Colouring, range_label, resolve, table
 from hexmend_app.state.look import ColourScale, RangeMode
 
 NONE = np.zeros(4, bool)
@@ -24,6 +24,12 @@ def test_a_map_has_256_colours_from_dark_to_light_and_none_near_the_inverted(nam
     lightness = colour @ [0.299, 0.587, 0.114]
     assert lightness[-1] > lightness[0] + 50
     assert np.abs(colour - INVERTED).sum(axis=1).min() > 60
+
+
+@pytest.mark.parametrize("name", [*MAPS, DIVERGING])
+def test_a_map_is_that_of_matplotlib(name):
+    colormaps = pytest.importorskip("matplotlib").colormaps
+    np.testing.assert_allclose(table(name) / 255, colormaps[name](np.arange(256))[:, :3], atol=0.501 / 255)
 
 
 def test_ends_beyond_and_between():

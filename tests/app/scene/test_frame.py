@@ -4,12 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend.mesh import Mesh
 from hexmend.movement import Moment, Movement
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame, same_hexes
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import ColourScale, Look, Structure
 from tests.core.grids import grid, scrambled
@@ -23,8 +24,8 @@ MOVED_FIGURES = measure(MOVED.points, MOVED.hexes)
 @pytest.fixture
 def watched(monkeypatch):
     """A viewport, and a function that draws a frame and says what was done for it."""
-    plotter = pv.Plotter(off_screen=True, window_size=(80, 60))
-    viewport = Viewport(plotter)
+    stage = Stage((80, 60))
+    viewport = Viewport(Pane(stage.window))
     done = []
 
     def watch(part, name):
@@ -46,7 +47,7 @@ def watched(monkeypatch):
         return set(done)
 
     yield draw, viewport
-    plotter.close()
+    stage.close()
 
 
 def test_another_mesh_is_drawn_from_its_skin_on(watched):

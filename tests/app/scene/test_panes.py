@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend.movement import Moment, Movement
 from hexmend.quality import measure
@@ -10,7 +9,8 @@ from hexmend_app.scene.arrangement import columns, grid
 from hexmend_app.scene.export.figure import Panel, figure
 from hexmend_app.scene.export.picture import picture
 from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.panes import ROOM, Panes
+from hexmend_app.scene.panes import Panes
+from hexmend_app.scene.stage import Stage
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
 from hexmend_app.state.views import Wipe
@@ -32,21 +32,27 @@ def look_at(panes, look, movement=None):
 
 
 @pytest.fixture
-def panes():
-    plotter = pv.Plotter(off_screen=True, shape=(1, ROOM), border=False, window_size=SIZE)
-    panes = Panes(plotter)
+def stage():
+    with Stage(SIZE) as stage:
+        yield stage
+
+
+@pytest.fixture
+def panes(stage):
+    panes = Panes(stage.window)
     panes.draw(Frame(*shown(MESH)))
-    plotter.camera_set = True
-    yield panes
-    plotter.close()
+    return panes
 
 
-def pixels(panes):
-    plotter = panes._plotter
-    panes.still()
-    plotter.show(auto_close=False, interactive=False)
-    plotter.render()
-    return np.asarray(plotter.screenshot(return_img=True)).astype(int)
+@pytest.fixture
+def pixels(stage, panes):
+    """A function that draws a fine frame and returns it."""
+
+    def drawn():
+        panes.still()
+        return stage.picture().astype(int)
+
+    return drawn
 
 
 @pytest.mark.parametrize("views", [1, 2, 3, 4])
@@ -59,14 +65,14 @@ def test_views_side_by_side_fill_the_window_and_do_not_overlap(views):
     assert places[0][3] == 1  # reading order: from the upper left
 
 
-def test_each_view_shows_its_mesh_as_it_would_alone(panes):
+def test_each_view_shows_its_mesh_as_it_would_alone(panes, pixels):
     panes.show([shown(OTHERS[2])])
-    panes._plotter.renderers[0].axes_widget.EnabledOff()
-    both = pixels(panes)
+    panes.first.axes.widget.EnabledOff()
+    both = pixels()
     left, right = both[:, :119], both[:, 121:239]
     assert np.abs(left[:, :118] - right).max() > 100
     panes.show([shown(MESH)])
-    both = pixels(panes)
+    both = pixels()
     assert np.abs(both[:, 5:115] - both[:, 125:235]).max() < 16  # the same mesh, so the same picture, but for rounding
 
 
@@ -82,13 +88,13 @@ def test_room_is_left_above_each_of_several_views_and_all_stay_of_one_size(panes
     assert panes.first.layers[0].GetViewport() == (0.0, 0.0, 0.5, 1.0)
 
 
-def test_one_camera_leads_all_views(panes):
+def test_one_camera_leads_all_views(panes, pixels):
     panes.show([shown(mesh) for mesh in OTHERS])
     assert all(view.camera is panes.first.camera for view in panes.all)
-    before = pixels(panes)
+    before = pixels()
     panes.first.camera.Azimuth(40)
     panes.eye.reset_depth()
-    after = pixels(panes)
+    after = pixels()
     for left, low, right, high in grid(4):
         part = np.s_[round((1 - high) * 160) : round((1 - low) * 160), round(left * 240) : round(right * 240)]
         assert np.abs(after[part] - before[part]).max() > 50
@@ -96,30 +102,30 @@ def test_one_camera_leads_all_views(panes):
 
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("at", [0.25, 0.5, 0.8])
-def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel):
+def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel, pixels):
     panes.eye.set_parallel(parallel)
     panes.eye.fit()
-    panes._plotter.renderers[0].axes_widget.EnabledOff()
-    whole = pixels(panes)
+    panes.first.axes.widget.EnabledOff()
+    whole = pixels()
     panes.show([shown(MESH)], Wipe(0, 1, at))
-    wiped = pixels(panes)
+    wiped = pixels()
     edge = round(at * 240)
     far = np.abs(np.arange(240) - edge) > 2  # lines end at the edge
     assert (np.abs(wiped - whole).max(axis=2)[:, far] > 60).mean() < 0.002
     panes.show([], None)
-    assert np.abs(pixels(panes) - whole).max() <= 1
+    assert np.abs(pixels() - whole).max() <= 1
 
 
-def test_a_wipe_shows_one_mesh_on_either_side(panes):
-    panes._plotter.renderers[0].axes_widget.EnabledOff()
-    whole = pixels(panes)
+def test_a_wipe_shows_one_mesh_on_either_side(panes, pixels):
+    panes.first.axes.widget.EnabledOff()
+    whole = pixels()
     panes.show([shown(mesh) for mesh in OTHERS], Wipe(0, 3, 0.5))
-    wiped = pixels(panes)
+    wiped = pixels()
     different = np.abs(wiped - whole).max(axis=2) > 60
     assert different[:, :118].mean() < 0.002
     assert different[:, 122:].mean() > 0.05
     panes.show([shown(mesh) for mesh in OTHERS], Wipe(3, 0, 0.5))
-    swapped = np.abs(pixels(panes) - whole).max(axis=2) > 60
+    swapped = np.abs(pixels() - whole).max(axis=2) > 60
     assert swapped[:, :118].mean() > 0.05
     assert swapped[:, 122:].mean() < 0.002
 
@@ -150,22 +156,19 @@ def test_a_cut_leaves_the_same_elements_in_all_views(panes):
         np.testing.assert_array_equal(kept, first)
 
 
-def test_what_is_under_the_mouse_is_picked_in_the_view_there(panes):
+def test_what_is_under_the_mouse_is_picked_in_the_view_there(panes, pixels):
     panes.show([shown(OTHERS[0])])
-    pixels(panes)
+    pixels()
     assert panes.at(60, 80) is panes.first
     assert panes.at(180, 80) is panes.all[1]
     left, right = panes.pick(60, 80), panes.pick(180, 80)
     assert left.hex == right.hex
     panes.show([shown(MESH)], Wipe(0, 1, 0.5))
-    pixels(panes)
-    assert [found(panes, x) for x in (100, 140)] == [_alone(panes, x) for x in (100, 140)]
-
-
-def _alone(panes, x):
+    pixels()
+    wiped = [found(panes, x) for x in (100, 140)]
     panes.show([])
-    pixels(panes)
-    return found(panes, x)
+    pixels()
+    assert wiped == [found(panes, x) for x in (100, 140)]
 
 
 def found(panes, x):
@@ -180,15 +183,15 @@ def test_meshes_with_other_hexes_are_shown_too(panes):
     assert [view.kept().size for view in panes.all] == [MESH.n_hexes, small.n_hexes]
 
 
-def test_a_closed_view_leaves_nothing_behind(panes):
-    panes._plotter.renderers[0].axes_widget.EnabledOff()
-    before, renderers = pixels(panes), panes._window.GetRenderers().GetNumberOfItems()
+def test_a_closed_view_leaves_nothing_behind(panes, pixels, stage):
+    panes.first.axes.widget.EnabledOff()
+    before, renderers = pixels(), stage.window.GetRenderers().GetNumberOfItems()
     for _ in range(3):
         panes.show([shown(mesh) for mesh in OTHERS])
-        pixels(panes)
+        pixels()
         panes.show([])
-    assert panes._window.GetRenderers().GetNumberOfItems() == renderers
-    np.testing.assert_array_equal(pixels(panes), before)
+    assert stage.window.GetRenderers().GetNumberOfItems() == renderers
+    np.testing.assert_array_equal(pixels(), before)
 
 
 def test_the_camera_fits_the_views_unless_the_user_has_moved_it(panes):

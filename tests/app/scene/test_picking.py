@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Look
@@ -18,14 +19,12 @@ FIGURES = measure(MESH.points, MESH.hexes)
 @pytest.fixture
 def seen():
     """A viewport that looks at a grid from above."""
-    plotter = pv.Plotter(off_screen=True, window_size=(200, 200))
-    viewport = Viewport(plotter)
-    viewport.draw(Frame(MESH, FIGURES))
-    viewport.view("+z")
-    plotter.camera_set = True
-    plotter.show(auto_close=False, interactive=False)
-    yield viewport
-    plotter.close()
+    with Stage((200, 200)) as stage:
+        viewport = Viewport(Pane(stage.window))
+        viewport.draw(Frame(MESH, FIGURES))
+        viewport.view("+z")
+        stage.picture()
+        yield viewport
 
 
 @pytest.mark.parametrize("place", [(100, 100), (60, 130), (150, 45)])
@@ -51,6 +50,5 @@ def test_on_a_cut_the_place_is_on_its_plane(seen):
 
 
 def test_before_a_mesh_is_drawn_there_is_none():
-    plotter = pv.Plotter(off_screen=True, window_size=(80, 60))
-    assert Viewport(plotter).pick(40, 30) is None
-    plotter.close()
+    with Stage((80, 60)) as stage:
+        assert Viewport(Pane(stage.window)).pick(40, 30) is None

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
@@ -10,6 +9,8 @@ from hexmend_app.scene.camera.eye import Eye
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
 from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import ClipPlane, PlaneClip
 from hexmend_app.state.look import ColourScale, Look, RangeMode, ValueRange
@@ -31,26 +32,23 @@ def show(viewport, mesh=None, look=None):
 
 
 @pytest.fixture
-def plotter():
-    plotter = pv.Plotter(off_screen=True, window_size=(200, 150))
-    yield plotter
-    plotter.close()
+def stage():
+    with Stage((200, 150)) as stage:
+        yield stage
 
 
 @pytest.fixture
-def seen(plotter):
+def pane(stage):
+    return Pane(stage.window)
+
+
+@pytest.fixture
+def seen(stage, pane):
     """A viewport with a grid in it, seen from above, and a function that returns its pixels."""
-    viewport = Viewport(plotter)
+    viewport = Viewport(pane)
     show(viewport, MESH)
     viewport.view("+z")
-    plotter.camera_set = True
-
-    def pixels():
-        plotter.show(auto_close=False, interactive=False)
-        plotter.render()
-        return np.asarray(plotter.screenshot(return_img=True)).astype(int)
-
-    return viewport, pixels
+    return viewport, lambda: stage.picture().astype(int)
 
 
 def magenta(image):
@@ -203,10 +201,10 @@ def test_nodes_that_no_hex_uses_do_not_count(seen):
     np.testing.assert_array_equal(pixels(), before)
 
 
-def test_setting_the_plane_is_no_wish_of_the_user(plotter):
+def test_setting_the_plane_is_no_wish_of_the_user(pane):
     told = []
-    plotter.show(auto_close=False, interactive=False)
-    widget = PlaneWidget(plotter, told.append)
+    pane.window.Render()
+    widget = PlaneWidget(pane, told.append)
     widget.set_bounds((0, 4, 0, 4, 0, 4))
     for plane in (INSIDE.planes[0], ClipPlane((1, 0, 0), (1, 0, 0)), None, INSIDE.planes[0]):
         widget.set(plane)
@@ -233,7 +231,7 @@ def test_what_is_picked_is_what_is_seen(seen):
     )
 
 
-def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there_is_room(seen, plotter):
+def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there_is_room(seen, pane):
     viewport, pixels = seen
     plain = pixels()
     inner = 21
@@ -246,8 +244,8 @@ def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there
     eye.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
     eye.reset_depth()
     centre = MESH.points[MESH.hexes[inner]].mean(axis=0)
-    np.testing.assert_allclose(plotter.camera.GetFocalPoint(), centre)
-    plotter.camera.Dolly(2.0)
+    np.testing.assert_allclose(pane.camera.GetFocalPoint(), centre)
+    pane.camera.Dolly(2.0)
     near = pixels()
     viewport.chosen.select(inner, False, None)
     assert (near != pixels()).any()
@@ -259,7 +257,7 @@ def test_a_large_skin_is_drawn_coarsely_while_the_camera_turns_and_finely_at_res
     viewport.still()
     fine = pixels()
     viewport.turning()
-    mapper = viewport.body.skin.actor.mapper
+    mapper = viewport.body.skin.actor.GetMapper()
     rough = mapper.GetInput()
     assert 0 < rough.GetNumberOfCells() != viewport.body.whole.GetNumberOfCells()
     turned = pixels()

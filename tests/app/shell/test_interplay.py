@@ -162,7 +162,7 @@ def test_a_click_that_turns_the_mesh_a_little_takes_what_is_under_it(window, qtb
     monkeypatch.setattr(body, "MANY", 10)
     view = window.canvas.viewport
     window.canvas.draw_still()
-    width, height = view._plotter.render_window.GetSize()
+    width, height = window.canvas.interactor.render_window.GetSize()
     places = [(width * x, height * y) for x in (0.4, 0.45, 0.5, 0.55) for y in (0.4, 0.5, 0.6)]
     exact = [_found(view, place) for place in places]
     assert any(exact)

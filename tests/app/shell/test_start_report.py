@@ -31,6 +31,5 @@ def test_the_window_is_painted_before_what_draws_in_it_is_loaded(moments):
     assert loaded(moments["window"]) & LATER == set()
 
 
-@pytest.mark.xfail(strict=True, reason="PyVista imports it whole")
 def test_nothing_is_loaded_that_saved_figures_alone_need(moments):
     assert "matplotlib.pyplot" not in moments["picture"]["modules"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 Vector = tuple[float, float, float]
 
@@ -41,12 +41,12 @@ def up_in(direction: Vector, up: str) -> Vector:
     return axis if across > _ALONG * np.linalg.norm(direction) else instead
 
 
-def look_from(camera: pv.Camera, name: str | Vector, up: str) -> None:
+def look_from(camera: vtkCamera, name: str | Vector, up: str) -> None:
     """Look at the origin from a direction.
 
     Parameters
     ----------
-    camera : pyvista.Camera
+    camera : vtkCamera
     name : str or (x, y, z)
         One of `VIEWS`, or a vector.
     up : str

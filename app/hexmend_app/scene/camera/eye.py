@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkBoundingBox
 from vtkmodules.vtkRenderingCore import vtkCamera
 
@@ -46,7 +45,7 @@ class Eye:
         return cls(lambda: [view], view.layers[0].GetTiledAspectRatio)
 
     @property
-    def camera(self) -> pv.Camera:
+    def camera(self) -> vtkCamera:
         """What is looked through."""
         return self._views()[0].camera
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 #: Share of the picture's half that stays free at the tightest side.
 _MARGIN = 0.04
@@ -16,7 +15,7 @@ def bounds_of(places: np.ndarray) -> tuple[float, float, float, float, float, fl
     return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
 
 
-def fit(camera: pv.Camera, places: np.ndarray, aspect: float) -> None:
+def fit(camera: vtkCamera, places: np.ndarray, aspect: float) -> None:
     """Bring a camera so near that places just fill the picture, none of them outside.
 
     VTK itself makes room for the sphere around their box, which leaves a third of the picture empty. In perspective
@@ -24,7 +23,7 @@ def fit(camera: pv.Camera, places: np.ndarray, aspect: float) -> None:
 
     Parameters
     ----------
-    camera : pyvista.Camera
+    camera : vtkCamera
         Its direction is kept; its place, focal point and parallel scale are set.
     places : (k, 3) float64
         At least one.

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pyvista as pv
 from vtkmodules.vtkCommonCore import vtkMath
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera.pose import Pose
 
@@ -18,12 +18,12 @@ class Flight:
 
     Parameters
     ----------
-    camera : pyvista.Camera
+    camera : vtkCamera
         Takes the pose's projection at once.
     goal : Pose
     """
 
-    def __init__(self, camera: pv.Camera, goal: Pose):
+    def __init__(self, camera: vtkCamera, goal: Pose):
         self._camera, self.goal = camera, goal
         start = Pose.of(camera)
         self._focus = np.array(start.focal), np.array(goal.focal)

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-import pyvista as pv
 from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera.directions import UPS
 
 
-def turn(camera: pv.Camera, right: float, up: float, axis: str) -> None:
+def turn(camera: vtkCamera, right: float, up: float, axis: str) -> None:
     """Turn what is seen about the point that the camera looks at.
 
     Parameters
     ----------
-    camera : pyvista.Camera
+    camera : vtkCamera
     right, up : float
         Degrees; to the right is about the axis that is up, so that the picture stays upright.
     axis : str
@@ -32,7 +32,7 @@ def turn(camera: pv.Camera, right: float, up: float, axis: str) -> None:
     camera.OrthogonalizeViewUp()  # or the next turn over a pole goes wrong
 
 
-def pan(camera: pv.Camera, right: float, up: float) -> None:
+def pan(camera: vtkCamera, right: float, up: float) -> None:
     """Shift what is seen to the right and up, by shares of the picture's height."""
     focus, place = np.array(camera.GetFocalPoint()), np.array(camera.GetPosition())
     upwards = np.array(camera.GetViewUp())
@@ -45,7 +45,7 @@ def pan(camera: pv.Camera, right: float, up: float) -> None:
     camera.SetPosition(place - shift)
 
 
-def zoom(camera: pv.Camera, factor: float) -> None:
+def zoom(camera: vtkCamera, factor: float) -> None:
     """Show what is seen larger by a factor, in either projection."""
     camera.Dolly(factor)
     camera.SetParallelScale(camera.GetParallelScale() / factor)

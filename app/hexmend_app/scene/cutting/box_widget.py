@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 
 from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.palette import PLANE_EDGE, PLANE_HELD
+from hexmend_app.scene.palette import PLANE_EDGE, PLANE_HELD, rgb
+from hexmend_app.scene.pane import Pane
 from hexmend_app.state.clip import BoxClip
 
 
@@ -19,13 +19,12 @@ class BoxWidget(Handles):
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
-        One with an interactor.
+    pane : Pane
     moved : callable
         Called with (low, high) as the user drags; never for what is set by `set`.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, moved: Callable[[tuple, tuple], None]):
+    def __init__(self, pane: Pane, moved: Callable[[tuple, tuple], None]):
         self._moved = moved
         self._bounds: np.ndarray | None = None
         shape = vtkBoxRepresentation()
@@ -40,13 +39,13 @@ class BoxWidget(Handles):
         widget.SetRepresentation(shape)
         widget.RotationEnabledOff()
         widget.ScalingEnabledOff()
-        super().__init__(plotter, widget)
+        super().__init__(pane, widget)
 
     def set_dark(self, dark: bool) -> None:
         """Draw it for the dark ground, or for the light one."""
-        self._shape.GetOutlineProperty().SetColor(pv.Color(PLANE_EDGE.of(dark)).float_rgb)
+        self._shape.GetOutlineProperty().SetColor(rgb(PLANE_EDGE.of(dark)))
         for part in ("SelectedFace", "SelectedOutline", "Handle"):
-            getattr(self._shape, f"Get{part}Property")().SetColor(pv.Color(PLANE_HELD.of(dark)).float_rgb)
+            getattr(self._shape, f"Get{part}Property")().SetColor(rgb(PLANE_HELD.of(dark)))
 
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
         """Take the size of the mesh; the box is not dragged out of it."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import pyvista as pv
 from vtkmodules.vtkInteractionWidgets import vtkAbstractWidget
+
+from hexmend_app.scene.pane import Pane
 
 
 class Handles:
@@ -11,17 +12,16 @@ class Handles:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
-        One with an interactor.
+    pane : Pane
     widget : vtkAbstractWidget
         With its representation.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, widget: vtkAbstractWidget):
+    def __init__(self, pane: Pane, widget: vtkAbstractWidget):
         self._widget = widget
-        self._renderer = plotter.renderer
+        self._renderer = pane.renderer
         self._dragging = False
-        widget.SetInteractor(plotter.iren.interactor)
+        widget.SetInteractor(pane.window.GetInteractor())
         widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
         widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
         widget.AddObserver("InteractionEvent", self._announce)

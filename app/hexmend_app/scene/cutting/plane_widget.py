@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import pyvista as pv
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
 
 from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.palette import PLANE, PLANE_EDGE, PLANE_HELD
+from hexmend_app.scene.palette import PLANE, PLANE_EDGE, PLANE_HELD, rgb
+from hexmend_app.scene.pane import Pane
 from hexmend_app.state.clip import ClipPlane
 
 
@@ -17,13 +17,12 @@ class PlaneWidget(Handles):
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
-        One with an interactor.
+    pane : Pane
     moved : callable
         Called with the ClipPlane as the user drags; never for what is set by `set`.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, moved: Callable[[ClipPlane], None]):
+    def __init__(self, pane: Pane, moved: Callable[[ClipPlane], None]):
         self._moved = moved
         self._placed = False
         self._plane: ClipPlane | None = None
@@ -41,11 +40,11 @@ class PlaneWidget(Handles):
         self.set_dark(False)
         widget = vtkImplicitPlaneWidget2()
         widget.SetRepresentation(shape)
-        super().__init__(plotter, widget)
+        super().__init__(pane, widget)
 
     def set_dark(self, dark: bool) -> None:
         """Draw it for the dark ground, or for the light one."""
-        edge, plane, held = (pv.Color(role.of(dark)).float_rgb for role in (PLANE_EDGE, PLANE, PLANE_HELD))
+        edge, plane, held = (rgb(role.of(dark)) for role in (PLANE_EDGE, PLANE, PLANE_HELD))
         self._shape.SetEdgeColor(edge)
         self._shape.GetPlaneProperty().SetColor(plane)
         self._shape.GetSelectedPlaneProperty().SetColor(held)

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import pyvista as pv
 from PIL import Image, ImageDraw
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend.mesh import Mesh
 from hexmend.movement import Movement
@@ -16,7 +16,8 @@ from hexmend_app.scene.arrangement import columns
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, pen_of, strip_height
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.panes import ROOM, Panes
+from hexmend_app.scene.panes import Panes
+from hexmend_app.scene.stage import Stage
 from hexmend_app.state.look import Look
 from hexmend_app.state.views import Wipe
 
@@ -56,7 +57,7 @@ def figure(
     filters: Filters | None = None,
     movement: Movement | None = None,
     view: str | tuple[float, float, float] = "iso",
-    camera: pv.Camera | None = None,
+    camera: vtkCamera | None = None,
     wipe: Wipe | None = None,
     transparent: bool = False,
     bar: bool = True,
@@ -79,36 +80,25 @@ def figure(
     unit = strip_height(size)
     strip, line = unit if bar and not look.neutral else 0, round(_CAPTION * unit)
     rows = len(panels) // columns(len(panels)) if wipe is None else 1
-    plotter = pv.Plotter(
-        off_screen=True, shape=(1, ROOM), border=False, window_size=(width, height - strip - rows * line)
-    )
-    try:
-        panes = Panes(plotter, filters, pen_of(size))
+    with Stage((width, height - strip - rows * line)) as stage:
+        panes = Panes(stage.window, filters, pen_of(size))
         first, *others = panels
         panes.draw(Frame(first.mesh, first.figures, movement, look))
         panes.show([(other.mesh, other.figures) for other in others], wipe)
         panes.eye.look_along(view)
         if camera is not None:
-            plotter.camera.DeepCopy(camera)
+            panes.eye.camera.DeepCopy(camera)
             panes.eye.reset_depth()
-        plotter.camera_set = True
         panes.still()
         panes.shade()
-        plotter.show(auto_close=False, interactive=False)
-        pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
-        colouring, apart = (
-            panes.first.colouring,
-            [(name, None, colour) for name, _, colour in panes.first.colours.apart],
-        )
-    finally:
-        plotter.close()
-    image = Image.fromarray(np.asarray(pixels))
+        image = Image.fromarray(stage.picture(transparent))
     whole = paper(size, image.mode)
     whole.paste(image, (0, line))
     if line:
         _write(whole, panels, wipe, line, line + image.height)
     if strip:
-        whole.paste(colour_bar(colouring, apart, (width, strip), image.mode), (0, height - strip))
+        apart = [(name, None, colour) for name, _, colour in panes.first.colours.apart]
+        whole.paste(colour_bar(panes.first.colouring, apart, (width, strip), image.mode), (0, height - strip))
     return whole
 
 

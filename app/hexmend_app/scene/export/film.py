@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
-import pyvista as pv
 from PIL import Image, ImageDraw
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
@@ -15,6 +15,8 @@ from hexmend.movement import Moment, Movement
 from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, pen_of, strip_height
 from hexmend_app.scene.export.shots import Shot
 from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look, Since
 
@@ -34,7 +36,7 @@ def pictures(
     size: tuple[int, int],
     *,
     view: str | tuple[float, float, float] = "iso",
-    camera: pv.Camera | None = None,
+    camera: vtkCamera | None = None,
     movement: Movement | None = None,
 ) -> Iterator[Image.Image]:
     """Draw frames one after another, off screen, with one camera.
@@ -47,7 +49,7 @@ def pictures(
         In pixels, caption and colour bar included.
     view : str or vector
         The direction to look from, where no camera is given.
-    camera : pyvista.Camera, optional
+    camera : vtkCamera, optional
         To be looked through.
     movement : Movement, optional
         Of the moment that every picture is compared with, where the look shows a movement; one since the iteration
@@ -55,9 +57,8 @@ def pictures(
     """
     width, height = size
     strip = strip_height(size)
-    plotter = pv.Plotter(off_screen=True, window_size=(width, height - (1 if look.neutral else 2) * strip))
-    try:
-        viewport = Viewport(plotter, pen=pen_of(size))
+    with Stage((width, height - (1 if look.neutral else 2) * strip)) as stage:
+        viewport = Viewport(Pane(stage.window), pen=pen_of(size))
         seen_last: Moment | None = None
         for shot in shots:
             mesh, figures = shot.state.mesh, shot.state.figures
@@ -69,26 +70,14 @@ def pictures(
             first = viewport.frame is None
             viewport.draw(Frame(mesh, figures, movement, look))
             if first:
-                _place(plotter, viewport, view, camera)
+                viewport.view(view)
+                if camera is not None:
+                    viewport.camera.DeepCopy(camera)
+                    viewport.camera.SetWindowCenter(0, 0)
             viewport.still()
             viewport.shade()
-            plotter.renderer.ResetCameraClippingRange()
-            plotter.render()
-            seen = Image.fromarray(np.asarray(plotter.screenshot(return_img=True)))
-            yield _framed(seen, shot, viewport, size, strip)
-    finally:
-        plotter.close()
-
-
-def _place(
-    plotter: pv.Plotter, viewport: Viewport, view: str | tuple[float, float, float], camera: pv.Camera | None
-) -> None:
-    viewport.view(view)
-    if camera is not None:
-        plotter.camera.DeepCopy(camera)
-        plotter.camera.SetWindowCenter(0, 0)
-    plotter.camera_set = True
-    plotter.show(auto_close=False, interactive=False)
+            viewport.layers[0].ResetCameraClippingRange()
+            yield _framed(Image.fromarray(stage.picture()), shot, viewport, size, strip)
 
 
 def _framed(seen: Image.Image, shot: Shot, viewport: Viewport, size: tuple[int, int], strip: int) -> Image.Image:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import pyvista as pv
 from PIL import Image, ImageDraw, ImageFont
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
@@ -15,6 +15,8 @@ from hexmend.node_step import NodeStep
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 
 INK = (31, 38, 48)
@@ -36,7 +38,7 @@ def picture(
     filters: Filters | None = None,
     node_step: NodeStep | None = None,
     view: str | tuple[float, float, float] = "iso",
-    camera: pv.Camera | None = None,
+    camera: vtkCamera | None = None,
     transparent: bool = False,
     bar: bool = True,
 ) -> Image.Image:
@@ -54,7 +56,7 @@ def picture(
         A node's step that is drawn too.
     view : str or vector
         The direction to look from, where no camera is given.
-    camera : pyvista.Camera, optional
+    camera : vtkCamera, optional
         To be looked through.
     transparent : bool
         Leave the background out.
@@ -63,24 +65,18 @@ def picture(
     """
     width, height = size
     strip = strip_height(size) if bar and not frame.look.neutral else 0
-    plotter = pv.Plotter(off_screen=True, window_size=(width, height - strip))
-    try:
-        viewport = Viewport(plotter, filters=filters, pen=pen_of(size))
+    with Stage((width, height - strip)) as stage:
+        viewport = Viewport(Pane(stage.window), filters=filters, pen=pen_of(size))
         viewport.draw(frame)
         viewport.chosen.show_node_step(node_step)
         viewport.view(view)
         if camera is not None:
-            plotter.camera.DeepCopy(camera)
-            plotter.camera.SetWindowCenter(0, 0)
-            plotter.renderer.ResetCameraClippingRange()
-        plotter.camera_set = True
+            viewport.camera.DeepCopy(camera)
+            viewport.camera.SetWindowCenter(0, 0)
+            viewport.layers[0].ResetCameraClippingRange()
         viewport.still()
         viewport.shade()
-        plotter.show(auto_close=False, interactive=False)
-        pixels = plotter.screenshot(transparent_background=transparent, return_img=True)
-    finally:
-        plotter.close()
-    image = Image.fromarray(np.asarray(pixels))
+        image = Image.fromarray(stage.picture(transparent))
     if not strip:
         return image
     whole = paper(size, image.mode)

@@ -9,9 +9,10 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 from hexmend.movement import NOTHING, Movement
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.body import Body
-from hexmend_app.scene.layers.overlay import overlay
 from hexmend_app.scene.layers.structure import uncut
 from hexmend_app.scene.layers.surface import set_points
+from hexmend_app.scene.palette import rgb
+from hexmend_app.scene.pane import Pane
 from hexmend_app.state.look import Arrows
 
 #: Arrows that are drawn at most, the longest first: so many cost 20 ms of a moving frame without a graphics card.
@@ -38,7 +39,7 @@ _FACES = np.array([[3, 6, 2, 3], [3, 6, 3, 4], [3, 6, 4, 5], [3, 6, 5, 2]])
 
 
 class ArrowLayer:
-    """Draws arrows in a plotter, dark with a light rim, so that they are seen on every colour.
+    """Draws arrows in a pane, dark with a light rim, so that they are seen on every colour.
 
     Attributes
     ----------
@@ -47,15 +48,15 @@ class ArrowLayer:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
+    pane : Pane
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
-        self._inside = overlay(plotter)
+    def __init__(self, pane: Pane, pen: float = 1.0):
+        self._inside = pane.overlay()
         self._points = pv.PolyData()
-        self._front_actors = _actors(plotter.renderer, pen)
+        self._front_actors = _actors(pane.renderer, pen)
         self._inside_actors = _actors(self._inside, pen)
         self._pen = pen
         self.drawn = self.moved = 0
@@ -190,7 +191,7 @@ def _actors(renderer: vtkRenderer, pen: float) -> tuple[vtkActor, vtkActor, vtkA
     """The rim of shafts, shafts, and heads."""
     lines = (_RIM, _RIM_WIDTH, -40.0), (_INK, _SHAFT_WIDTH, -80.0), (_INK, 1.0, -80.0)
     rim, shaft, head = (_actor(renderer, colour, pen * width, before) for colour, width, before in lines)
-    head.GetProperty().SetEdgeColor(*pv.Color(_RIM).float_rgb)
+    head.GetProperty().SetEdgeColor(rgb(_RIM))
     head.GetProperty().SetEdgeOpacity(0.6)
     return rim, shaft, head
 
@@ -205,7 +206,7 @@ def _actor(renderer: vtkRenderer, colour: str, width: float, before: float) -> v
     actor.SetMapper(mapper)
     actor.PickableOff()
     how = actor.GetProperty()
-    how.SetColor(*pv.Color(colour).float_rgb)
+    how.SetColor(rgb(colour))
     how.SetLineWidth(width)
     how.LightingOff()
     renderer.AddActor(actor)

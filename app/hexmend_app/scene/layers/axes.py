@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import pyvista as pv
+from vtkmodules.vtkInteractionWidgets import vtkOrientationMarkerWidget
+from vtkmodules.vtkRenderingAnnotation import vtkAxesActor
+from vtkmodules.vtkRenderingCore import vtkTextProperty
 
-from hexmend_app.scene.palette import AXES
+from hexmend_app.scene.palette import AXES, rgb
 from hexmend_app.scene.pane import Pane
 
 #: Where they are, x low, y low, x high, y high as shares of a window that is one view.
@@ -14,29 +16,51 @@ _PLACE = (0.0, 0.0, 0.13, 0.18)
 #: Pixels of their height and width below which their letters lie over one another.
 _LEAST = 80
 
+#: Colours of X, Y and Z.
+_COLOURS = {"X": "#ff6347", "Y": "#2e8b57", "Z": "#0000ff"}
+
 
 class Axes:
     """Draws X, Y and Z as the camera sees them.
 
+    Attributes
+    ----------
+    widget : vtkOrientationMarkerWidget
+
     Parameters
     ----------
-    plotter : pyvista.BasePlotter or Pane
+    pane : Pane
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane, pen: float = 1.0):
-        self._plotter = plotter
-        self._actor = plotter.add_axes(line_width=2 * pen, labels_off=False, viewport=_PLACE)
+    def __init__(self, pane: Pane, pen: float = 1.0):
+        self._pane = pane
+        self._actor = vtkAxesActor()
+        for letter, colour in _COLOURS.items():
+            for part in ("Shaft", "Tip"):
+                how = getattr(self._actor, f"Get{letter}Axis{part}Property")()
+                how.SetColor(rgb(colour))
+                how.SetAmbient(0.5)
+                how.SetLineWidth(2 * pen)
+            self._text(letter).ShadowOff()
+        self.widget = vtkOrientationMarkerWidget()
+        self.widget.SetOrientationMarker(self._actor)
+        self.widget.SetInteractor(pane.window.GetInteractor())
+        self.widget.SetDefaultRenderer(pane.renderer)
+        self.widget.EnabledOn()
+        self.widget.InteractiveOff()
+        self.widget.SetViewport(*_PLACE)
+
+    def _text(self, letter: str) -> vtkTextProperty:
+        return getattr(self._actor, f"Get{letter}AxisCaptionActor2D")().GetCaptionTextProperty()
 
     def set_dark(self, dark: bool) -> None:
         """Write the letters for the dark theme's ground, or for the light one's."""
-        for letter in "XYZ":
-            label = getattr(self._actor, f"Get{letter}AxisCaptionActor2D")()
-            label.GetCaptionTextProperty().SetColor(*pv.Color(AXES.of(dark)).float_rgb)
+        for letter in _COLOURS:
+            self._text(letter).SetColor(rgb(AXES.of(dark)))
 
     def fit(self) -> None:
         """Draw them as large as in a window of one view, and so that they can be read."""
-        renderer = self._plotter.renderer
-        pixels = np.maximum(np.multiply(_PLACE[2:], self._plotter.render_window.GetSize()), _LEAST)
-        renderer.axes_widget.SetViewport(0, 0, *np.minimum(pixels / np.maximum(renderer.GetSize(), 1), 1))
+        pixels = np.maximum(np.multiply(_PLACE[2:], self._pane.window.GetSize()), _LEAST)
+        self.widget.SetViewport(0, 0, *np.minimum(pixels / np.maximum(self._pane.renderer.GetSize(), 1), 1))

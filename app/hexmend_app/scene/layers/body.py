@@ -35,17 +35,14 @@ class Body:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter or Pane
+    pane : Pane
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane, pen: float = 1.0):
-        self.skin, self.section = Surface(plotter, "skin", pen), Surface(plotter, "section", pen)
-        self._halos = (
-            (self.skin, Halo(plotter, "halo of skin", pen)),
-            (self.section, Halo(plotter, "halo of section", pen)),
-        )
+    def __init__(self, pane: Pane, pen: float = 1.0):
+        self.skin, self.section = Surface(pane.renderer, pen), Surface(pane.renderer, pen)
+        self._halos = [(surface, Halo(pane.renderer, pen)) for surface in (self.skin, self.section)]
         self._coarse: pv.PolyData | None = None  # of the skin, drawn while the camera moves
         self._steady = False  # nothing but the camera has moved since the last fine frame
         self._shading = True

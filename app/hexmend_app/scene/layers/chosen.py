@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh import Mesh
@@ -25,14 +24,14 @@ class Chosen:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter or Pane
+    pane : Pane
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter | Pane, pen: float = 1.0):
-        self.highlight = Highlight(plotter, pen)
-        self._node_step = NodeStepMarks(plotter, pen)
+    def __init__(self, pane: Pane, pen: float = 1.0):
+        self.highlight = Highlight(pane, pen)
+        self._node_step = NodeStepMarks(pane, pen)
         self.hex: int | None = None
         self._with_corners = False
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.layers.flat import flat_actor
 from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.palette import GHOST
+from hexmend_app.scene.palette import GHOST, rgb
 from hexmend_app.scene.skin import Faces, Skin
 
 #: How strongly they are drawn. They have one colour and no light, so that it does not matter which is drawn first.
@@ -19,26 +21,22 @@ class Ghosts:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter or Pane
+    renderer : vtkRenderer
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
-        how = {"color": str(GHOST), "lighting": False, "reset_camera": False, "pickable": False, "render": False}
+    def __init__(self, renderer: vtkRenderer, pen: float = 1.0):
         self._poly, self._lines = pv.PolyData(), pv.PolyData()
         self._faces: Faces | None = None
-        self._actors = (
-            plotter.add_mesh(pv.Triangle(), name="ghosts", opacity=_FACES, culling="back", **how),
-            plotter.add_mesh(pv.Line(), name="ghosts' edges", opacity=_EDGES, line_width=pen, **how),
-        )
+        self._actors = flat_actor(renderer, opacity=_FACES), flat_actor(renderer, pen, _EDGES)
+        self._actors[0].GetProperty().BackfaceCullingOn()
         self.set_dark(False)
-        self._show(False)
 
     def set_dark(self, dark: bool) -> None:
         """Draw for the dark ground, or for the light one."""
         for actor in self._actors:
-            actor.prop.color = GHOST.of(dark)
+            actor.GetProperty().SetColor(rgb(GHOST.of(dark)))
 
     @property
     def shown(self) -> bool:
@@ -78,7 +76,7 @@ class Ghosts:
         self._lines.SetPoints(self._poly.GetPoints())
         self._lines.lines = np.column_stack([np.full(len(edges), 2), edges]).ravel()
         for actor, poly in zip(self._actors, (self._poly, self._lines), strict=True):
-            actor.mapper.SetInputData(poly)
+            actor.GetMapper().SetInputData(poly)
 
     def move(self, frame: Frame) -> None:
         """Draw the same where the nodes are now."""

@@ -6,10 +6,13 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.colours import INVERTED
+from hexmend_app.scene.layers.flat import flat_actor
 from hexmend_app.scene.layers.surface import colours_of
+from hexmend_app.scene.palette import rgb
 
 # Colour, width in pixels, and how far before the surface, in VTK's units of depth: the light line before its rim. Light
 # stands out from the dark end of every map and from magenta, dark from the light end; the dark is a magenta too, so
@@ -28,18 +31,14 @@ class Halo:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
-    name : str
+    renderer : vtkRenderer
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, name: str, pen: float = 1.0):
-        self._renderer, self._least = plotter.renderer, _LEAST * pen
-        self._actors = [
-            _actor(plotter, f"{name} {k}", colour, pen * width, before)
-            for k, (colour, width, before) in enumerate(_LINES)
-        ]
+    def __init__(self, renderer: vtkRenderer, pen: float = 1.0):
+        self._renderer, self._least = renderer, _LEAST * pen
+        self._actors = [_actor(renderer, colour, pen * width, before) for colour, width, before in _LINES]
         self._each, self._rims = pv.PolyData(), pv.PolyData()
         self._size, self._middle = 0.0, np.zeros(3)  # of an edge, in the mesh's unit, and where it is about
         self._renderer.AddObserver("StartEvent", self._fit)
@@ -60,7 +59,7 @@ class Halo:
         self._size = float(np.median(np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)))
         self._middle = points[ends[:, 0]].mean(axis=0)
         for actor in self._actors:
-            actor.mapper.SetInputData(self._each)
+            actor.GetMapper().SetInputData(self._each)
             actor.SetVisibility(True)
 
     def hide(self) -> None:
@@ -74,7 +73,7 @@ class Halo:
             return
         room = pixels(self._renderer, self._size, self._middle) >= self._least
         for actor in self._actors:
-            actor.mapper.SetInputData(self._each if room else self._rims)
+            actor.GetMapper().SetInputData(self._each if room else self._rims)
 
 
 def outlines(poly: pv.PolyData, marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -121,17 +120,10 @@ def _lines(poly: pv.PolyData, ends: np.ndarray) -> pv.PolyData:
     return lines
 
 
-def _actor(plotter: pv.BasePlotter, name: str, colour: str, width: float, before: float) -> pv.Actor:
-    actor = plotter.add_mesh(
-        pv.Line(),
-        name=name,
-        color=colour,
-        line_width=width,
-        lighting=False,
-        reset_camera=False,
-        pickable=False,
-        render=False,
-    )
-    actor.mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    actor.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, before)
+def _actor(renderer: vtkRenderer, colour: str, width: float, before: float) -> vtkActor:
+    actor = flat_actor(renderer, width)
+    actor.GetProperty().SetColor(rgb(colour))
+    mapper = actor.GetMapper()
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, before)
     return actor

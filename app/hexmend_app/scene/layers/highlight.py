@@ -8,7 +8,8 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkPo
 
 from hexmend.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
-from hexmend_app.scene.layers.overlay import overlay
+from hexmend_app.scene.palette import rgb
+from hexmend_app.scene.pane import Pane
 
 _LINE, _HALO, _ARROW = "#ffffff", "#11151c", "#ff8c00"
 _LINES = np.column_stack([np.full(12, 2), EDGES]).ravel()
@@ -27,14 +28,14 @@ class Highlight:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
+    pane : Pane
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
+    def __init__(self, pane: Pane, pen: float = 1.0):
         self._pen = pen
-        self._layer = overlay(plotter)
+        self._layer = pane.overlay()
         self.box = pv.PolyData(np.zeros((8, 3)), lines=_LINES)
         self._actors = [self._lines(colour, width) for colour, width in ((_HALO, 5), (_LINE, 2))]
         self._texts = [self._text() for _ in range(8)]
@@ -61,7 +62,7 @@ class Highlight:
         mapper.SetInputData(poly)
         actor = vtkActor()
         actor.SetMapper(mapper)
-        actor.GetProperty().SetColor(*pv.Color(colour).float_rgb)
+        actor.GetProperty().SetColor(rgb(colour))
         actor.GetProperty().LightingOff()
         self._layer.AddActor(actor)
         return actor

@@ -7,6 +7,7 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend_app.scene.layers.surface import set_points
+from hexmend_app.scene.palette import rgb
 
 _RIM = "#11151c"
 _COLOURS = "colours"
@@ -52,7 +53,7 @@ class Marks:
         actor = vtkActor()
         actor.SetMapper(mapper)
         actor.PickableOff()
-        actor.GetProperty().SetColor(*pv.Color(_RIM).float_rgb)
+        actor.GetProperty().SetColor(rgb(_RIM))
         actor.GetProperty().LightingOff()
         renderer.AddActor(actor)
         return actor

@@ -8,8 +8,8 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend.hexahedron import EDGES, FACES
 from hexmend.node_step import NodeStep
-from hexmend_app.scene.layers.overlay import overlay
-from hexmend_app.scene.palette import OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, UPHILL, Role
+from hexmend_app.scene.palette import OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, UPHILL, Role, rgb
+from hexmend_app.scene.pane import Pane
 
 _RIM = "#11151c"
 
@@ -28,7 +28,7 @@ class NodeStepMarks:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter or Pane
+    pane : Pane
     pen : float
         How many pixels wide a thin line is.
 
@@ -38,9 +38,9 @@ class NodeStepMarks:
         What is drawn.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
+    def __init__(self, pane: Pane, pen: float = 1.0):
         self._pen = pen
-        self._behind, self._front = (overlay(plotter) for _ in range(2))  # the patch, and what is drawn over it
+        self._behind, self._front = (pane.overlay() for _ in range(2))  # the patch, and what is drawn over it
         self.step: NodeStep | None = None
         self._dark = False
         self._roles: dict[vtkActor, Role] = {}
@@ -68,7 +68,7 @@ class NodeStepMarks:
         how.LightingOff()
         how.SetLineWidth(self._pen * width)
         how.SetOpacity(opacity)
-        how.SetColor(*pv.Color(_RIM).float_rgb)
+        how.SetColor(rgb(_RIM))
         if role is not None:
             self._roles[actor] = role
         layer.AddActor(actor)
@@ -83,7 +83,7 @@ class NodeStepMarks:
     def set_dark(self, dark: bool) -> None:
         """Take the colours of the dark theme, or of the light one."""
         for actor, role in self._roles.items():
-            actor.GetProperty().SetColor(*pv.Color(role.of(dark)).float_rgb)
+            actor.GetProperty().SetColor(rgb(role.of(dark)))
 
     def show(self, step: NodeStep, hexes: np.ndarray, points: np.ndarray) -> None:
         """Draw a step.

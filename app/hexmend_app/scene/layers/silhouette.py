@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkMapper
+from vtkmodules.vtkRenderingCore import vtkMapper, vtkRenderer
 
 from hexmend.kernels import skin
 from hexmend.mesh import Mesh
 from hexmend.structure import sharp_edges
+from hexmend_app.scene.layers.flat import flat_actor
 from hexmend_app.scene.layers.structure import uncut
 from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.palette import SHADE, SHARP, SILHOUETTE
+from hexmend_app.scene.palette import SHADE, SHARP, SILHOUETTE, rgb
 from hexmend_app.state.look import Look
 
 #: Of the ends of sharp edges; where more belong to one sharp edge alone, a round body has facets that are sharp here
@@ -39,14 +40,14 @@ class Silhouette:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
+    renderer : vtkRenderer
     mesh : Mesh
         Its boundary is drawn where its nodes are; `move` says where they go.
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, mesh: Mesh, pen: float = 1.0):
+    def __init__(self, renderer: vtkRenderer, mesh: Mesh, pen: float = 1.0):
         self._mesh, faces = mesh, mesh.topology.boundary_faces
         self._edges = edges = sharp_edges(mesh.points, faces)
         self._lines = lines = form_lines(edges)
@@ -55,25 +56,19 @@ class Silhouette:
         self._places = places = places.reshape(cells.shape)
         points = mesh.points[self._nodes]
         self._poly = _lines(points, places) if lines else pv.PolyData.from_regular_faces(points, places)
-        how = {"lighting": False, "reset_camera": False, "pickable": False, "render": False}
-        self._actor = plotter.add_mesh(
-            self._poly if len(cells) else pv.PolyData(np.zeros((1, 3))),
-            name="outline",
-            line_width=pen,
-            culling=None if lines else "back",
-            **how,
-        )
-        self._sharp = plotter.add_mesh(pv.PolyData(np.zeros((1, 3))), name="sharp edges", line_width=_BOLD * pen, **how)
-        _offset(self._sharp.mapper, _BEFORE, _BEFORE)
+        self._renderer = renderer
+        self._actor, self._sharp = flat_actor(renderer, pen), flat_actor(renderer, _BOLD * pen)
+        self._actor.GetMapper().SetInputData(self._poly)
+        _offset(self._sharp.GetMapper(), _BEFORE, _BEFORE)
         if not lines:
-            _offset(self._actor.mapper, 0.0, _BEHIND)
+            self._actor.GetProperty().BackfaceCullingOn()
+            _offset(self._actor.GetMapper(), 0.0, _BEHIND)
         self.set_dark(False)
-        self.hide()
 
     def set_dark(self, dark: bool) -> None:
         """Draw for the dark ground, or for the light one."""
-        self._actor.prop.color = (SILHOUETTE if self._lines else SHADE).of(dark)
-        self._sharp.prop.color = SHARP.of(dark)
+        self._actor.GetProperty().SetColor(rgb((SILHOUETTE if self._lines else SHADE).of(dark)))
+        self._sharp.GetProperty().SetColor(rgb(SHARP.of(dark)))
 
     def hide(self) -> None:
         """Draw nothing."""
@@ -97,7 +92,7 @@ class Silhouette:
         if shown.any():
             lines = _lines(self._poly.points, self._places[shown])
             lines.SetPoints(self._poly.GetPoints())  # which move
-            self._sharp.mapper.SetInputData(lines)
+            self._sharp.GetMapper().SetInputData(lines)
 
     def _shown(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> np.ndarray:
         """True for the sharp edges of elements that are shown, and before a smooth cut; (e,) bool."""
@@ -114,6 +109,11 @@ class Silhouette:
         places = points[self._nodes]
         if not np.array_equal(places, self._poly.points):
             set_points(self._poly, places)
+
+    def close(self) -> None:
+        """Draw it no more."""
+        for actor in (self._actor, self._sharp):
+            self._renderer.RemoveActor(actor)
 
 
 def _lines(points: np.ndarray, ends: np.ndarray) -> pv.PolyData:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.kernels import skin
@@ -13,7 +12,7 @@ from hexmend.structure import Structure as Found
 from hexmend.structure import structure
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.layers.marks import Marks
-from hexmend_app.scene.layers.overlay import overlay
+from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.skin import Faces
 from hexmend_app.state.look import Look, Structure
 
@@ -39,14 +38,14 @@ class StructureLayers:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
+    pane : Pane
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, pen: float = 1.0):
-        self._inside = overlay(plotter)  # what is not hidden is drawn twice, thick
-        front = self._front = plotter.renderer
+    def __init__(self, pane: Pane, pen: float = 1.0):
+        self._inside = pane.overlay()  # what is not hidden is drawn twice, thick
+        front = self._front = pane.renderer
         self._room = pen * _ROOM
         self._irregular, self._irregular_inside = Marks(front, 4, 1.25, pen), Marks(self._inside, 1.5, 0.75, pen)
         self._ends, self._ends_inside = Marks(front, 7, 2, pen), Marks(self._inside, 4, 1.5, pen)
@@ -205,7 +204,7 @@ def uncut(look: Look, points: np.ndarray) -> np.ndarray | bool:
 
 def _rgb(colour: str) -> np.ndarray:
     """One colour as (1, 3) uint8."""
-    return np.array([pv.Color(colour).int_rgb], np.uint8)
+    return np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)[None]
 
 
 _KINDS = np.concatenate([_rgb(colour) for colour in ("#000000", BOUNDARY, PINNED, FREE, LOCKED)])

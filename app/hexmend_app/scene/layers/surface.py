@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend_app.scene.layers.edges import EDGE, tone_edges
+from hexmend_app.scene.palette import rgb
 
 _COLOURS = "colours"
 _HEX = "hex"
@@ -20,41 +21,33 @@ class Surface:
 
     Parameters
     ----------
-    plotter : pyvista.BasePlotter
-    name : str
+    renderer : vtkRenderer
     pen : float
         How many pixels wide a thin line is.
     """
 
-    def __init__(self, plotter: pv.BasePlotter, name: str, pen: float = 1.0):
+    def __init__(self, renderer: vtkRenderer, pen: float = 1.0):
         self.poly = pv.PolyData()
         self._edges, self._without_edges = True, False
-        self.actor = plotter.add_mesh(
-            pv.Triangle(),
-            name=name,
-            color="white",
-            show_edges=True,
-            edge_color=EDGE,
-            edge_opacity=0.5,
-            line_width=pen,
-            lighting=True,
-            ambient=0.58,
-            diffuse=0.47,
-            specular=0,
-            smooth_shading=False,
-            reset_camera=False,
-            pickable=False,
-            render=False,
-        )
+        self.actor = vtkActor()
+        self.actor.PickableOff()
+        how = self.actor.GetProperty()
+        how.SetEdgeColor(rgb(EDGE))
+        how.SetEdgeOpacity(0.5)
+        how.SetLineWidth(pen)
+        how.SetAmbient(0.58)
+        how.SetDiffuse(0.47)
+        how.SetInterpolationToPhong()  # of polygons that have normals
         tone_edges(self.actor)
-        self.actor.GetProperty().SetInterpolationToPhong()  # of polygons that have normals
-        self._plain, self._fine = self.actor.mapper, vtkPolyDataMapper()
+        renderer.AddActor(self.actor)
+        self._plain, self._fine = vtkPolyDataMapper(), vtkPolyDataMapper()
         self._plain.SetScalarModeToUseCellFieldData()
         self._fine.SetScalarModeToUsePointFieldData()
         for mapper, colours in ((self._plain, _COLOURS), (self._fine, SHADED)):
             mapper.SelectColorArray(colours)
             mapper.SetColorModeToDirectScalars()
             mapper.ScalarVisibilityOn()
+        self._fit_edges()
         self.actor.SetVisibility(False)
 
     def replace(self, poly: pv.PolyData) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import pyvista as pv
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit
@@ -73,7 +72,7 @@ def pixels(window):
 
 
 def count(image, colour):
-    return int((image == np.array(pv.Color(colour).int_rgb)).all(axis=2).sum())
+    return int((image == np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)).all(axis=2).sum())
 
 
 # The panel
@@ -208,7 +207,7 @@ def test_a_pinned_node_changes_its_colour(five, qtbot):
     qtbot.wait(20)
     assert texts(five.features["structure"].panel, "fixed")[1] == "1 pinned"
     nodes = five.canvas.viewport._structure._nodes._poly
-    assert (nodes.cell_data["colours"] == pv.Color(PINNED).int_rgb).all(axis=1).sum() == 1
+    assert (nodes.cell_data["colours"] == tuple(bytes.fromhex(PINNED[1:]))).all(axis=1).sum() == 1
     five.session.commands.undo()
     qtbot.wait(20)
     assert len(texts(five.features["structure"].panel, "fixed")) == 1

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera.directions import UPS, VIEWS, look_from, up_in
 
@@ -10,7 +10,7 @@ from hexmend_app.scene.camera.directions import UPS, VIEWS, look_from, up_in
 @pytest.mark.parametrize("up", UPS)
 @pytest.mark.parametrize("name", VIEWS)
 def test_from_each_direction_the_axis_is_up_that_is_to_be(name, up):
-    camera = pv.Camera()
+    camera = vtkCamera()
     look_from(camera, name, up)
     ahead, upwards = np.array(camera.GetDirectionOfProjection()), np.array(camera.GetViewUp())
     axis = np.array(UPS[up][0])

@@ -7,7 +7,8 @@ import pyvista as pv
 from hexmend.quality import measure
 from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.panes import ROOM, Panes
+from hexmend_app.scene.panes import Panes
+from hexmend_app.scene.stage import Stage
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation, Look
 from hexmend_app.state.views import Wipe
@@ -27,12 +28,10 @@ LOOKS = [
 
 @pytest.fixture
 def panes():
-    plotter = pv.Plotter(off_screen=True, shape=(1, ROOM), border=False, window_size=(300, 200))
-    panes = Panes(plotter)
-    panes.draw(Frame(MESH, FIGURES))
-    plotter.camera_set = True
-    yield panes
-    plotter.close()
+    with Stage((300, 200)) as stage:
+        panes = Panes(stage.window)
+        panes.draw(Frame(MESH, FIGURES))
+        yield panes
 
 
 def seen(panes, places, aspect=1.5):

@@ -5,6 +5,7 @@ import pytest
 import pyvista as pv
 from hypothesis import given
 from hypothesis import strategies as st
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera.fitting import fit
 
@@ -15,7 +16,7 @@ SIZES = st.tuples(*[st.floats(0.01, 100)] * 3)
 def corners_seen(direction, size, aspect, parallel):
     """Where the corners of a box lie in the picture, which reaches from -1 to 1, after `fit`; (8, 2)."""
     low = np.array([3.0, -7.0, 11.0])
-    camera = pv.Camera()
+    camera = vtkCamera()
     camera.SetFocalPoint(low + np.array(size) / 2)
     camera.SetPosition(low + np.array(size) / 2 + direction)
     camera.SetViewUp(0, 0, 1)
@@ -38,7 +39,7 @@ def test_the_box_is_seen_whole_and_reaches_two_opposite_sides(direction, size, a
 
 
 def test_a_point_comes_into_the_middle_from_as_far_as_before():
-    camera = pv.Camera()
+    camera = vtkCamera()
     far = camera.GetDistance()
     fit(camera, np.array([[1.0, 2.0, 3.0]] * 3), 1.5)
     assert camera.GetFocalPoint() == (1.0, 2.0, 3.0)

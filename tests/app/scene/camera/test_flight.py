@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 from hypothesis import given
 from hypothesis import strategies as st
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.camera.pose import Pose
@@ -26,7 +26,7 @@ def poses(draw):
 
 
 def camera_in(pose):
-    camera = pv.Camera()
+    camera = vtkCamera()
     pose.give(camera)
     return camera
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera.directions import UPS, look_from
 from hexmend_app.scene.camera.steering import turn
@@ -10,7 +10,7 @@ from hexmend_app.scene.camera.steering import turn
 
 @pytest.mark.parametrize("up", UPS)
 def test_steps_to_the_right_lead_around_upright_and_come_back(up):
-    camera = pv.Camera()
+    camera = vtkCamera()
     look_from(camera, "iso", up)
     axis, before = np.array(UPS[up][0]), np.array(camera.GetPosition())
     for _ in range(24):
@@ -22,7 +22,7 @@ def test_steps_to_the_right_lead_around_upright_and_come_back(up):
 
 
 def test_to_the_right_what_is_in_front_goes_right():
-    camera = pv.Camera()
+    camera = vtkCamera()
     look_from(camera, "+x", "z")
     right = np.cross(camera.GetDirectionOfProjection(), camera.GetViewUp())
     turn(camera, 15, 0, "z")
@@ -32,7 +32,7 @@ def test_to_the_right_what_is_in_front_goes_right():
 
 
 def test_on_its_head_right_is_right_too():
-    camera = pv.Camera()
+    camera = vtkCamera()
     look_from(camera, "+x", "z")
     camera.Roll(180)
     turn(camera, 15, 0, "z")
@@ -41,7 +41,7 @@ def test_on_its_head_right_is_right_too():
 
 
 def test_over_a_pole_and_all_around():
-    camera = pv.Camera()
+    camera = vtkCamera()
     look_from(camera, "+x", "z")
     before = np.array(camera.GetPosition())
     for _ in range(24):

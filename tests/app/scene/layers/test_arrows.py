@@ -4,12 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend.movement import Moment, Movement
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers import arrows as layer
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
@@ -23,14 +24,22 @@ CUT = PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0))
 
 
 @pytest.fixture
-def viewport():
-    plotter = pv.Plotter(off_screen=True, window_size=(300, 300))
-    viewport = Viewport(plotter)
+def stage():
+    with Stage((300, 300)) as stage:
+        yield stage
+
+
+@pytest.fixture
+def viewport(stage):
+    viewport = Viewport(Pane(stage.window))
     viewport.draw(Frame(MESH, THEN.figures))
     viewport.view("iso")
-    viewport.plotter_for_test = plotter
-    yield viewport
-    plotter.close()
+    return viewport
+
+
+@pytest.fixture
+def drawn(stage):
+    return lambda: stage.picture().astype(int)
 
 
 def move(viewport, points=NOW, figures=FIGURES):
@@ -40,11 +49,6 @@ def move(viewport, points=NOW, figures=FIGURES):
 
 def look_at(viewport, look):
     viewport.draw(dataclasses.replace(viewport.frame, look=look))
-
-
-def drawn(viewport):
-    viewport.plotter_for_test.render()
-    return np.asarray(viewport.plotter_for_test.screenshot(return_img=True)).astype(int)
 
 
 def test_an_arrow_ends_where_its_way_ends_and_its_head_is_no_longer_than_allowed():
@@ -88,17 +92,17 @@ def test_of_many_the_longest_are_drawn(viewport, monkeypatch):
     np.testing.assert_allclose(starts, MESH.points[np.sort(longest)])
 
 
-def test_arrows_are_seen_follow_the_nodes_and_go(viewport):
-    without = drawn(viewport)
+def test_arrows_are_seen_follow_the_nodes_and_go(viewport, drawn):
+    without = drawn()
     look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=1)))
-    plain = drawn(viewport)
+    plain = drawn()
     move(viewport)
-    one = drawn(viewport)
+    one = drawn()
     look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=3)))
-    assert (drawn(viewport) != one).any()
+    assert (drawn() != one).any()
     look_at(viewport, Look())
     move(viewport, MESH.points, THEN.figures)
-    np.testing.assert_array_equal(drawn(viewport), without)
+    np.testing.assert_array_equal(drawn(), without)
     assert (one != plain).any()
 
 

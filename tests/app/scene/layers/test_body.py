@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend.quality import measure
 from hexmend_app.scene import occlusion
@@ -10,6 +9,8 @@ from hexmend_app.scene.colours import OPENED, OUTSIDE
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers import body as module
 from hexmend_app.scene.layers.surface import colours_of
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import ColourScale, Look
@@ -21,9 +22,8 @@ STEP = Look(dug=frozenset(int(h) for h in np.flatnonzero((MESH.points[MESH.hexes
 
 @pytest.fixture
 def viewport():
-    plotter = pv.Plotter(off_screen=True, window_size=(200, 150))
-    yield Viewport(plotter)
-    plotter.close()
+    with Stage((200, 150)) as stage:
+        yield Viewport(Pane(stage.window))
 
 
 def draw(viewport, look=STEP, mesh=MESH):

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend_app.scene.layers.surface import Surface, quads
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 
 
 def board(side, colour, size=320, pen=1.0):
@@ -14,18 +15,15 @@ def board(side, colour, size=320, pen=1.0):
     low = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
     faces = np.column_stack([low, low + 1, low + side + 2, low + side + 1])
     colours = np.tile(np.array(colour, np.uint8), (len(faces), 1))
-    plotter = pv.Plotter(off_screen=True, window_size=(size, size), lighting="none")
-    try:
-        surface = Surface(plotter, "board", pen)
+    with Stage((size, size)) as stage:
+        pane = Pane(stage.window)
+        surface = Surface(pane.renderer, pen)
         surface.replace(quads(points, faces, colours, np.arange(len(faces)).astype(np.int32)))
-        plotter.add_light(pv.Light(light_type="headlight"))
-        plotter.view_xy()
-        plotter.camera.parallel_projection = True
-        plotter.camera.parallel_scale = 0.5
-        plotter.show(auto_close=False, interactive=False)
-        seen = plotter.screenshot(return_img=True).astype(float).mean(axis=2)
-    finally:
-        plotter.close()
+        pane.camera.SetPosition(0, 0, 1)
+        pane.renderer.ResetCamera()
+        pane.camera.SetParallelProjection(True)
+        pane.camera.SetParallelScale(0.5)
+        seen = stage.picture().astype(float).mean(axis=2)
     return seen[20:-20, 20:-20]
 
 

@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.quality import measure
+from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.ghosts import Ghosts
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation, Look
@@ -22,15 +25,18 @@ def frame(**look):
 
 
 @pytest.fixture
-def plotter():
-    plotter = pv.Plotter(off_screen=True, window_size=(240, 180))
-    yield plotter
-    plotter.close()
+def stage():
+    with Stage((240, 180)) as stage:
+        yield stage
+
+
+@pytest.fixture
+def viewport(stage):
+    return Viewport(Pane(stage.window))
 
 
 @pytest.mark.parametrize("rings", [0, 1, 2])
-def test_rings_around_what_is_isolated_are_ghosts(plotter, rings):
-    viewport = Viewport(plotter)
+def test_rings_around_what_is_isolated_are_ghosts(viewport, rings):
     viewport.draw(frame(isolation=Isolation((MIDDLE,), rings)))
     assert viewport.shown == 1
     assert set(viewport.body.faces.hexes) == {MIDDLE}
@@ -42,8 +48,7 @@ def test_rings_around_what_is_isolated_are_ghosts(plotter, rings):
         np.testing.assert_allclose(np.ptp(viewport.places, axis=0), 2 * rings + 1)
 
 
-def test_what_is_dug_or_cut_away_is_no_ghost(plotter):
-    viewport = Viewport(plotter)
+def test_what_is_dug_or_cut_away_is_no_ghost(viewport):
     viewport.draw(
         frame(isolation=Isolation((MIDDLE,), 1), dug=frozenset({61}), clip=PlaneClip.at((0, 0, 1), (0, 0, 3)))
     )
@@ -52,25 +57,18 @@ def test_what_is_dug_or_cut_away_is_no_ghost(plotter):
     assert not ghosts[61]
 
 
-def test_nothing_isolated_leaves_no_ghosts(plotter):
-    viewport = Viewport(plotter)
+def test_nothing_isolated_leaves_no_ghosts(viewport):
     viewport.draw(frame(isolation=Isolation((MIDDLE,), 1)))
     viewport.draw(frame())
     assert viewport.filters.ghosts(viewport.frame) is None
     np.testing.assert_allclose(np.ptp(viewport.places, axis=0), 5)
 
 
-def pixels(plotter, rings):
-    """What is seen of a hex in the middle with so many rings around it, from where one sees two of them."""
-    viewport = Viewport(plotter)
-    viewport.draw(frame(isolation=Isolation((MIDDLE,), rings), outline=False))
-    plotter.camera_position = [(7, -5, 7), (2.5, 2.5, 2.5), (0, 0, 1)]
-    plotter.show(auto_close=False, interactive=False)
-    return plotter.screenshot(return_img=True).astype(int)
-
-
-def test_what_was_looked_for_is_seen_through_its_ghosts(plotter):
-    ghostly = pixels(plotter, 1)
+def test_what_was_looked_for_is_seen_through_its_ghosts(stage, viewport):
+    viewport.draw(frame(isolation=Isolation((MIDDLE,), 1), outline=False))
+    Pose((7, -5, 7), (2.5, 2.5, 2.5), (0, 0, 1), False, 1.0).give(viewport.camera)
+    viewport.layers[0].ResetCameraClippingRange()
+    ghostly = stage.picture().astype(int)
     middle = ghostly[80:100, 110:130].reshape(-1, 3).mean(axis=0)
     assert middle[0] - middle[2] > 60  # yellow still: q is 1
     ground = ghostly[2, 2]
@@ -78,8 +76,8 @@ def test_what_was_looked_for_is_seen_through_its_ghosts(plotter):
     assert ((pale > 15) & (pale < 150)).mean() > 0.1  # the ghosts around it
 
 
-def test_ghosts_follow_the_nodes(plotter):
-    ghosts, keep = Ghosts(plotter), np.zeros(MESH.n_hexes, bool)
+def test_ghosts_follow_the_nodes():
+    ghosts, keep = Ghosts(vtkRenderer()), np.zeros(MESH.n_hexes, bool)
     keep[MIDDLE] = True
     around = MESH.topology.ring_of([MIDDLE], 1) & ~keep
     ghosts.draw(frame(), around, keep)

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend_app.scene.colours import INVERTED
 from hexmend_app.scene.graphics import prepare_off_screen
 from hexmend_app.scene.layers.halo import Halo, outlines
 from hexmend_app.scene.layers.surface import quads
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 
 WHITE = np.array([255, 255, 255])
 
@@ -41,17 +42,14 @@ def test_the_rim_of_a_region_is_what_one_of_its_elements_alone_has(own_points):
 def white_inside(side, size):
     """White pixels in the middle third of a picture of a board, all of it inverted."""
     prepare_off_screen()
-    plotter = pv.Plotter(off_screen=True, window_size=(size, size))
-    try:
+    with Stage((size, size)) as stage:
+        pane = Pane(stage.window)
         poly = board(side, [(c, r) for c in range(side) for r in range(side)])
-        halo = Halo(plotter, "halo")
+        halo = Halo(pane.renderer)
         halo.follow(poly)
-        plotter.set_background("black")
-        plotter.view_xy()
-        plotter.show(auto_close=False)
-        seen = plotter.screenshot(return_img=True).astype(int)
-    finally:
-        plotter.close()
+        pane.camera.SetPosition(0, 0, 1)
+        pane.renderer.ResetCamera()
+        seen = stage.picture().astype(int)
     third = size // 3
     return int((np.abs(seen[third:-third, third:-third] - WHITE).sum(axis=2) < 30).sum())
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh import Mesh
 from hexmend.structure import sharp_edges
@@ -45,9 +45,7 @@ def test_splinters_do_not_form_lines():
 
 
 def test_a_mesh_without_boundary_has_no_silhouette():
-    plotter = pv.Plotter(off_screen=True)
-    mesh = Mesh(np.random.default_rng(0).random((27, 3)), closed((3, 3, 3)))
-    silhouette = Silhouette(plotter, mesh)
+    renderer, mesh = vtkRenderer(), Mesh(np.random.default_rng(0).random((27, 3)), closed((3, 3, 3)))
+    silhouette = Silhouette(renderer, mesh)
     silhouette.show(Look(), mesh.points, None)
     silhouette.move(mesh.points)
-    plotter.close()

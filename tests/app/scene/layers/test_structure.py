@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-import pyvista as pv
 
 from hexmend.gallery import make
 from hexmend.mesh import Mesh
@@ -21,6 +20,8 @@ from hexmend_app.scene.layers.structure import (
     VALENCES,
     valence_colours,
 )
+from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import Look, Structure
@@ -34,9 +35,8 @@ BELOW = PlaneClip.at((0, 0, 1), (0, 0, 0.7))
 @pytest.fixture
 def draw():
     """A function that draws a mesh under a look and gives its pixels, and the viewport."""
-    plotter = pv.Plotter(off_screen=True, window_size=(400, 300))
-    viewport = Viewport(plotter)
-    plotter.camera_set = True
+    stage = Stage((400, 300))
+    viewport = Viewport(Pane(stage.window))
 
     def drawn(mesh, structure, **look):
         look = Look(edges=False, outline=False, structure=structure, **look)
@@ -46,18 +46,16 @@ def draw():
         return pixels()
 
     def pixels():
-        plotter.show(auto_close=False, interactive=False)
-        plotter.render()
-        return np.asarray(plotter.screenshot(return_img=True)).astype(int)
+        return stage.picture().astype(int)
 
     drawn.viewport, drawn.pixels = viewport, pixels
     yield drawn
-    plotter.close()
+    stage.close()
 
 
 def count(image, colour):
     """Pixels of exactly this colour: marks are not shaded."""
-    return int((image == np.array(pv.Color(colour).int_rgb)).all(axis=2).sum())
+    return int((image == np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)).all(axis=2).sum())
 
 
 def test_irregular_edges_are_seen_through_the_mesh_in_the_colour_of_their_valence(draw):
@@ -166,4 +164,4 @@ def test_many_marks_are_drawn_in_full_in_fine_frames_alone(draw, monkeypatch):
 def test_valences_without_a_colour_of_their_own_share_one():
     colours = valence_colours(np.array([1, 2, 3, 4, 5, 6, 7, 40]))
     expected = [VALENCES.get(n, OTHER) for n in (1, 2, 3, 4, 5, 6, 7, 40)]
-    assert colours.tolist() == [list(pv.Color(colour).int_rgb) for colour in expected]
+    assert colours.tolist() == [list(bytes.fromhex(colour[1:])) for colour in expected]

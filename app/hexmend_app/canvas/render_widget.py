@@ -1,0 +1,250 @@
+"""The widget that VTK draws in."""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  brings what VTK writes with
+from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtGui import QGuiApplication, QMouseEvent, QOpenGLContext, QSurfaceFormat, QWheelEvent
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
+from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
+from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
+from vtkmodules.vtkRenderingUI import vtkGenericRenderWindowInteractor
+
+_DRAW_FRAMEBUFFER, _COLOUR = 0x8CA9, 0x8CE0  # GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0
+_SCISSORS, _DEPTH_TEST = 0x0C11, 0x0B71  # GL_SCISSOR_TEST, GL_DEPTH_TEST
+_NOT_BEYOND, _LINEAR = 0x0203, 0x2601  # GL_LEQUAL, GL_LINEAR
+_COLOURS = 0x00004000  # GL_COLOR_BUFFER_BIT
+
+#: Units of a wheel's step.
+_STEP = 120
+
+#: VTK's cursors that are not the arrow.
+_CURSORS = {
+    2: Qt.CursorShape.SizeBDiagCursor,
+    3: Qt.CursorShape.SizeFDiagCursor,
+    4: Qt.CursorShape.SizeBDiagCursor,
+    5: Qt.CursorShape.SizeFDiagCursor,
+    6: Qt.CursorShape.SizeVerCursor,
+    7: Qt.CursorShape.SizeHorCursor,
+    8: Qt.CursorShape.SizeAllCursor,
+    9: Qt.CursorShape.PointingHandCursor,
+    10: Qt.CursorShape.CrossCursor,
+}
+
+#: What VTK calls the buttons.
+_BUTTONS = {
+    Qt.MouseButton.LeftButton: "LeftButton",
+    Qt.MouseButton.RightButton: "RightButton",
+    Qt.MouseButton.MiddleButton: "MiddleButton",
+}
+
+
+class RenderWidget(QOpenGLWidget):
+    """Shows what VTK renders into a buffer of Qt's, and hands on what the mouse does.
+
+    It does what VTK's `QVTKOpenGLNativeWidget` does in C++: without a window of the system's, so that other widgets can
+    lie over it, and Wayland knows it. It renders as Qt paints it, and at no other time: a wish of VTK's to render asks
+    Qt to paint, and several make one frame.
+
+    Attributes
+    ----------
+    render_window : vtkGenericOpenGLRenderWindow
+    iren : vtkGenericRenderWindowInteractor
+        Its own: the left button turns the camera, with Shift it shifts, the right one and the wheel zoom.
+    """
+
+    def __init__(self, parent: QWidget | None = None):
+        QSurfaceFormat.setDefaultFormat(_format())  # under Wayland the window has to have the same
+        super().__init__(parent)
+        self.setUpdateBehavior(QOpenGLWidget.UpdateBehavior.NoPartialUpdate)
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.WheelFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self._drawn_on: QOpenGLContext | None = None
+        self._painting = False
+        self._held = Qt.MouseButton.NoButton
+        self._turned = 0  # of the wheel, since its last whole step
+        window = self.render_window = vtkGenericOpenGLRenderWindow()
+        window.SetReadyForRendering(False)
+        window.SetFrameBlitModeToNoBlit()
+        iren = self.iren = vtkGenericRenderWindowInteractor()
+        iren.SetRenderWindow(window)
+        iren.SetInteractorStyle(vtkInteractorStyleTrackballCamera())
+        iren.EnableRenderOff()
+        iren.Initialize()
+        self._told = [
+            (of, of.AddObserver(event, act))
+            for of, event, act in (
+                (window, "WindowMakeCurrentEvent", self._make_current),
+                (window, "WindowIsCurrentEvent", self._tell_current),
+                (window, "WindowFrameEvent", self._ask_for_frame),
+                (window, "CursorChangedEvent", lambda *_: QTimer.singleShot(0, self, self._show_cursor)),
+                (iren, "RenderEvent", self._ask_for_frame),
+            )
+        ]
+
+    # OpenGL
+
+    def _make_current(self, *_: object) -> None:
+        """Let VTK draw; Qt's own `makeCurrent` would change the buffer that it draws into, too."""
+        if self._drawn_on is not None:
+            self._drawn_on.makeCurrent(self._drawn_on.surface())
+
+    def _tell_current(self, *_: object) -> None:
+        current = QOpenGLContext.currentContext()
+        self.render_window.SetIsCurrent(self._drawn_on is not None and current is self._drawn_on)
+
+    def _ask_for_frame(self, *_: object) -> None:
+        if not self._painting:
+            self.update()
+
+    def initializeGL(self) -> None:
+        """Let VTK draw with what Qt has prepared."""
+        self._drawn_on = self.context()
+        self._drawn_on.aboutToBeDestroyed.connect(self._let_go_of_graphics)
+        window = self.render_window
+        if sys.platform.startswith("linux"):
+            window.SetOpenGLSymbolLoader2(_loader(), 0)
+        window.OpenGLInitContext()
+        window.OpenGLInit()
+        state = window.GetState()
+        state.Reset()
+        state.vtkglDepthFunc(_NOT_BEYOND)  # Qt leaves it at less
+        state.vtkglEnable(_DEPTH_TEST)
+        window.SetForceMaximumHardwareLineWidth(1)
+        window.SetReadyForRendering(True)
+        window.SetOwnContext(0)
+
+    def resizeGL(self, width: int, height: int) -> None:
+        """Take another size; VTK counts the screen's pixels."""
+        self.iren.UpdateSize(*self._pixels)
+        self.iren.InvokeEvent("ConfigureEvent")
+        self.render_window.SetDPI(round(72 * self.devicePixelRatioF()))
+
+    @property
+    def _pixels(self) -> tuple[int, int]:
+        ratio = self.devicePixelRatioF()
+        return max(1, round(self.width() * ratio)), max(1, round(self.height() * ratio))
+
+    def paintGL(self) -> None:
+        """Render, and copy what is rendered to where Qt takes it from."""
+        window = self.render_window
+        if not window.GetReadyForRendering():
+            return
+        state = window.GetState()
+        state.Reset()  # Qt has drawn since
+        state.Push()
+        state.vtkglDepthFunc(_NOT_BEYOND)
+        self._painting = True
+        try:
+            window.Render()
+        finally:
+            self._painting = False
+        self.makeCurrent()
+        self._copy()
+        state.Pop()
+
+    def _copy(self) -> None:
+        """What is rendered, as opaque as the window is to be: else what is behind it would be seen through it."""
+        window, pixels = self.render_window, self._pixels
+        gl = self._drawn_on.extraFunctions()
+        gl.glBindFramebuffer(_DRAW_FRAMEBUFFER, self.defaultFramebufferObject())
+        gl.glDrawBuffers(1, [_COLOUR])
+        cut = gl.glIsEnabled(_SCISSORS)
+        if cut:
+            window.GetState().vtkglDisable(_SCISSORS)
+            gl.glDisable(_SCISSORS)
+        window.BlitDisplayFramebuffer(0, 0, 0, *window.GetSize(), 0, 0, *pixels, _COLOURS, _LINEAR)
+        gl.glColorMask(False, False, False, True)
+        gl.glClearColor(0.0, 0.0, 0.0, 1.0)
+        gl.glViewport(0, 0, *pixels)
+        gl.glClear(_COLOURS)
+        gl.glColorMask(True, True, True, True)
+        if cut:
+            window.GetState().vtkglEnable(_SCISSORS)
+            gl.glEnable(_SCISSORS)
+
+    def _let_go_of_graphics(self) -> None:
+        self._make_current()
+        self.render_window.Finalize()
+        self.render_window.SetReadyForRendering(False)
+        self.forget_context()
+
+    def forget_context(self) -> None:
+        """Draw no more on a context that is gone."""
+        self._drawn_on = None
+
+    def let_go(self) -> None:
+        """End drawing for good, while the window still exists."""
+        self.render_window.Finalize()
+        for of, observer in self._told:
+            of.RemoveObserver(observer)
+        self._told.clear()
+
+    # The mouse
+
+    def _tell_place(self, event: QMouseEvent, repeat: int = 0) -> None:
+        """Tell VTK where the pointer is, in pixels of the screen from below, and what is held down."""
+        ratio, place, keys = self.devicePixelRatioF(), event.position(), event.modifiers()
+        self.iren.SetEventInformation(
+            round(place.x() * ratio),
+            round((self.height() - place.y() - 1) * ratio),
+            bool(keys & Qt.KeyboardModifier.ControlModifier),
+            bool(keys & Qt.KeyboardModifier.ShiftModifier),
+            "\0",
+            repeat,
+            None,
+        )
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Begin to lead the camera, or what is dragged."""
+        self._tell_place(event, int(event.type() == QEvent.Type.MouseButtonDblClick))
+        self._held = event.button()
+        if self._held in _BUTTONS:
+            self.iren.InvokeEvent(f"{_BUTTONS[self._held]}PressEvent")
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """End it."""
+        self._tell_place(event)
+        if self._held in _BUTTONS:
+            self.iren.InvokeEvent(f"{_BUTTONS[self._held]}ReleaseEvent")
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Follow the hand."""
+        self._tell_place(event)
+        self.iren.MouseMoveEvent()
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Zoom by whole steps."""
+        self._turned += event.angleDelta().y()
+        if abs(self._turned) >= _STEP:
+            (self.iren.MouseWheelForwardEvent if self._turned > 0 else self.iren.MouseWheelBackwardEvent)()
+            self._turned = 0
+
+    def _show_cursor(self) -> None:
+        self.setCursor(_CURSORS.get(self.render_window.GetCurrentCursor(), Qt.CursorShape.ArrowCursor))
+
+
+def _format() -> QSurfaceFormat:
+    """OpenGL as VTK wants it; without smooth edges, which it makes itself."""
+    answer = QSurfaceFormat()
+    answer.setRenderableType(QSurfaceFormat.RenderableType.OpenGL)  # Wayland may else give one for telephones
+    answer.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
+    answer.setVersion(3, 2)
+    answer.setSwapBehavior(QSurfaceFormat.SwapBehavior.DoubleBuffer)
+    for part in ("Red", "Green", "Blue", "Alpha", "Depth"):
+        getattr(answer, f"set{part}BufferSize")(8)
+    answer.setStencilBufferSize(0)
+    answer.setSamples(0)
+    return answer
+
+
+def _loader() -> int:
+    """Address of what finds functions of OpenGL on Linux."""
+    wayland = QGuiApplication.platformName().startswith("wayland")
+    library, name = ("libEGL.so.1", "eglGetProcAddress") if wayland else ("libGL.so.1", "glXGetProcAddressARB")
+    return ctypes.cast(getattr(ctypes.CDLL(library), name), ctypes.c_void_p).value

@@ -1,0 +1,57 @@
+"""What views are drawn on where there is no screen."""
+
+from __future__ import annotations
+
+import numpy as np
+import vtkmodules.vtkRenderingFreeType
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  both bring what VTK draws with
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingUI import vtkGenericRenderWindowInteractor
+
+
+class Stage:
+    """A window that nobody sees; to be closed, as by `with`.
+
+    Attributes
+    ----------
+    window : vtkRenderWindow
+        For `hexmend_app.scene.pane.Pane`, one or several.
+
+    Parameters
+    ----------
+    size : (width, height)
+        In pixels.
+    """
+
+    def __init__(self, size: tuple[int, int]):
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(True)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(*size)
+        vtkGenericRenderWindowInteractor().SetRenderWindow(self.window)  # VTK's widgets are in none without
+
+    def __enter__(self) -> Stage:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def picture(self, transparent: bool = False) -> np.ndarray:
+        """Draw what is to be seen, (height, width, 3) uint8; (height, width, 4) without the ground."""
+        self.window.Render()
+        seen = vtkWindowToImageFilter()
+        seen.SetInput(self.window)
+        seen.ShouldRerenderOff()
+        seen.ReadFrontBufferOn()  # edges are smooth in it already, as they are on the screen
+        (seen.SetInputBufferTypeToRGBA if transparent else seen.SetInputBufferTypeToRGB)()
+        seen.Update()
+        image = seen.GetOutput()
+        width, height, _ = image.GetDimensions()
+        rows = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)
+        return np.ascontiguousarray(rows[::-1])
+
+    def close(self) -> None:
+        """Let go of the graphics."""
+        self.window.Finalize()
+        self.window.SetInteractor(None)
