@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from vtkmodules.vtkRenderingCore import vtkRenderWindow
+
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.arrangement import Arrangement

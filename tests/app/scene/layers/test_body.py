@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import pyvista as pv
 
 from hexmend.quality import measure
 from hexmend_app.scene import occlusion
