@@ -22,7 +22,6 @@ class Handles:
         self._renderer = pane.renderer
         self._dragging = False
         widget.SetInteractor(pane.window.GetInteractor())
-        widget.SetCurrentRenderer(pane.renderer)
         widget.AddObserver("StartInteractionEvent", lambda *_: self._drag(True))
         widget.AddObserver("EndInteractionEvent", lambda *_: self._drag(False))
         widget.AddObserver("InteractionEvent", self._announce)
