@@ -41,6 +41,9 @@ class Menus:
             menu.menuAction().setVisible(not menu.isEmpty())
             if "/" in name and menu.isEmpty():
                 menu.deleteLater()
+        for trailing in self._bar.actions()[-1:]:
+            if trailing.isSeparator():
+                self._bar.removeAction(trailing)
         self._bar.setMinimumWidth(self._bar.sizeHint().width())  # or it hides what it has room for
         self._window.menuBar().setCornerWidget(self._bar, Qt.Corner.TopRightCorner)
 
