@@ -111,6 +111,7 @@ class SmoothingPanel(QWidget):
 
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
         layout.addLayout(choice)
         layout.addWidget(self.buttons)
         foot = QHBoxLayout()
@@ -118,8 +119,8 @@ class SmoothingPanel(QWidget):
         foot.addWidget(steps)
         foot.addWidget(self._steps)
         layout.addLayout(foot)
-        layout.addWidget(self._sentence)
         layout.addWidget(self._help)  # below what is clicked: texts of methods differ in length
+        layout.addWidget(self._sentence)
         for section in self._sections:
             layout.addWidget(section)
         layout.addStretch()
