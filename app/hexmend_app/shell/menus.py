@@ -41,6 +41,9 @@ class Menus:
             menu.menuAction().setVisible(not menu.isEmpty())
             if "/" in name and menu.isEmpty():
                 menu.deleteLater()
+        for trailing in self._bar.actions()[-1:]:
+            if trailing.isSeparator():
+                self._bar.removeAction(trailing)
         self._bar.setMinimumWidth(self._bar.sizeHint().width())  # or it hides what it has room for
         self._window.menuBar().setCornerWidget(self._bar, Qt.Corner.TopRightCorner)
 
@@ -115,7 +118,8 @@ class Menus:
         menu = QMenu(self._window)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         before = None
-        for id, declared in self._declared.items():
+        # What is about the hex that was clicked comes first.
+        for id, declared in sorted(self._declared.items(), key=lambda one: one[1].menu != "Hex"):
             if declared.in_view and self.actions[id].isEnabled():
                 if before not in (None, declared.menu):
                     menu.addSeparator()

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QBrush, QColor, QKeyEvent
+from PySide6.QtGui import QBrush, QColor, QIcon, QKeyEvent, QPainter, QPaintEvent, QPixmap
 from PySide6.QtWidgets import QDialog, QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from hexmend_app.shell.ranking import Entry, ranked
-from hexmend_app.widgets.style import MUTED, dress, explain, note
+from hexmend_app.widgets.style import GREY, MUTED, dress, explain, note
 
 #: Keys that move in the list while the cursor stands in the field.
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
@@ -70,6 +70,13 @@ class CommandPalette(QDialog):
         self._list.itemClicked.connect(self._carry_out)
         dress(self, self._fill)
 
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw a line around, which a window without a frame has not."""
+        super().paintEvent(event)
+        painter = QPainter(self)
+        painter.setPen(QColor(str(GREY)))
+        painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+
     def found(self) -> list[str]:
         """What is listed now, the best match first."""
         return [one.title for one in self._found]
@@ -88,9 +95,16 @@ class CommandPalette(QDialog):
             self._found[at].do()
 
 
+def _no_icon() -> QIcon:
+    """As wide as an icon: titles without one stand below those with one."""
+    empty = QPixmap(16, 16)
+    empty.fill(Qt.GlobalColor.transparent)
+    return QIcon(empty)
+
+
 def _item(entry: Entry) -> QTreeWidgetItem:
     item = QTreeWidgetItem([entry.title, entry.keys])
-    item.setIcon(0, entry.icon)
+    item.setIcon(0, entry.icon if not entry.icon.isNull() else _no_icon())
     item.setToolTip(0, entry.help)
     item.setTextAlignment(1, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
     item.setForeground(1, QBrush(QColor(str(MUTED))))

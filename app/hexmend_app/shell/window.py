@@ -50,7 +50,7 @@ class Window(QMainWindow):
         self._counts.setAccessibleName("Hexes")
         corner = QWidget()
         line = QHBoxLayout(corner)
-        line.setContentsMargins(4, 0, 8, 0)
+        line.setContentsMargins(4, 0, 8, 8)  # on a line with the tabs
         for part in (self.busy, self._counts):
             line.addWidget(part)
         self.docks.drawer.setCornerWidget(corner, Qt.Corner.TopRightCorner)

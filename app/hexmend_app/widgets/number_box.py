@@ -14,6 +14,9 @@ from hexmend_app.scene.palette import FIELD, MUTED, PANEL, TEXT, WORSE, WRONG, R
 from hexmend_app.widgets.style import dress, smaller, tabular
 from hexmend_app.widgets.wording import short_number
 
+#: Letters of the longest unit that a box has room for behind its number.
+LONGEST_UNIT = 6
+
 
 class NumberBox(QAbstractSpinBox):
     """Editor of a declared number, whole or not.
@@ -24,7 +27,7 @@ class NumberBox(QAbstractSpinBox):
     Parameters
     ----------
     declaration : Parameter
-        Of type int or float; its unit is shown behind the number.
+        Of type int or float; its unit is shown behind the number, unless it is longer than `LONGEST_UNIT`.
 
     Signals
     -------
@@ -47,7 +50,7 @@ class NumberBox(QAbstractSpinBox):
         line.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         line.textEdited.connect(self._read)
         line.editingFinished.connect(self._settle)
-        self._show_unit(declaration.unit)
+        self._show_unit(declaration.unit if len(declaration.unit) <= LONGEST_UNIT else "")
         self.set_value(declaration.default)
         dress(self, self._paint)
 

@@ -10,11 +10,13 @@ from typing import Any
 
 import shiboken6
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QFont, QFontMetrics
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.widgets.editors import Editor, editor_for
+from hexmend_app.widgets.number_box import LONGEST_UNIT, NumberBox
 from hexmend_app.widgets.style import BLUE, WORSE, explain, icon, note
 from hexmend_app.widgets.wording import name_in_words, short_number
 
@@ -122,8 +124,11 @@ class ParameterForm(QWidget):
         explain(editor, name, tip)
         editor.setAccessibleDescription(declaration.help)
         label = QLabel(name)
+        if isinstance(editor, NumberBox) and len(declaration.unit) > LONGEST_UNIT:
+            label.setText(f"{escape(name)}<br><small>{escape(declaration.unit)}</small>")
         label.setWordWrap(True)
         label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        label.setMinimumWidth(_longest_word(label, name))
         label.setBuddy(editor)
         label.setToolTip(editor.toolTip())
         reset = QToolButton()
@@ -200,3 +205,12 @@ class ParameterForm(QWidget):
     def _show_help(self, shown: bool) -> None:
         for row in self._rows.values():
             row.help.setVisible(shown)
+
+
+def _longest_word(label: QLabel, text: str) -> int:
+    """Pixels that a wrapped text needs at least, as it is written where a value is not its default."""
+    label.ensurePolished()
+    bold = QFont(label.font())
+    bold.setBold(True)
+    metrics = QFontMetrics(bold)
+    return max(metrics.horizontalAdvance(word) for word in text.split()) + 2

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QToolButton, QWidget
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parametrised, declared, parameter
@@ -240,3 +240,11 @@ def test_stepping_down_from_one_passes_through_tenths(qapp):
     assert box.value() == 0.9
     box.stepBy(1)
     assert box.value() == 1.0
+
+
+def test_in_a_narrow_form_no_word_of_a_name_is_cut_off(form):
+    form.resize(form.minimumSizeHint())
+    for name in ("delta", "free_value", "max_cuts"):
+        label = next(one for one in form.findChildren(QLabel) if one.buddy() is form.editor(name))
+        words = label.text().partition("<br>")[0].split()
+        assert label.width() >= max(label.fontMetrics().horizontalAdvance(word) for word in words)

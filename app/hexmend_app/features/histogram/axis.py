@@ -12,7 +12,7 @@ from hexmend_app.scene.colours import range_label
 from hexmend_app.state.look import ValueRange
 
 #: Where on the plot the bins lie: from 0 to 1, whatever the metric.
-_INVERTED = (-0.25, -0.13)
+_INVERTED = (-0.30, -0.18)
 _BELOW, _ABOVE = (-0.06, -0.02), (1.02, 1.07)
 _TICKS = 6
 
@@ -120,7 +120,7 @@ class Axis:
     @property
     def extent(self) -> tuple[float, float]:
         """Left and right of the plot."""
-        return self.inverted[0] - 0.08, 1.11 if self.open_high else 1.06
+        return self.inverted[0] - 0.10, 1.11 if self.open_high else 1.06
 
     # In words
 

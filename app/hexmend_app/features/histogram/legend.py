@@ -43,7 +43,7 @@ class HistogramLegend(QWidget):
         super().__init__(parent)
         self._flow = QFlowLayout(self)
         self._flow.setContentsMargins(0, 0, 0, 0)
-        self._flow.setHorizontalSpacing(6)
+        self._flow.setHorizontalSpacing(2)
         self._flow.setVerticalSpacing(1)
         dress(self, lambda: self.setStyleSheet(_sheet()))
         self.entries: dict[int, KeptEntry] = {}
@@ -51,7 +51,7 @@ class HistogramLegend(QWidget):
         self._title.setWordWrap(False)
         self._title.setSizePolicy(self.sizePolicy())
         self._title.setMinimumHeight(_HEIGHT)
-        self._title.setContentsMargins(0, 0, 8, 0)
+        self._title.setContentsMargins(0, 0, 6, 0)
         explain(self._title, "Axis of values", help)
         self._flow.addWidget(self._title)
         for text, colour in (("at the start", GREY), ("now", BLUE)):

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
+from superqt import QFlowLayout
 
 from hexmend.quality import METRICS, Element, Node
 from hexmend_app.widgets.metrics import described, metrics_offered
@@ -29,9 +30,12 @@ _HINT = (
     "Here you will see its figures, its nodes, the quality at each corner, and its neighbours."
 )
 
+#: Pixels of what is said in words.
+_WIDTH = 270
+
 
 class ElementPanel(QWidget):
-    """Shows an element: its figures, its corners with their nodes, its neighbours.
+    """Shows an element: its figures, its corners with their nodes, its neighbours, beside each other where they fit.
 
     Signals
     -------
@@ -57,7 +61,7 @@ class ElementPanel(QWidget):
         super().__init__(parent)
         self._stack = QStackedLayout(self)
         hint = note(_HINT)
-        hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        hint.setAlignment(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop)
         hint.setMargin(24)
         self._stack.addWidget(hint)
         page = QWidget()
@@ -131,11 +135,15 @@ class ElementPanel(QWidget):
         head.addWidget(self._fly)
         figures = QGridLayout()
         figures.setVerticalSpacing(2)
-        for at, metric in enumerate(metrics_offered()):
+        offered = metrics_offered()
+        rows = -(-len(offered) // 2)
+        figures.setColumnMinimumWidth(2, 18)
+        for at, metric in enumerate(offered):
+            row, left = at % rows, 3 * (at // rows)
             title = QLabel(metric.title)
             explain(title, metric.title, described(metric).removeprefix("<qt>").removesuffix("</qt>"))
-            figures.addWidget(title, at, 0)
-            figures.addWidget(self._values[metric.name], at, 1)
+            figures.addWidget(title, row, left)
+            figures.addWidget(self._values[metric.name], row, left + 1)
         corners = QGridLayout()
         corners.setVerticalSpacing(2)
         corners.setHorizontalSpacing(14)
@@ -148,18 +156,22 @@ class ElementPanel(QWidget):
             for column, label in enumerate(labels):
                 corners.addWidget(label, row, column)
         for words in (self._state, self._neighbours, self._about_node):
-            words.setWordWrap(True)  # or the column of panels would be as wide as the longest of them
-        column = QVBoxLayout(page)
-        column.setContentsMargins(8, 6, 8, 6)
-        column.addLayout(head)
-        column.addWidget(self._state)
-        column.addWidget(self._in_view)
-        column.addLayout(corners)
-        column.addWidget(self._about_node)
-        column.addWidget(self._pin)
-        column.addWidget(self._neighbours)
-        column.addLayout(figures)
-        column.addStretch()
+            words.setWordWrap(True)
+        about = QVBoxLayout()
+        about.addLayout(head)
+        for part in (self._state, self._in_view, self._neighbours, self._about_node, self._pin):
+            about.addWidget(part)
+        beside = QFlowLayout(page)
+        beside.setContentsMargins(8, 6, 8, 6)
+        beside.setHorizontalSpacing(36)
+        beside.setVerticalSpacing(8)
+        for layout in (about, corners, figures):
+            layout.setContentsMargins(0, 0, 0, 0)
+            block = QWidget()
+            block.setLayout(layout)
+            beside.addWidget(block)
+            if layout is about:
+                block.setFixedWidth(_WIDTH)  # its words wrap
 
     @property
     def corners_in_view(self) -> bool:
@@ -187,10 +199,10 @@ class ElementPanel(QWidget):
             quality.setText(figure(float(one.corners[k]), 3))
             tint(quality, WORSE if one.corners[k] == 0 or k == worst else TEXT)
         links = (
-            f'{face} <a href="{h}">{h:,}</a>' if h >= 0 else f"{face} –"
+            f'{face}&nbsp;<a href="{h}">{h:,}</a>' if h >= 0 else f"{face}&nbsp;–"
             for face, h in zip(_FACES, one.neighbours.tolist(), strict=True)
         )
-        self._neighbours.setText("Neighbours: " + "&nbsp;&nbsp; ".join(links))
+        self._neighbours.setText("Neighbours: " + " &nbsp;&nbsp;".join(links))
 
     def show_node(self, one: Node | None, busy: bool = False) -> None:
         """Show a node of the element, or how to choose one; nothing can be pinned while a run is `busy`."""

@@ -49,7 +49,7 @@ class FeatureInspect(Feature):
                 text="&Next worst hex",
                 menu="Hex",
                 keys="N",
-                icon="chevron-down",
+                icon="bullseye-arrow",
                 help="Go to the next hex of the list of the worst, from the worst on.",
                 tool="Worst",
                 handle=self.worst_list.next,

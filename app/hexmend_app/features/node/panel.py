@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from hexmend.node_step import NodeStep, Verdict
 from hexmend_app.features.node.figures import NodeFigures
 from hexmend_app.features.node.plot import NodePlot
-from hexmend_app.features.node.words import rows
+from hexmend_app.features.node.words import rows, verdict
 from hexmend_app.scene.palette import OTHERWISE, SEARCH, TAKEN, TRIED, UPHILL
 from hexmend_app.widgets.legend import legend_entry
 from hexmend_app.widgets.style import MUTED, WORSE, dress, explain, note, tabular, tint
@@ -164,8 +164,9 @@ class NodePanel(QWidget):
     def show_step(self, step: NodeStep, method: str, made: bool) -> None:
         """Show a step by a method, of which the title is given, that would be made or was `made`."""
         self._title.setText(f"Node {step.node:,}")
-        moved = step.verdict in (Verdict.MOVED, Verdict.SHORTENED)
-        sentence = step.verdict.value if made or not moved else step.verdict.value.replace("Moved", "Will be moved")
+        became = verdict(step)
+        moved = became in (Verdict.MOVED, Verdict.SHORTENED)
+        sentence = became.value if made or not moved else became.value.replace("Moved", "Will be moved")
         self._verdict.setText(f"{method}. {sentence}")
         tint(self._verdict, MUTED if moved else WORSE)
         self.plot.show_step(step)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.node_step import NodeStep
+from hexmend.node_step import NodeStep, Verdict
 from hexmend.smoothers import METHODS
 from hexmend_app.scene.palette import TEXT, WORSE, Role
 from hexmend_app.widgets.wording import counted, figure, name_in_words, short_number
@@ -20,6 +20,9 @@ _DIRECTIONS = {
     ),
 }
 
+#: Mean edge lengths up to which a move is an error of rounding.
+_NO_MOVE = 1e-9
+
 
 @dataclass(frozen=True)
 class Row:
@@ -29,6 +32,12 @@ class Row:
     value: str
     meaning: str
     colour: Role = TEXT
+
+
+def verdict(step: NodeStep) -> Verdict:
+    """What became of the node; a move that is nothing but rounding is none."""
+    moved = step.verdict in (Verdict.MOVED, Verdict.SHORTENED)
+    return Verdict.THERE if moved and step.move < _NO_MOVE else step.verdict
 
 
 def rows(step: NodeStep) -> list[Row]:

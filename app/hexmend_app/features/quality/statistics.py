@@ -28,9 +28,22 @@ ROWS = tuple(one for one in FIGURES.values() if one.key != "q_max")
 _COLUMNS = ("", "start", "now", "change")
 _START, _NOW, _CHANGE = 1, 2, 3
 
+#: Pixels that a cell keeps free beside its text.
+_AROUND = 10
+
 
 def _name(row: Figure) -> str:
     return f"– {row.label}" if row.part_of else row.title
+
+
+def _cell(value: float | None) -> str:
+    """A figure in seven letters, which is what a column has room for.
+
+    >>> _cell(1559.3478), _cell(32735), _cell(0.4035)
+    ('1559.35', '32,735', '0.4035')
+    """
+    text = figure(value)
+    return text if len(text) <= 7 or isinstance(value, int) else f"{value:.6g}".replace("-", "−")
 
 
 def change(row: Figure, start: float | None, now: float | None) -> tuple[str, int]:
@@ -96,6 +109,7 @@ class StatisticsTable(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.addWidget(table)
+        layout.addStretch()
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
         table.setMinimumWidth(self._title_width() + self._figures_width() - 20)  # the longest title may end in …
@@ -134,8 +148,9 @@ class StatisticsTable(QWidget):
         # Widths that hold still while figures change.
         for column in (_START, _NOW, _CHANGE):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
-            widest = "infinite" if column == _CHANGE else "000,000"
-            header.resizeSection(column, self._table.fontMetrics().horizontalAdvance(widest) + 7)
+            widest = ("infinite", "▼ 0.0000", _COLUMNS[column]) if column == _CHANGE else ("000,000",)
+            letters = max(map(self._table.fontMetrics().horizontalAdvance, widest))
+            header.resizeSection(column, letters + _AROUND)
 
     def set_summaries(self, start: Any, now: Any) -> None:
         """Take two summaries, as `hexmend.quality.summarise` gives them; None for both clears the table."""
@@ -144,8 +159,8 @@ class StatisticsTable(QWidget):
             was, is_ = (None if summary is None else getattr(summary, row.key) for summary in (start, now))
             shown = start is not None and now is not None
             text, sense = change(row, was, is_) if shown else ("", 0)
-            self._table.item(at, _START).setText(figure(was) if start is not None else "")
-            self._table.item(at, _NOW).setText(figure(is_) if now is not None else "")
+            self._table.item(at, _START).setText(_cell(was) if start is not None else "")
+            self._table.item(at, _NOW).setText(_cell(is_) if now is not None else "")
             item = self._table.item(at, _CHANGE)
             item.setText(text)
             item.setForeground(QBrush(QColor(str({1: BETTER, -1: WORSE, 0: MUTED}[sense]))))

@@ -36,6 +36,9 @@ from hexmend_app.widgets.wording import counted
 # Height of a section's margins, and of names that take two lines in a narrow panel.
 _AROUND_FORM = 24
 
+# Lines that most sentences on a run fill at most.
+_LINES = 4
+
 
 class SmoothingPanel(QWidget):
     """Chooses a method and its values, and asks for it to be run.
@@ -102,17 +105,21 @@ class SmoothingPanel(QWidget):
         self._progress.setAccessibleName("Progress")
         self._sentence = note()
         self._sentence.setAccessibleName("Outcome")
+        self._sentence.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
+        # Room for it from the start: what is below does not move as a sentence comes and goes.
+        self._sentence.setMinimumHeight(_LINES * self._sentence.fontMetrics().lineSpacing())
 
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
         layout.addLayout(choice)
-        layout.addWidget(self._help)
         layout.addWidget(self.buttons)
         foot = QHBoxLayout()
         foot.addWidget(self._progress, 1)
         foot.addWidget(steps)
         foot.addWidget(self._steps)
         layout.addLayout(foot)
+        layout.addWidget(self._help)  # below what is clicked: texts of methods differ in length
         layout.addWidget(self._sentence)
         for section in self._sections:
             layout.addWidget(section)
@@ -170,7 +177,6 @@ class SmoothingPanel(QWidget):
     def _tell(self, sentence: str, role: Role) -> None:
         tint(self._sentence, role)
         self._sentence.setText(sentence)
-        self._sentence.setVisible(bool(sentence))
 
     def show_break_points(self) -> None:
         """Unfold what a run pauses at."""
@@ -254,6 +260,7 @@ class SmoothingPanel(QWidget):
         room -= whole.minimumSizeHint().height()  # what stands beside this panel counts too
         for section, form in zip(self._sections, (self.form, self.stop_form), strict=False):
             need = form.sizeHint().height() + _AROUND_FORM
-            if need <= room:
-                section.expand()
-                room -= need
+            if need > room:
+                break
+            section.expand()
+            room -= need

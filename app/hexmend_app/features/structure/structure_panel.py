@@ -57,8 +57,8 @@ _EDGES = ("irregular", "boundary", "sharp")
 _NOT_YET = "Being counted."
 _COLUMNS = 2
 
-#: Letters up to which texts stand beside each other.
-_WIDEST = 14
+#: Letters up to which texts stand beside each other: two more and they are cut off in a narrow column.
+_WIDEST = 8
 
 #: What one mark of a layer stands for: its colour, whether it is a line, and the text beside it.
 _Entry = tuple[str, bool, str]

@@ -65,14 +65,20 @@ def test_neighbours_are_links_for_the_mouse(panel, qtbot):
     one = element(MESH, WORST)
     panel.show_element(one)
     links = neighbours(panel)
-    last = int(max(np.flatnonzero(one.neighbours >= 0)))
+    first = int(min(np.flatnonzero(one.neighbours >= 0)))
     text = QTextDocumentFragment.fromHtml(links.text()).toPlainText()
-    number = f"{one.neighbours[last]:,}"
-    before = text[: text.rindex(number)]
+    number = f"{one.neighbours[first]:,}"
+    before = text[: text.index(number)]
     x = links.fontMetrics().horizontalAdvance(before) + links.fontMetrics().horizontalAdvance(number) // 2
     with qtbot.waitSignal(panel.chosen, timeout=1000) as chosen:
-        QTest.mouseClick(links, Qt.MouseButton.LeftButton, pos=QPoint(x, links.height() // 2))
-    assert chosen.args[0] == one.neighbours[last]
+        QTest.mouseClick(links, Qt.MouseButton.LeftButton, pos=QPoint(x, links.fontMetrics().height() // 2))
+    assert chosen.args[0] == one.neighbours[first]
+
+
+def test_a_low_and_wide_panel_needs_no_scrolling(panel):
+    panel.show_element(element(MESH, WORST))
+    assert panel.heightForWidth(1000) <= 230
+    assert panel.minimumSizeHint().width() <= 340
 
 
 def test_its_buttons_tell_what_the_user_wants(panel, qtbot):

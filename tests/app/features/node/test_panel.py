@@ -12,7 +12,7 @@ from hexmend.node_step import Trial, Verdict, explain
 from hexmend.smoothers import METHODS
 from hexmend_app.features.node.panel import NodePanel
 from hexmend_app.features.node.plot import NodePlot, extent
-from hexmend_app.features.node.words import rows
+from hexmend_app.features.node.words import rows, verdict
 from hexmend_app.widgets.style import TEXT, WORSE
 from tests.core.grids import grid, scrambled
 
@@ -26,6 +26,14 @@ def step_of(name, **values):
 
 def row(step, name):
     return next(one for one in rows(step) if one.name == name)
+
+
+def test_a_move_of_a_rounding_error_is_none():
+    step = step_of("local-sd")
+    assert verdict(step) is Verdict.MOVED
+    nudged = dataclasses.replace(step, after=step.before + 1e-17)
+    assert verdict(nudged) is Verdict.THERE
+    assert verdict(dataclasses.replace(nudged, verdict=Verdict.TAKEN_BACK)) is Verdict.TAKEN_BACK
 
 
 def test_an_eigenvalue_below_zero_is_called_a_saddle():

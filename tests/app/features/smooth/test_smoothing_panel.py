@@ -183,3 +183,18 @@ def test_a_folded_section_is_not_walked_through_and_opens_by_key(panel):
     QTest.keyClick(section.toggleButton(), Qt.Key.Key_Space)
     assert panel.form.isVisible()
     assert panel.form.editor("scaling").height() > 15
+
+
+def test_nothing_moves_as_a_sentence_comes_and_goes(panel, qtbot):
+    def places():
+        panel.layout().activate()
+        return [part.pos() for part in (panel.buttons, *sections(panel))]
+
+    panel.set_status()
+    before = places()
+    panel.set_status(
+        8, 1.73, "Converged: no node moved more than the tolerance. 8 iterations in 1.73 s; no hex is left."
+    )
+    assert places() == before
+    panel.set_status()
+    assert places() == before

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -98,6 +100,17 @@ def test_edges_are_counted_by_valence(panel):
     size = np.maximum(np.linalg.norm(p, axis=1, keepdims=True), 1e-9)
     panel.set_found(structure(Mesh(p * np.abs(p).max(axis=1, keepdims=True) / size, mesh.hexes)))
     assert texts(panel, "boundary") == [f"{12 * 8} of 1"]
+
+
+def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
+    valence = np.repeat([3, 5, 6, 7], [14461, 10776, 1048, 313])
+    panel.set_found(dataclasses.replace(structure(tetrahedron()), interior_valence=valence))
+    panel.set_nodes(9156, 120, 28317, 44)
+    panel.resize(280, 400)
+    QTest.qWait(10)
+    for label in panel.findChildren(QLabel):
+        if label.isVisible():
+            assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
 
 
 def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off(panel):
