@@ -42,7 +42,7 @@ def change(row: Figure, start: float | None, now: float | None) -> tuple[str, in
     if start is None or now is None:
         if start is now:
             return "", 0
-        return ("now finite", 1) if start is None else ("now infinite", -1)
+        return ("finite", 1) if start is None else ("infinite", -1)
     moved = now - start
     if moved == 0 or not math.isfinite(moved):
         return "=", 0
@@ -98,7 +98,7 @@ class StatisticsTable(QWidget):
         layout.addWidget(table)
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
-        table.setMinimumWidth(self._title_width() + self._figures_width() - 20)  # the longest title may end in …
+        table.setMinimumWidth(self._title_width() + self._figures_width() - 32)  # the longest titles may end in …
 
     def _paint(self) -> None:
         palette = QPalette()
@@ -134,8 +134,8 @@ class StatisticsTable(QWidget):
         # Widths that hold still while figures change.
         for column in (_START, _NOW, _CHANGE):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
-            widest = "infinite" if column == _CHANGE else "000,000"
-            header.resizeSection(column, self._table.fontMetrics().horizontalAdvance(widest) + 7)
+            widest = ("infinite", "▲ 0.0000") if column == _CHANGE else ("000,000", "−0.0000")
+            header.resizeSection(column, max(map(self._table.fontMetrics().horizontalAdvance, widest)) + 7)
 
     def set_summaries(self, start: Any, now: Any) -> None:
         """Take two summaries, as `hexmend.quality.summarise` gives them; None for both clears the table."""
