@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
     QLineEdit,
+    QScrollBar,
     QTabBar,
     QWidget,
 )
@@ -90,6 +91,8 @@ class Resetting:
         window.messages.clear()
         window.refresh()
         lay_out(window, self._layout)
+        self._put_back()  # what was folded, too
+        scroll_back(window)
         settle(qtbot, window)
 
     def _put_back(self):
@@ -104,10 +107,17 @@ class Resetting:
 def lay_out(window, layout):
     """Let panels stand as they did."""
     for panel in window.docks.ids():
-        window.docks.offer_panel(panel)  # what is closed in the layout is closed again
+        window.docks.show_panel(panel)  # what is closed in the layout is closed again
     for _ in range(2):  # first what is in front, then what room that has
         window.docks.restore(layout)
         QApplication.processEvents()
+
+
+def scroll_back(window):
+    """Let everything be seen from its beginning."""
+    QApplication.processEvents()
+    for bar in window.findChildren(QScrollBar):
+        bar.setValue(bar.minimum())
 
 
 def settle(qtbot, window):

@@ -55,7 +55,7 @@ def change(row: Figure, start: float | None, now: float | None) -> tuple[str, in
     if start is None or now is None:
         if start is now:
             return "", 0
-        return ("now finite", 1) if start is None else ("now infinite", -1)
+        return ("finite", 1) if start is None else ("infinite", -1)
     moved = now - start
     if moved == 0 or not math.isfinite(moved):
         return "=", 0
@@ -112,7 +112,7 @@ class StatisticsTable(QWidget):
         layout.addStretch()
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
-        table.setMinimumWidth(self._title_width() + self._figures_width() - 20)  # the longest title may end in …
+        table.setMinimumWidth(self._title_width() + self._figures_width() - 32)  # the longest titles may end in …
 
     def _paint(self) -> None:
         palette = QPalette()
