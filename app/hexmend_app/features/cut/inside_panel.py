@@ -65,11 +65,14 @@ class InsidePanel(QWidget):
         explain(self._rings, "Rings around what is isolated", _RINGS)
         self._isolated = QLabel()
         self._all = QPushButton("All")
+        self._all.setFixedWidth(44)  # the style's 80 pixels are more than the column has
         explain(self._all, "Show all", "End the isolation: show again what is around.")
         self._dug = QLabel()
         self._undo = QPushButton(icon("undo"), "")
         explain(self._undo, "Undo digging", "Bring back the hex that was dug away last.")
         self._put_back = QPushButton(icon("restore"), "")
+        for button in (self._undo, self._put_back):
+            button.setFixedWidth(34)
         explain(self._put_back, "Put back", "Bring back all hexes that were dug away.")
         self._outline = QCheckBox("Sharp edges and outline")
         explain(

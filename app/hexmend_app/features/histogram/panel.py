@@ -75,7 +75,7 @@ class QualityHistogram(QWidget):
         self._throttler.triggered.connect(lambda: self.range_changed.emit(self._range))
         self._make_parts()
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 3, 8, 3)
+        layout.setContentsMargins(5, 3, 5, 3)
         layout.setSpacing(3)
         layout.addWidget(self.head)
         layout.addWidget(self.plot, 1)

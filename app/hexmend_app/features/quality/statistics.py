@@ -107,7 +107,7 @@ class StatisticsTable(QWidget):
         self._copy.triggered.connect(self.copy)
         self.addAction(self._copy)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setContentsMargins(2, 4, 2, 4)
         layout.addWidget(table)
         layout.addStretch()
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
