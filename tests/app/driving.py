@@ -90,6 +90,16 @@ def choose_by_keys(window, method):
     window.refresh()
 
 
+def walk_to(window, box, data):
+    """Walk to an entry of a list by keys, as a hand does, and let the window show what came of it."""
+    window.refresh()
+    box.setFocus()
+    wanted = box.findData(data)
+    while box.currentIndex() != wanted:
+        QTest.keyClick(box, Qt.Key.Key_Down if box.currentIndex() < wanted else Qt.Key.Key_Up)
+    window.refresh()
+
+
 def phase(window, phase):
     return lambda: window.session.smoothing.phase is phase
 

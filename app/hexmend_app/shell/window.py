@@ -47,7 +47,7 @@ class Window(QMainWindow):
         Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
         self.setCentralWidget(self.docks)
         self._counts = QLabel()
-        self._counts.setAccessibleName("Hexes")
+        self._counts.setAccessibleName("Counts")
         corner = QWidget()
         line = QHBoxLayout(corner)
         line.setContentsMargins(4, 0, 8, 8)  # on a line with the tabs

@@ -170,11 +170,11 @@ class History:
             record.rows.append(row)  # last, so that whoever counts rows finds the positions
 
     def finish(self, record: Record, result: Moment | None, end: State | None, message: str) -> None:
-        """Close the record of a run; one without an iteration is dropped."""
+        """Close the record of a run; one without an iteration is dropped, but whoever holds it reads the message."""
+        record.message = message
         if record.newest < 1:
             self.remove(record)
             return
-        record.message = message
         if result is not None:
             record.result, record.end = result.number, end
             self._moments[end] = result

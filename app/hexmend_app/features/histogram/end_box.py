@@ -6,7 +6,7 @@ import math
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt
 from PySide6.QtGui import QValidator
-from PySide6.QtWidgets import QDoubleSpinBox
+from PySide6.QtWidgets import QDoubleSpinBox, QSizePolicy
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
@@ -14,7 +14,10 @@ from hexmend_app.widgets.style import tabular
 
 #: Stands for infinity in a spin box, which has no other number for it.
 _HUGE = 1e300
-_WIDEST = 86
+
+#: Pixels that it has at least and wants at most. The least is the same for every metric, or the column would grow and
+#: shrink as others are chosen.
+_LEAST, _MOST = 68, 80
 
 
 class EndBox(QDoubleSpinBox):
@@ -28,6 +31,8 @@ class EndBox(QDoubleSpinBox):
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.setFont(tabular(self.font()))
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)  # which would have half of it; arrow keys step
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def set_axis(self, axis: Axis) -> None:
         """Take numbers of another metric."""
@@ -80,14 +85,14 @@ class EndBox(QDoubleSpinBox):
 
     def sizeHint(self) -> QSize:
         """Wide enough for the axis' numbers."""
-        return self.minimumSizeHint()
-
-    def minimumSizeHint(self) -> QSize:
-        """Wide enough for the axis' numbers, but never so wide that the window would have to grow."""
         middle = self._axis.low + 0.567 * (self._axis.high - self._axis.low)
         texts = [self.textFromValue(value) for value in (middle, self._axis.high, self.minimum())]
         widest = max(self.fontMetrics().horizontalAdvance(text) for text in (*texts, "0.00"))
-        return QSize(min(widest + 26, _WIDEST), super().minimumSizeHint().height())
+        return QSize(min(max(widest + 14, _LEAST), _MOST), super().sizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:
+        """Wide enough for most numbers."""
+        return QSize(_LEAST, super().minimumSizeHint().height())
 
 
 def _number(text: str) -> float:

@@ -72,7 +72,9 @@ class QualityHistogram(QWidget):
         self._range: ValueRange | None = None
         self._throttler = QSignalThrottler(parent=self)
         self._throttler.setTimeout(_PERIOD_MS)
-        self._throttler.triggered.connect(lambda: self.range_changed.emit(self._range))
+        self._throttler.triggered.connect(self._announce)
+        self._announced: ValueRange | None = None  # or what was set: what everybody else knows
+        self._waits = False
         self._make_parts()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(5, 3, 5, 3)
@@ -211,8 +213,14 @@ class QualityHistogram(QWidget):
         return self._range
 
     def set_range(self, range: ValueRange | None) -> None:
-        """Show a range of the histogram's metric, or all; without a signal."""
+        """Show a range of the histogram's metric, or all; without a signal.
+
+        What was announced last and is now heard of again takes back nothing that was brushed since.
+        """
+        if self._waits and range == self._announced:
+            return
         self._throttler.cancel()
+        self._announced, self._waits = range, False
         self._show_range(range if range is not None and range.metric == self._axis.metric else None)
 
     def _on_brushed(self, places: tuple[float, float]) -> None:
@@ -227,7 +235,12 @@ class QualityHistogram(QWidget):
     def _choose(self, chosen: ValueRange | None) -> None:
         if chosen != self._range:
             self._show_range(chosen)
+            self._waits = True
             self._throttler.throttle()
+
+    def _announce(self) -> None:
+        self._announced, self._waits = self._range, False
+        self.range_changed.emit(self._range)
 
     def _show_range(self, chosen: ValueRange | None) -> None:
         self._range = chosen

@@ -39,7 +39,7 @@ class RangeRow(QWidget):
         self._ends: dict[EndBox, float] = {}
         self.low, self.high, self.all = EndBox(), EndBox(), QPushButton("All")
         explain(self.all, "Show all", "Show the hexes of every value again (or double-click on the plot).")
-        self.all.setMinimumWidth(44)  # less than the style's 80 pixels, which the row has no room for
+        self.all.setFixedWidth(44)  # less than the style's 80 pixels, which the row has no room for
         self.all.clicked.connect(self.cleared)
         self.inverted = QToolButton()
         self.inverted.setCheckable(True)
@@ -93,7 +93,8 @@ class RangeRow(QWidget):
 
     def minimumSizeHint(self) -> QSize:
         """Without a word before the numbers."""
-        width = sum(part.minimumSizeHint().width() + _SPACING for part in self.parts)
+        least = (part.minimumWidth() or part.minimumSizeHint().width() for part in self.parts)
+        width = sum(one + _SPACING for one in least)
         return QSize(width, super().minimumSizeHint().height())
 
     def _on_end(self, box: EndBox) -> None:

@@ -131,10 +131,16 @@ class FeatureSmooth(Feature):
             return row["iteration"], row["seconds"], self._stage(row)
         moment, why = self.session.timeline.moment, self.session.order.why
         if moment is None or not moment.number:
-            return None, None, why
+            return None, None, why or self._said_of_none()
         row = moment.record.rows[moment.number]
         ended = moment.record.message if moment.number == moment.record.result else ""
         return row["iteration"], row["seconds"], why or ended
+
+    def _said_of_none(self) -> str:
+        """How a run ended that was stopped before its first iteration, while the mesh is still as it found it."""
+        record = self._smoothing.record
+        none = self._smoothing.phase is Phase.FINISHED and record.newest < 1
+        return record.message if none and self.session.document.now is record.start else ""
 
     def _stage(self, row: dict) -> str:
         if self._hit is not None:

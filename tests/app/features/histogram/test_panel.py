@@ -68,6 +68,7 @@ def drag(histogram, *stations):
             QTest.qWait(8)
     send(QEvent.Type.MouseButtonRelease, points[-1], _LEFT, Qt.MouseButton.NoButton)
     QTest.qWait(60)
+    QApplication.processEvents()  # on a busy machine nothing may have been done since the last of it was due
 
 
 def test_dragging_over_the_plot_selects_the_range_under_it(histogram, heard, data):
@@ -381,16 +382,17 @@ def test_a_range_of_another_metric_is_not_shown(histogram, heard, condition):
 
 
 @pytest.mark.parametrize("name", METRICS)
-def test_every_metric_fits_into_a_narrow_dock(histogram, name):
+def test_every_metric_fits_into_a_narrow_column_which_holds_its_width(histogram, name):
+    narrow = histogram.minimumSizeHint().width()
     histogram.set_metric(name)
     histogram.set_initial(np.linspace(1e-6, 3.456e-5, 2000), np.zeros(2000, bool))
-    assert histogram.minimumSizeHint().width() <= 322
-    histogram.resize(322, 268)
+    assert histogram.minimumSizeHint().width() == narrow <= 270
+    histogram.resize(narrow, 268)
     QTest.qWait(20)
     for part in (*histogram.ends.parts, histogram.head.metric, histogram.head.scale, histogram.head.more):
         right = part.mapTo(histogram, part.rect().topRight()).x()
-        assert 0 < right < 322
-        assert part.width() >= part.minimumSizeHint().width()
+        assert 0 < right < narrow
+        assert part.width() >= (part.minimumWidth() or part.minimumSizeHint().width())
 
 
 def test_inverted_elements_stand_apart_whatever_the_metric(histogram):

@@ -1,0 +1,181 @@
+"""Opening meshes in the window: by menu, drop and welcome; what cannot be opened; and what is called off."""
+
+from __future__ import annotations
+
+import shutil
+import threading
+
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QPushButton
+
+from hexmend import gallery, io
+from hexmend.run import Stop
+from hexmend_app.features.open.recent_menu import RecentMenu
+from hexmend_app.resources import demo_mesh
+from hexmend_app.state import opener
+from hexmend_app.state.recent import MOST
+from hexmend_app.state.run import Phase
+from hexmend_app.state.task import running
+from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
+from tests.patience import PATIENCE
+
+
+@pytest.fixture
+def recent(window):
+    """The files that are remembered."""
+    return window.features["open"].recent
+
+
+@pytest.fixture
+def menu(window):
+    """The menu that offers them."""
+    (menu,) = window.findChildren(RecentMenu)
+    return menu
+
+
+def unfold(menu, key):
+    """Open a menu and press a letter in it."""
+    menu.popup(QPoint(50, 50))
+    QTest.keyClick(menu, key)
+
+
+def test_opened_files_are_offered_newest_first_once_each(window, qtbot, recent, menu, tmp_path, mesh_file):
+    assert recent.files() == [mesh_file]
+    other = tmp_path / "R&D" / "other.vtu"
+    other.parent.mkdir()
+    shutil.copy(mesh_file, other)
+    open_and_wait(qtbot, window, other)
+    open_and_wait(qtbot, window, demo_mesh())
+    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
+        window.features["open"].open(tmp_path / "nowhere.vtu")
+    assert recent.files() == [other, mesh_file]
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE) as ended:
+        unfold(menu, Qt.Key.Key_2)
+    assert ended.args == [mesh_file]
+    assert recent.files() == [mesh_file, other]
+    assert menu.isHidden()
+
+
+def test_a_file_that_is_gone_says_so_and_the_list_is_cleared(recent, menu, tmp_path):
+    for k in range(MOST + 2):
+        recent.add(tmp_path / f"mesh{k}.vtu")
+    assert len(recent.files()) == MOST
+    menu.popup(QPoint(50, 50))
+    gone = menu.actions()[0]
+    assert "no longer there" in gone.text()
+    assert not gone.isEnabled()
+    QTest.keyClick(menu, Qt.Key.Key_C)
+    assert recent.files() == []
+    assert not menu.menuAction().isEnabled()
+
+
+def test_the_welcome_offers_recent_files(window, qtbot, mesh_file):
+    welcome = window.features["open"].welcome
+    assert not welcome.isVisible()
+    welcome.show()
+    link = next(one for one in welcome.findChildren(QPushButton) if mesh_file.name in one.text())
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
+        QTest.mouseClick(link, LEFT)
+
+
+def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
+    io.write(tmp_path / "five.mesh", gallery.make("five-side", size=500))
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "five.mesh"))])
+    how = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
+    entered, dropped = QDragEnterEvent(QPoint(50, 50), *how), QDropEvent(QPointF(50, 50), *how)
+    QApplication.sendEvent(window, entered)
+    assert entered.isAccepted()
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
+        QApplication.sendEvent(window, dropped)
+    window.refresh()
+    assert window.windowTitle().startswith("five.mesh")
+
+
+def test_a_bad_file_is_said_in_the_window_and_the_open_mesh_stays(window, qtbot, tmp_path):
+    bad = tmp_path / "cut.vtk"
+    bad.write_text("# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n0 0 0\n")
+    now = window.session.document.now
+    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
+        window.features["open"].open(bad)
+    assert window.session.document.now is now
+    ((kind, title, text),) = window.messages.messages()
+    assert kind == "error"
+    assert "cut.vtk" in title
+    assert "POINTS ends after 1 of 8 rows" in text
+    assert "bridge.vtu stays open" in text
+    assert window.messages.isVisible()
+    key(window, Qt.Key.Key_Escape)
+    assert not window.messages.isVisible()
+
+
+def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
+    choose(window, "local-sd", Stop(tolerance=0.0))
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
+    open_and_wait(qtbot, window, mesh_file)
+    assert not window.session.smoothing.busy
+    assert window.session.document.undo_title is None
+
+
+# What is called off
+
+
+@pytest.fixture
+def slow_read(monkeypatch):
+    """Reading waits until it is let go on."""
+    go_on, read = threading.Event(), opener.read
+
+    def reading(path):
+        go_on.wait(PATIENCE / 1000)
+        return read(path)
+
+    monkeypatch.setattr(opener, "read", reading)
+    yield go_on
+    go_on.set()
+
+
+def read_to_the_end(qtbot, slow_read):
+    """Let all go on that is being read, cancelled or not."""
+    slow_read.set()
+    qtbot.waitUntil(lambda: not any(task.name.startswith("reading") for task in running()), timeout=PATIENCE)
+
+
+@pytest.mark.parametrize("by", ["button", "Esc"])
+def test_opening_says_what_it_does_and_is_cancelled(window, qtbot, slow_read, recent, mesh_file, tmp_path, by):
+    other = tmp_path / "slow.vtu"
+    shutil.copy(mesh_file, other)
+    before = window.session.document.now
+    window.session.selection.choose(3)
+    window.features["open"].open(other)
+    assert window.busy.isVisible()
+    assert "Reading slow.vtu" in window.busy.text()
+    if by == "button":
+        press(named(window.busy, QPushButton, "Cancel"))
+    else:
+        key(window, Qt.Key.Key_Escape)
+    assert not window.session.opener.busy
+    assert not window.busy.isVisible()
+    assert window.session.selection.hex == 3  # Esc was for the opening alone
+    assert "Opening slow.vtu was cancelled" in window.messages.messages()[-1][1]
+    read_to_the_end(qtbot, slow_read)
+    assert window.session.document.now is before
+    assert recent.files() == [mesh_file]
+    open_and_wait(qtbot, window, other)
+    assert window.session.document.name == "slow.vtu"
+
+
+def test_another_mesh_is_opened_while_a_cancelled_one_is_still_read(window, qtbot, slow_read, mesh_file, tmp_path):
+    other = tmp_path / "slow.vtu"
+    shutil.copy(mesh_file, other)
+    window.features["open"].open(other)
+    window.session.opener.cancel()
+    window.features["open"].open(mesh_file)
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE) as ended:
+        slow_read.set()
+    assert ended.args == [mesh_file]
+    read_to_the_end(qtbot, slow_read)
+    assert window.session.document.name == mesh_file.name

@@ -1,0 +1,162 @@
+"""Runs in the window: begun, held, stepped through, ended and put back, by mouse and keys."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel, QMessageBox
+
+from hexmend.run import Stop
+from hexmend_app.state import worker
+from hexmend_app.state.run import Phase
+from hexmend_app.state.task import running
+from hexmend_app.widgets.section import Section
+from tests.app.driving import choose, click, key, named, phase, pixels
+from tests.patience import PATIENCE
+
+SHIFT = Qt.KeyboardModifier.ShiftModifier
+
+
+@pytest.fixture
+def endless(window):
+    """The window with a method at hand that does not end before it is stopped."""
+    choose(window, "local-sd", Stop(tolerance=0.0))
+    return window
+
+
+def sentence(window):
+    """What is said below the buttons."""
+    window.refresh()
+    return named(window.features["smooth"].panel, QLabel, "Outcome").text()
+
+
+def counts(window):
+    """What is said below the view."""
+    window.refresh()
+    return named(window, QLabel, "Counts").text()
+
+
+def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
+    window, document = endless, endless.session.document
+    start = document.now
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: document.now is not start, timeout=PATIENCE)
+    click(window, "Pause")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    held = document.now
+    click(window, "Step")
+    qtbot.waitUntil(lambda: document.now is not held, timeout=PATIENCE)
+    assert document.now.summary.objective != held.summary.objective or held.summary.objective is None
+    click(window, "Stop")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.refresh()
+    assert window.isWindowModified()
+    assert document.undo_title == "Local steepest descent"
+    click(window, "Reset")
+    np.testing.assert_array_equal(document.now.mesh.points, start.mesh.points)
+    assert document.undo_title == "reset"
+
+
+def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
+    choose(window, "mend", Stop(tolerance=1e-2))
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        key(window, Qt.Key.Key_F5)
+    assert window.session.document.start.summary.inverted > 0
+    assert window.session.document.now.summary.inverted == 0
+    assert "none inverted" in counts(window)
+
+
+def test_keys_step_and_stop(window, qtbot):
+    start = window.session.document.now
+    key(window, Qt.Key.Key_F10)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    key(window, Qt.Key.Key_F5, SHIFT)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    assert window.session.document.now is not start
+
+
+def test_the_picture_follows_the_iterations(window, qtbot):
+    before = pixels(window)
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002, timeout=PATIENCE)
+
+
+def test_a_method_with_a_wrong_value_is_not_started(window):
+    choose(window, "mend")
+    panel = window.features["smooth"].panel
+    panel.findChild(Section).expand()
+    line = panel.form.editor("p").lineEdit()
+    line.setFocus()
+    line.selectAll()
+    QTest.keyClicks(line, "0.1")
+    click(window, "Run")
+    assert not window.session.smoothing.busy
+    assert "Correct" in sentence(window)
+
+
+@pytest.fixture
+def slow_method(monkeypatch):
+    """A method waits, in its preparation, until it is let go on."""
+    go_on, iterate = threading.Event(), worker.iterate
+
+    def preparing(*order):
+        go_on.wait(PATIENCE / 1000)
+        return iterate(*order)
+
+    monkeypatch.setattr(worker, "iterate", preparing)
+    yield go_on
+    go_on.set()
+
+
+def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_method):
+    before = window.session.document.now
+    click(window, "Run")
+    assert window.session.smoothing.phase is Phase.PREPARING
+    assert "Preparing" in sentence(window)
+    click(window, "Stop")
+    assert window.session.smoothing.phase is Phase.STOPPING
+    assert "as soon as the method is ready" in sentence(window)
+    assert not window.action("stop").isEnabled()
+    slow_method.set()
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    assert window.session.document.now is before
+    assert window.session.document.undo_title is None
+    assert "Stopped" in sentence(window)
+    assert not window.busy.isVisible()
+    window.session.commands.tag("bad", [7])
+    assert sentence(window) == ""  # the mesh is no longer that of the run
+
+
+# Closing the window
+
+
+@pytest.fixture
+def running_window(fresh_window, qtbot):
+    """A window of the test's own in which a method runs that does not end."""
+    choose(fresh_window, "local-sd", Stop(tolerance=0.0))
+    click(fresh_window, "Run")
+    qtbot.waitUntil(phase(fresh_window, Phase.RUNNING), timeout=PATIENCE)
+    return fresh_window
+
+
+def test_closing_while_running_leaves_no_thread(running_window):
+    assert "smoother local-sd" in [task.name for task in running()]
+    running_window.close()
+    assert running() == ()
+    assert not running_window.isVisible()
+
+
+def test_cancelling_keeps_the_window_and_its_run(window, qtbot, monkeypatch):
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    with monkeypatch.context() as patched:
+        patched.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Cancel)
+        window.close()
+        assert window.isVisible()
+        assert window.session.smoothing.phase is Phase.PAUSED

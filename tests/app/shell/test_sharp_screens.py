@@ -1,0 +1,73 @@
+"""The window on screens whose pixels are smaller than those that widgets count in."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+_SCALED = """
+import sys
+import numpy as np
+from PySide6.QtCore import QPointF, QSettings
+from PySide6.QtTest import QTest
+from tests.app.driving import LEFT
+from hexmend import gallery, io
+from hexmend_app.shell.program import application
+from hexmend_app.shell.window import Window
+
+QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, sys.argv[2])
+app = application()
+window = Window()
+window.setGeometry(0, 0, 1001, 651)
+window.show()
+window.furnish()
+window.build_canvas()
+path = sys.argv[2] + "/cube.vtu"
+io.write(path, gallery.make("cube", size=512))
+window.features["open"].open(path)
+while window.canvas.colouring is None:
+    QTest.qWait(20)
+drawn = []
+window.canvas.interactor.frameSwapped.connect(lambda: drawn.append(True))
+window.canvas.interactor.update()
+while not drawn:
+    QTest.qWait(20)
+view, mesh = window.canvas.interactor, window.session.document.now.mesh
+ratio = view.devicePixelRatioF()
+corner = view.mapTo(window, view.rect().topLeft()).toPointF() * ratio
+assert (corner.x() % 1, corner.y() % 1) == (0, 0), corner
+assert view.render_window.GetSize() == (view.width() * ratio, view.height() * ratio)
+renderer = view.renderer
+towards = -np.array(window.canvas.viewport.camera.GetDirectionOfProjection())
+middles = mesh.points[mesh.topology.boundary_faces].mean(axis=1)
+seen = 0
+for middle in middles[np.argsort(middles @ towards)[-40:]]:
+    renderer.SetWorldPoint(*middle, 1.0)
+    renderer.WorldToDisplay()
+    x, y, _ = renderer.GetDisplayPoint()
+    QTest.mouseClick(view, LEFT, pos=QPointF(x / ratio, view.height() - y / ratio).toPoint())
+    corners = mesh.points[mesh.hexes[window.session.selection.hex]]
+    seen += bool((corners.min(axis=0) - 1e-9 <= middle).all() and (middle <= corners.max(axis=0) + 1e-9).all())
+assert seen == 40, seen
+assert window.features["save"].picture(sys.argv[1], (640, 400))
+window.close()
+"""
+
+
+@pytest.mark.parametrize("scale", ["1.5", "2"])
+def test_clicks_hit_what_they_point_at_on_sharp_screens(tmp_path, scale):
+    environment = os.environ | {"QT_SCALE_FACTOR": scale}
+    picture = tmp_path / "picture.png"
+    done = subprocess.run(
+        [sys.executable, "-c", _SCALED, str(picture), str(tmp_path)],
+        env=environment, capture_output=True, text=True, timeout=200,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    with Image.open(picture) as image:
+        assert image.size == (640, 400)
+        assert np.ptp(np.asarray(image.convert("RGB")), axis=(0, 1)).max() > 100
