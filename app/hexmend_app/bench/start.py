@@ -20,7 +20,11 @@ _TIMES = 7
 _PATIENCE = 120.0  # seconds for a start
 
 #: What is measured, and how it is called where it is printed.
-MOMENTS = {"window": "the window is on the screen", "picture": "the demo's picture is drawn"}
+MOMENTS = {
+    "window": "the window is on the screen",
+    "picture": "the demo's picture is drawn",
+    "panels": "all panels are there",
+}
 
 
 def started(mesh: Path | None = None) -> dict[str, dict[str, Any]]:

@@ -22,8 +22,6 @@ from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
-from hexmend_app.scene.export.picture import write_picture
-from hexmend_app.scene.export.views import picture_of
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.palette import BLUE, THEME
 from hexmend_app.scene.picking import Hit
@@ -228,6 +226,9 @@ class Canvas(CameraView):
 
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
         """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
+        from hexmend_app.scene.export.picture import write_picture  # with what no view needs
+        from hexmend_app.scene.export.views import picture_of
+
         image = picture_of(self.panes, [caption.name for caption in self.frame.captions], size, transparent)
         write_picture(path, image)
 

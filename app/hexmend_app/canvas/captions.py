@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QToolButton, QWidget
-from superqt import QElidingLabel
 
 from hexmend_app.scene.palette import Role
+from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.style import MUTED, WORSE, explain, icon, smaller, tabular, tint
 from hexmend_app.widgets.wording import figure
@@ -171,13 +171,13 @@ class _Entry(QWidget):
             explain(self, f"{caption.name}: {caption.figures}", "")
 
 
-def _figures() -> QElidingLabel:
-    label = QElidingLabel()
+def _figures() -> ElidingLabel:
+    label = ElidingLabel()
     label.setFont(tabular(smaller(label.font())))
     return label
 
 
-def _say(label: QElidingLabel, caption: Caption) -> None:
+def _say(label: ElidingLabel, caption: Caption) -> None:
     label.setText(caption.figures)
     label.setToolTip(caption.figures)
     tint(label, WORSE if caption.inverted else MUTED)

@@ -59,9 +59,12 @@ def open_window(mesh: str | None = None) -> int:
 
 
 def _go_on(window: Window, mesh: Path) -> None:
-    window.furnish()
-    window.features["open"].open(mesh)
+    from hexmend_app.shell.furnisher import Furnisher
+
+    window.begin()
+    window.features["open"].open(mesh)  # in a thread
     window.build_canvas()
+    Furnisher(window)
 
 
 def report_unexpected_errors(window: Window) -> None:

@@ -7,10 +7,13 @@ import os
 import sys
 import time
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QEvent, QObject
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication
+
+if TYPE_CHECKING:
+    from hexmend_app.shell.window import Window
 
 #: Names the file that a report is appended to, a line of JSON for each moment.
 VARIABLE = "HEXMEND_REPORT_START"
@@ -19,23 +22,24 @@ _DRAWING = (QEvent.Type.Expose, QEvent.Type.UpdateRequest, QEvent.Type.Paint)
 
 
 class StartReport(QObject):
-    """Writes when the window is first on the screen, with the modules that were loaded by then, and when its mesh is.
+    """Writes when the window is first on the screen, with the modules that were loaded by then, its mesh, its panels.
 
-    Each line holds `moment` ("window" or "picture"), `at`, seconds of `time.monotonic`, which other processes share,
-    and `modules`, sorted names.
+    Each line holds `moment` ("window", "picture" or "panels"), `at`, seconds of `time.monotonic`, which other processes
+    share, and `modules`, sorted names.
 
     Parameters
     ----------
-    window : QWidget
+    window : Window
         Its attribute `canvas`, None at first, has an `interactor`, and a `colouring` once it draws a mesh.
     path : Path
     """
 
-    def __init__(self, window: QWidget, path: Path):
+    def __init__(self, window: Window, path: Path):
         super().__init__(window)
         self._window, self._path = window, path
         self._painted = self._delivering = False
         self._canvas: Any = None
+        window.furnished.connect(lambda: self._tell("panels"))
         QApplication.instance().installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -69,7 +73,7 @@ class StartReport(QObject):
             file.write(json.dumps(told) + "\n")
 
 
-def report_start(window: QWidget) -> None:
+def report_start(window: Window) -> None:
     """Report on the start where somebody asks for it."""
     if path := os.environ.get(VARIABLE):
         StartReport(window, Path(path))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QPoint, Qt, QTimer
+from PySide6.QtCore import QEvent, QPoint, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMainWindow, QWidget
 
+from hexmend_app.feature import Panel, Place
 from hexmend_app.shell.docks import Docks
 from hexmend_app.state import settings
 from hexmend_app.widgets.busy import Busy
@@ -25,7 +26,13 @@ if TYPE_CHECKING:
 class Window(QMainWindow):
     """Hexmend's one window, which is every feature's host.
 
-    It is shown before what is slow to load: `furnish` builds the features, `build_canvas` the 3D view.
+    It is shown before what is slow to load: `begin` builds what opens and draws a mesh, `build_canvas` the 3D view,
+    `furnish` the other features with all panels and menus.
+
+    Signals
+    -------
+    furnished
+        All is in its place.
 
     Attributes
     ----------
@@ -38,6 +45,8 @@ class Window(QMainWindow):
     messages : MessageBar
     busy : Busy
     """
+
+    furnished = Signal()
 
     def __init__(self) -> None:
         super().__init__()
@@ -65,26 +74,55 @@ class Window(QMainWindow):
 
     # Building
 
-    def furnish(self) -> None:
-        """Build the features, and give what they offer its places."""
-        from hexmend_app.shell.features import found, name_of
-        from hexmend_app.shell.menus import Menus
-        from hexmend_app.shell.own import own_actions
+    def begin(self) -> None:
+        """Build the session, and the features that open and draw a mesh."""
+        from hexmend_app.shell.features import FIRST, kind_of
         from hexmend_app.state.session import Session
 
         self.session = Session(self)
-        self.features = {name_of(kind): kind(self) for kind in found()}
-        features = list(self.features.values())
-        panels = [panel for feature in features for panel in feature.panels()]
-        self.docks.add(panels)
-        actions = [action for feature in features for action in feature.actions()]
-        self._menus = Menus(self, [*actions, *own_actions(self, panels)])
-        self.session.changed.connect(self.refresh_soon)
-        self.docks.changed.connect(self.refresh_soon)
-        self.messages.filled.connect(self.refresh_soon)
-        self.messages.emptied.connect(self.refresh_soon)
-        self._restore()
+        self.features = {name: kind_of(name)(self) for name in FIRST}
+        self.docks.add([panel for panel in self._panels() if panel.place is Place.EMPTY])
+        for told in (self.session.changed, self.docks.changed, self.messages.filled, self.messages.emptied):
+            told.connect(self.refresh_soon)
+        self.docks.restore(settings.PANELS.get())
         self.refresh()
+
+    def furnishing(self) -> Iterator[None]:
+        """Build the other features step by step, and give what all offer its places in the last."""
+        from hexmend_app.shell.features import found, kind_of, name_of, names
+        from hexmend_app.shell.menus import Menus
+        from hexmend_app.shell.own import own_actions
+
+        for name in names():
+            kind_of(name)  # what it imports takes longer than building it
+            yield
+        first, kinds = self.features, found()
+        built = dict(first)
+        for kind in kinds:
+            if name_of(kind) not in built:
+                built[name_of(kind)] = kind(self)
+                yield
+        self.features = {name_of(kind): built[name_of(kind)] for kind in kinds}
+        panels = self._panels()
+        self.docks.add([panel for panel in panels if panel.place is not Place.EMPTY])
+        actions = [action for feature in self.features.values() for action in feature.actions()]
+        self._menus = Menus(self, [*actions, *own_actions(self, panels)])
+        if self.canvas is not None:
+            for name in self.features.keys() - first.keys():
+                self.features[name].canvas_ready(self.canvas)
+        self.docks.restore(settings.PANELS.get())
+        self.refresh()
+        self.furnished.emit()
+
+    def furnish(self) -> None:
+        """Build all features."""
+        if self.session is None:
+            self.begin()
+        for _ in self.furnishing():
+            pass
+
+    def _panels(self) -> list[Panel]:
+        return [panel for feature in self.features.values() for panel in feature.panels()]
 
     def build_canvas(self) -> None:
         """Load what draws in 3D, and put it in the view's place."""
@@ -168,12 +206,13 @@ class Window(QMainWindow):
     def refresh(self) -> None:
         """Show the session as it is now."""
         self._soon.stop()
-        if self._menus is None:
+        if self.session is None:
             return
         document = self.session.document
         for feature in self.features.values():
             feature.refresh()
-        self._menus.refresh(document.is_open)
+        if self._menus is not None:
+            self._menus.refresh(document.is_open)
         # Esc is for a message first, then for what is being opened.
         self.busy.take_escape(self.session.opener.busy and self.messages.isHidden())
         if document.is_open:
@@ -196,7 +235,8 @@ class Window(QMainWindow):
         if hit is not None:
             self.session.selection.choose(*hit)
         self.refresh()
-        self._menus.in_view().popup(at)
+        if self._menus is not None:
+            self._menus.in_view().popup(at)
 
     # Coming and going
 
@@ -224,10 +264,7 @@ class Window(QMainWindow):
             self.refresh_soon()
 
     def _first_size(self) -> None:
-        """As large as the screen has room for, and no larger than serves."""
+        """As large as it was, or as the screen has room for and serves."""
         room = self.screen().availableGeometry()
         self.resize(min(1600, round(room.width() * 0.94)), min(1000, round(room.height() * 0.92)))
-
-    def _restore(self) -> None:
         self.restoreGeometry(settings.GEOMETRY.get())  # nothing happens where nothing was kept
-        self.docks.restore(settings.PANELS.get())

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
-from superqt import QElidingLabel
 
 from hexmend_app.features.compare.comparison_table import INITIAL, METHOD, VIEW, ComparisonModel, Entry
 from hexmend_app.scene.palette import CHOSEN, FRAME, ON_CHOSEN
 from hexmend_app.widgets.element_table import shape_table
+from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.style import MUTED, dress, explain, icon, smaller, tabular, tint
 
 _HINT = "Tick methods and press Run: each begins with the mesh as it is now."
@@ -75,7 +75,7 @@ class ComparePanel(QWidget):
         explain(self._take, "Take result", "Let the chosen row's result be the mesh; undo takes it back.")
         self._save = QPushButton(icon("content-save-outline"), "")
         explain(self._save, "Save table", "Save the table as CSV, Markdown, LaTeX or JSON.")
-        self._status = QElidingLabel()
+        self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
         self._status.setAccessibleName("Progress of the comparison")
         tint(self._status, MUTED)

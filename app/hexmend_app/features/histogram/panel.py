@@ -8,7 +8,6 @@ import numpy as np
 from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
-from superqt import QElidingLabel
 from superqt.utils import QSignalThrottler
 
 from hexmend.quality import METRICS
@@ -23,6 +22,7 @@ from hexmend_app.features.histogram.range import RangeRow
 from hexmend_app.features.histogram.words import describe, sentence
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.state.look import ValueRange
+from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.style import BLUE, GREY, MUTED, smaller, tabular, tint
 
 _PERIOD_MS = 33
@@ -111,7 +111,7 @@ class QualityHistogram(QWidget):
         self.plot.view.bar_clicked.connect(self.inverted_requested)
         self.plot.plot.scene().sigMouseMoved.connect(self._hover)
         # In one line, whatever it says: a second would push the plot about while a range is brushed.
-        self.words = QElidingLabel()
+        self.words = ElidingLabel()
         self.words.setFont(tabular(smaller(self.words.font())))
         self.words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         tint(self.words, MUTED)

@@ -1,0 +1,49 @@
+"""A label that is cut off where there is no room for it."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QImage
+
+from hexmend_app.widgets.eliding_label import ElidingLabel
+
+TEXT = "1,234 of 100,000 hexes shown"
+
+
+def inked(label):
+    """The columns in which something is written, (w,) bool."""
+    image = label.grab().toImage().convertToFormat(QImage.Format.Format_Grayscale8)
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return np.ptp(rows[:, : image.width()], axis=0) > 60
+
+
+@pytest.fixture
+def label(qtbot):
+    label = ElidingLabel(TEXT)
+    qtbot.addWidget(label)
+    return label
+
+
+def test_it_wants_room_for_all_and_needs_little(label):
+    whole = label.fontMetrics().horizontalAdvance(TEXT)
+    assert label.sizeHint().width() >= whole
+    assert 0 < label.minimumSizeHint().width() < whole / 5
+
+
+def test_it_keeps_its_text_and_writes_within_its_width(label):
+    label.resize(label.sizeHint())
+    whole = inked(label)
+    label.resize(label.width() // 2, label.height())
+    half = inked(label)
+    assert label.text() == TEXT
+    assert half.any()
+    begin, end = slice(len(half) // 2), slice(len(half) * 2 // 3, len(half))
+    np.testing.assert_array_equal(half[begin], whole[begin])
+    assert (half[end] != whole[end]).any()  # an ellipsis
+
+
+def test_it_is_aligned(label):
+    label.resize(3 * label.sizeHint().width(), label.sizeHint().height())
+    label.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+    ink = np.flatnonzero(inked(label))
+    assert ink.min() > label.width() / 2
