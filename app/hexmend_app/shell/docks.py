@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
-from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtCore import QByteArray, QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
@@ -75,6 +75,13 @@ class Docks(QWidget):
         layout.addWidget(self._all)
         for tabs in self._tabs.values():
             tabs.changed.connect(self.changed)
+        self._left.handle(1).installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Open the drawer where its upper edge is dragged: folded, it could not follow."""
+        if event.type() == QEvent.Type.MouseMove and self.drawer.folded and event.buttons() & Qt.MouseButton.LeftButton:
+            self.drawer.set_folded(False)
+        return super().eventFilter(watched, event)
 
     def add(self, panels: Sequence[Panel]) -> None:
         """Give panels their places: those of one tab one below the other, all in their order."""

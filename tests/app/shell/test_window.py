@@ -103,3 +103,25 @@ def test_the_mesh_is_not_turned_by_dragging_the_colour_bar(window):
     drag(bar, QPoint(20, 15), QPoint(-80, 60))
     assert bar.pos() != place
     assert camera.position == before
+
+
+def test_keys_reach_the_view_as_soon_as_a_mesh_is_shown(fresh_window):
+    view = fresh_window.canvas.interactor
+    fresh_window.canvas.hide()
+    fresh_window.refresh()
+    assert fresh_window.focusWidget() is view
+    QTest.keyClick(view, Qt.Key.Key_Tab)
+    assert fresh_window.docks.hidden
+    QTest.keyClick(view, Qt.Key.Key_Tab)
+    assert not fresh_window.docks.hidden
+
+
+def test_the_folded_drawer_is_dragged_open(window):
+    drawer, handle = window.docks.drawer, window.docks.drawer.parentWidget().handle(1)
+    drawer.set_folded(True)
+    at = handle.rect().center()
+    QTest.mousePress(handle, LEFT, pos=at)
+    QTest.mouseMove(handle, at - QPoint(0, 200))
+    QTest.mouseRelease(handle, LEFT, pos=at)
+    assert not drawer.folded
+    assert drawer.height() > 150

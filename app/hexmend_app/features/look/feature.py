@@ -104,7 +104,9 @@ class FeatureLook(Feature):
             self._canvas.show_handles(self._view.handles, self._view.plane_at)
         if self._seen.another("phase", session.smoothing.phase) and session.smoothing.phase is Phase.PAUSED:
             self._canvas.rest()
-        self._canvas.show()
+        if self._canvas.isHidden():
+            self._canvas.show()
+            self._canvas.interactor.setFocus()  # keys turn the mesh, and Tab hides all panels
         self.panel.set_ends(self._canvas.colouring.low, self._canvas.colouring.high)
 
     def _isolate(self, kind: str) -> None:
