@@ -59,7 +59,7 @@ class Window(QMainWindow):
         self._counts.setAccessibleName("Counts")
         corner = QWidget()
         line = QHBoxLayout(corner)
-        line.setContentsMargins(4, 0, 8, 8)  # on a line with the tabs
+        line.setContentsMargins(4, 0, 8, 3)  # on a line with the tabs
         for part in (self.busy, self._counts):
             line.addWidget(part)
         self.docks.drawer.setCornerWidget(corner, Qt.Corner.TopRightCorner)
@@ -218,9 +218,14 @@ class Window(QMainWindow):
         if document.is_open:
             summary = document.now.summary
             inverted = f"{summary.inverted:,} inverted" if summary.inverted else "none inverted"
-            self._counts.setText(f"{summary.hexes:,} hexes, {inverted}{self._chosen()}")
+            self._counts.setText(f"{summary.hexes:,} hexes, {inverted}{self._isolated()}{self._chosen()}")
         self.setWindowTitle(f"{document.name}[*] – Hexmend" if document.is_open else "Hexmend")
         self.setWindowModified(document.modified)
+
+    def _isolated(self) -> str:
+        """That only a part is shown, and what brings back the rest."""
+        isolation = self.session.view.look.isolation
+        return "" if isolation is None else f"  ·  {len(isolation.hexes):,} isolated (Esc)"
 
     def _chosen(self) -> str:
         """The hex that is chosen, in short, wherever its panel is."""

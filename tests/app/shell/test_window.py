@@ -125,3 +125,14 @@ def test_the_folded_drawer_is_dragged_open(window):
     QTest.mouseRelease(handle, LEFT, pos=at)
     assert not drawer.folded
     assert drawer.height() > 150
+
+
+def test_it_is_said_that_only_a_part_is_shown_until_esc_brings_back_the_rest(window):
+    counts = named(window, QLabel, "Counts")
+    window.action("next_worst").trigger()
+    window.refresh()
+    assert "1 isolated (Esc)" in counts.text()
+    for _ in range(2):  # what was chosen goes too
+        key(window, Qt.Key.Key_Escape)
+        window.refresh()
+    assert "isolated" not in counts.text()
