@@ -6,12 +6,13 @@ import sys
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.shell.program import report_unexpected_errors
 from hexmend_app.state.look import ColourScale, RangeMode
-from tests.app.driving import drag, key, named, pixels
+from tests.app.driving import LEFT, drag, key, named, pixels
 from tests.patience import PATIENCE
 
 
