@@ -21,7 +21,8 @@ std::array<double, 3> solution_of(std::array<double, 6> a, std::array<double, 3>
 }
 
 std::array<double, 3> newton_step(std::array<double, 6> hessian, std::array<double, 3> gradient, bool modified) {
-    auto p = newton(symmetric(hessian), vector(gradient), modified);
+    Symmetric matrix = symmetric(hessian);
+    auto p = newton(matrix, vector(gradient), modified ? shift_of(matrix) : 0.0);
     return {p.x, p.y, p.z};
 }
 

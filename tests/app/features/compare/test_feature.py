@@ -109,7 +109,7 @@ def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
         assert record["iterations"] == 4
     assert [one.name for one in model(compared).entries[:4]] == ["initial", "getme", "laplacian", "local-sd"]
     corner = compared.docks.drawer.cornerWidget(Qt.Corner.TopRightCorner)
-    assert named(corner, QLabel, "Hexes").isVisible()  # the table leaves the counts their place
+    assert named(corner, QLabel, "Counts").isVisible()  # the table leaves the counts their place
     best = min(expected.rows, key=lambda one: one.after.inverted).method
     cell = model(compared).index(row(compared, best), COLUMN["inverted"])
     assert cell.data(Qt.ItemDataRole.FontRole).bold()

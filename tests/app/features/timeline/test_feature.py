@@ -96,7 +96,7 @@ def test_everything_follows_the_slider(window, qtbot):
     assert state.summary.inverted == record.rows[3]["inverted"]
     assert np.abs(pixels(window) - picture).max() > 50
     assert (
-        named(window.docks.drawer.cornerWidget(), QLabel, "Hexes")
+        named(window.docks.drawer.cornerWidget(), QLabel, "Counts")
         .text()
         .endswith(f"{state.summary.inverted:,} inverted")
     )
