@@ -30,8 +30,6 @@ class Session(QObject):
     -------
     changed
         Anything of it is another.
-    editable_changed
-        Whether the mesh may be changed by hand is another.
 
     Attributes
     ----------
@@ -55,7 +53,6 @@ class Session(QObject):
     """
 
     changed = Signal()
-    editable_changed = Signal()
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
@@ -76,7 +73,6 @@ class Session(QObject):
         self.kept = KeptMoments(self)
         self.views = Views(self.document, self.kept, self)
         self.commands = Commands(self)
-        self._editable = False
         self.document.mesh_replaced.connect(self._on_another)
         for part in self.children():
             for told in _signals(part):
@@ -102,9 +98,6 @@ class Session(QObject):
         self.kept.clear()
 
     def _on_change(self, *_: object) -> None:
-        if self.editable != self._editable:
-            self._editable = self.editable
-            self.editable_changed.emit()
         self.changed.emit()
 
 
