@@ -7,17 +7,19 @@ import pytest
 from PIL import Image
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QTableWidget
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from PySide6.QtWidgets import QComboBox, QTableWidget
 
 from hexmend import io
 from hexmend.mesh import Mesh
 from hexmend.quality import measure, summarise
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
 from hexmend_app.scene.layers import body
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.document import State
 from hexmend_app.state.run import Phase
-from tests.app.driving import LEFT, click, open_and_wait, phase
+from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -34,40 +36,43 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
     with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
         window.features["open"].open(tmp_path / "small.vtu")
         before = window.session.document.now
-        assert not any(window.actions[id].isEnabled() for id in ("run", "step", "reset", "undo", "tag"))
+        window.refresh()
+        assert not any(window.actions[id].isEnabled() for id in ("run", "step", "reset", "undo"))
         assert not window.features["smooth"].panel.isEnabled()
-        window.features["smooth"].panel.run_requested.emit("laplacian", {}, {})
+        window.features["smooth"].panel.run_requested.emit(Stage(METHODS["laplacian"](), Stop()))
         window.session.commands.tag("late", [8])
         window.session.commands.undo()
         assert window.session.document.now is before
         assert not window.session.smoothing.busy
     assert window.session.document.now is window.session.document.start
     assert window.session.document.now.mesh.n_hexes == 27
+    window.refresh()
     assert window.actions["run"].isEnabled()
     assert window.features["smooth"].panel.isEnabled()
 
 
-def test_an_element_can_be_tagged_only_under_a_name(window):
-    window.session.selection.choose(7)
-    assert window.actions["tag"].isEnabled()
-    window.features["tags"].panel._name.setCurrentText("")
-    assert not window.actions["tag"].isEnabled()
-    window.features["tags"].panel._name.setCurrentText("bad")
-    assert window.actions["tag"].isEnabled()
-    window.session.selection.choose(None)
-    assert not window.actions["tag"].isEnabled()
+def test_a_hex_can_be_tagged_only_under_a_name(window):
+    name = named(window.features["tags"].panel, QComboBox, "Tag as")
+    for hex, tag, there in ((7, "", []), (7, "bad", ["bad"]), (None, "worse", ["bad"])):
+        window.session.selection.choose(hex)
+        name.setCurrentText(tag)
+        window.refresh()
+        window.action("tag").trigger()
+        assert list(window.session.document.now.mesh.hex_sets) == there
 
 
 def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
     window.session.commands.tag("one", [1])
-    window.features["smooth"].panel.set_method("laplacian")
+    choose(window, "laplacian")
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    window.refresh()
     table = window.features["tags"].panel.findChild(QTableWidget)
     assert table.editTriggers() == QTableWidget.EditTrigger.NoEditTriggers
     table.item(0, 0).setText("two")  # in an editor that was open before
     assert table.item(0, 0).text() == "one"
     window.session.smoothing.end_now()
+    window.refresh()
     table.item(0, 0).setText("two")
     assert list(window.session.document.now.mesh.hex_sets) == ["two"]
 
@@ -76,6 +81,7 @@ def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
 def test_what_a_smooth_cut_takes_away_is_not_tagged_as_shown(window, notch):
     clip = PlaneClip((ClipPlane((1, 0, 0), middle(window)), ClipPlane((0, 1, 0), middle(window))), False, notch)
     window.session.view.set_clip(clip)
+    window.refresh()
     window.features["tags"].panel.shown_requested.emit("shown")
     mesh = window.session.document.now.mesh
     heights = np.array([plane.signed_distance(mesh.points)[mesh.hexes].min(axis=1) for plane in clip.planes])
@@ -89,7 +95,7 @@ def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
     low = window.session.document.now.mesh.points.min(axis=0)
     box = BoxClip(tuple(low + 0.2 * size), tuple(low + 0.8 * size))
     window.session.view.set_clip(box)
-    qtbot.wait(200)
+    pixels(window)
     view = window.canvas.interactor
     place = seen_at(window, ((box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2, box.high[2]))
     QTest.mouseMove(view, place)
@@ -102,10 +108,10 @@ def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     QTest.mouseRelease(view, LEFT, pos=place)
     other = BoxClip(tuple(low), tuple(low + 0.5 * size))
+    window.refresh()
     window.session.view.set_clip(other)
-    data = vtkPolyData()
-    window.canvas.box._shape.GetPolyData(data)
-    np.testing.assert_allclose(np.reshape(data.GetBounds(), (3, 2)).T, [other.low, other.high])
+    window.refresh()
+    np.testing.assert_allclose(window.canvas.box.corners, [other.low, other.high])
 
 
 def test_the_chosen_plane_is_still_the_one_after_the_cut_was_off_or_a_box(window):
@@ -126,7 +132,7 @@ def test_a_mesh_in_other_units_opens_after_a_cut(window, qtbot, tmp_path):
     for scale in (1e-9, 1e9):
         io.write(tmp_path / f"{scale}.vtu", mesh.with_points(scale * mesh.points))
         open_and_wait(qtbot, window, tmp_path / f"{scale}.vtu")
-        QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
+        key(window, Qt.Key.Key_C)
         assert 0 < window.canvas.viewport.shown < mesh.n_hexes
 
 
@@ -135,19 +141,22 @@ def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tm
     stray = Mesh(np.concatenate([mesh.points, [[1e4, 1e4, 1e4]]]), mesh.hexes)
     io.write(tmp_path / "stray.vtu", stray)
     open_and_wait(qtbot, window, tmp_path / "stray.vtu")
-    QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
+    key(window, Qt.Key.Key_C)
     assert 0 < window.canvas.viewport.shown < mesh.n_hexes
 
 
 def test_a_picture_has_the_elements_of_the_view_where_nodes_moved_since_the_cut(window, tmp_path):
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), middle(window)))
+    window.refresh()
     mesh = window.session.document.now.mesh
     moved = mesh.with_points(mesh.points + (np.ptp(mesh.points), 0, 0))
     figures = measure(moved.points, moved.hexes)
     window.session.document.commit("shift", State(moved, figures, summarise(moved, figures)))
+    window.refresh()
     window.canvas.fit()
     window.canvas.viewport.camera.SetFocalPoint(moved.points.mean(axis=0))
     window.session.view.change(outline=False)
+    window.refresh()
     assert window.canvas.viewport.shown > 0
     window.canvas.save_picture(tmp_path / "seen.png", (200, 120), False)
     assert np.ptp(np.asarray(Image.open(tmp_path / "seen.png"))[:, 60:].astype(int)[..., :3], axis=2).max() > 60

@@ -126,15 +126,16 @@ class FeatureCut(Feature):
             panel.setEnabled(document.is_open)
         if not document.is_open:
             return
+        # Before the bounds: what is not cut is proposed anew in another mesh.
+        if self._seen.another("clip", document.start, view.look.clip, view.plane_at, view.handles):
+            self.panel.set_clip(view.look.clip, view.plane_at)
+            self.panel.set_handles(view.handles)
         if self._seen.another("mesh", document.start):
             mesh = document.now.mesh
             self.inside.set_layers(int(mesh.topology.layers.max()))
             points = mesh.points[mesh.topology.used]
             low, high = points.min(axis=0), points.max(axis=0)
             self.panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
-        if self._seen.another("clip", document.start, view.look.clip, view.plane_at, view.handles):
-            self.panel.set_clip(view.look.clip, view.plane_at)
-            self.panel.set_handles(view.handles)
         self.inside.set_look(view.look, view.rings)
         if self._canvas is not None:
             self.inside.set_shown(self._canvas.viewport.shown, document.now.mesh.n_hexes)

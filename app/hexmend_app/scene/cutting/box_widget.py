@@ -58,8 +58,13 @@ class BoxWidget(Handles):
             self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])
         self._switch(on)
 
-    def _announce(self, *_: object) -> None:
+    @property
+    def corners(self) -> np.ndarray:
+        """The lowest and the highest corner of the box as it is drawn, (2, 3) float64."""
         data = vtkPolyData()
         self._shape.GetPolyData(data)
-        ends = np.array(data.GetBounds()).reshape(3, 2).clip(self._bounds[:, :1], self._bounds[:, 1:])
-        self._moved(*(tuple(ends[:, k].tolist()) for k in range(2)))
+        return np.array(data.GetBounds()).reshape(3, 2).T
+
+    def _announce(self, *_: object) -> None:
+        low, high = self.corners.clip(self._bounds[:, 0], self._bounds[:, 1])
+        self._moved(tuple(low.tolist()), tuple(high.tolist()))
