@@ -42,7 +42,7 @@ ratio = view.devicePixelRatioF()
 corner = view.mapTo(window, view.rect().topLeft()).toPointF() * ratio
 assert (corner.x() % 1, corner.y() % 1) == (0, 0), corner
 assert view.render_window.GetSize() == (view.width() * ratio, view.height() * ratio)
-renderer = view.renderer
+renderer = window.canvas.panes.pane.renderer
 towards = -np.array(window.canvas.viewport.camera.GetDirectionOfProjection())
 middles = mesh.points[mesh.topology.boundary_faces].mean(axis=1)
 seen = 0
