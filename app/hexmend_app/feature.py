@@ -53,7 +53,8 @@ class Action:
     id : str
         What other features and tests know it by.
     text : str
-        In its menu, with the letter that Alt reaches behind an ampersand.
+        In its menu, with the letter that Alt is to reach behind an ampersand; where that is another's, or none is
+        named, the menu gives it one.
     handle : callable
         Does it. That of an action with `checked` takes whether it is to be on.
     menu : str

@@ -15,6 +15,9 @@ from hexmend_app.shell.tabs import Drawer, Tabs
 #: Number of the layout: one that was saved with other panels is not restored.
 LAYOUT = "7"
 
+#: The order in which Tab walks through what stands around the view.
+_READ = (Place.EMPTY, Place.BELOW, Place.DRAWER, Place.TOOLS, Place.FACTS)
+
 #: Pixels that the view keeps whatever is dragged.
 _LEAST_VIEW = (320, 240)
 
@@ -85,7 +88,7 @@ class Docks(QWidget):
 
     def add(self, panels: Sequence[Panel]) -> None:
         """Give panels their places: those of one tab one below the other, all in their order."""
-        panels = sorted(panels, key=lambda one: (list(Place).index(one.place), one.order))
+        panels = sorted(panels, key=lambda one: (_READ.index(one.place), one.order))
         for place, group in groupby(panels, key=lambda one: one.place):
             if place is Place.BELOW:
                 for panel in group:
@@ -97,6 +100,8 @@ class Docks(QWidget):
                 continue
             for title, within in groupby(group, key=lambda one: one.tab or one.title):
                 self._add_tab(self._tabs[place], title, list(within))
+        for tabs in self._tabs.values():
+            tabs.read_before_pages()
 
     def _add_tab(self, tabs: Tabs, title: str, panels: list[Panel]) -> None:
         from hexmend_app.shell.column import column
@@ -110,8 +115,8 @@ class Docks(QWidget):
             self._panels[panel.id] = panel.widget
 
     def ids(self) -> list[str]:
-        """The panels that have tabs, in their order."""
-        return list(self._where)
+        """The panels that have tabs, in their order: tools first."""
+        return [id for tabs in self._tabs.values() for id, (where, _) in self._where.items() if where is tabs]
 
     def show_panel(self, id: str) -> None:
         """Bring a panel to the front, unfolded, and all panels back if they are hidden."""

@@ -9,6 +9,7 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
 from hexmend_app.feature import MENUS, Action
+from hexmend_app.shell.letters import letter_of, letters, marked
 from hexmend_app.widgets.style import icon
 
 
@@ -41,6 +42,8 @@ class Menus:
             menu.menuAction().setVisible(not menu.isEmpty())
             if "/" in name and menu.isEmpty():
                 menu.deleteLater()
+        for menu in (window.menuBar(), *self._menus.values()):
+            _give_letters([action for action in menu.actions() if not action.isSeparator()])
         for trailing in self._bar.actions()[-1:]:
             if trailing.isSeparator():
                 self._bar.removeAction(trailing)
@@ -106,7 +109,7 @@ class Menus:
             if declared.checked is not None:
                 action.setChecked(declared.checked())
             if declared.title is not None:
-                action.setText(declared.title())
+                action.setText(marked(declared.title(), letter_of(action.text())))
                 action.setIconText(declared.tool or declared.text.replace("&", ""))
 
     def declared(self) -> Iterable[Action]:
@@ -128,14 +131,15 @@ class Menus:
         return menu
 
 
+def _give_letters(actions: Sequence[QAction]) -> None:
+    """Let each entry of a menu be reached by a letter of its own."""
+    for action, letter in zip(actions, letters([action.text() for action in actions]), strict=True):
+        action.setText(marked(action.text(), letter))
+
+
 def _menus(window: QMainWindow) -> dict[str, QMenu]:
     menus: dict[str, QMenu] = {}
-    taken: set[str] = set()
     for name in MENUS:
         within, _, title = name.rpartition("/")
-        letter = next((k for k, c in enumerate(title) if c.lower() not in taken), 0)
-        if not within:
-            taken.add(title[letter].lower())
-        around = menus[within] if within else window.menuBar()
-        menus[name] = around.addMenu(title if within else f"{title[:letter]}&{title[letter:]}")
+        menus[name] = (menus[within] if within else window.menuBar()).addMenu(title)
     return menus

@@ -26,19 +26,19 @@ def own_actions(window: Window, panels: Sequence[Panel]) -> list[Action]:
         Of all features.
     """
     docks = window.docks
-    with_tabs = {panel.id: panel for panel in panels if panel.id in docks.ids()}
+    by_id = {panel.id: panel for panel in panels}
     return [
         *(
             Action(
                 id=f"panel_{id}",
-                text=panel.title,
+                text=by_id[id].title,
                 menu="View/Panels",
-                help=panel.help,
+                help=by_id[id].help,
                 handle=lambda on, id=id: docks.show_panel(id) if on else docks.close_panel(id),
                 checked=lambda id=id: docks.is_open(id),
                 needs_mesh=False,
             )
-            for id, panel in with_tabs.items()
+            for id in docks.ids()
         ),
         Action(
             id="panels",

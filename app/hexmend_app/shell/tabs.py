@@ -33,6 +33,8 @@ class Tabs(QTabWidget):
         self.setMovable(True)
         self.setElideMode(Qt.TextElideMode.ElideNone)
         self.setUsesScrollButtons(True)
+        self.setFocusProxy(None)  # or Tab comes to the row of tabs where this stands in its order
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.tabBar().setFont(smaller(self.tabBar().font()))
         self.tabBar().setAccessibleName(name)
         self.tabBar().setExpanding(False)
@@ -42,6 +44,15 @@ class Tabs(QTabWidget):
     def add(self, page: QWidget, title: str, help: str) -> None:
         """Put a page behind a tab of its own."""
         self.setTabToolTip(self.addTab(page, title), help)
+
+    def read_before_pages(self) -> None:
+        """Let Tab come to the tabs right before the pages, which were added later and elsewhere in its order."""
+        before = self.widget(0) or self.tabBar()
+        while before is not self.tabBar():
+            before = before.previousInFocusChain()
+            if before.focusPolicy() & Qt.FocusPolicy.TabFocus:  # after any other, Qt puts nothing
+                self.setTabOrder(before, self.tabBar())
+                break
 
     def offer(self, page: QWidget) -> None:
         """Bring a page to the front of the others."""

@@ -6,10 +6,15 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontMetrics
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from hexmend_app.scene.palette import BLUE, CHOSEN, FAINT, FIELD, HOVER, LINE, ON_CHOSEN, TEXT
 from hexmend_app.widgets.style import dress, explain, smaller
+
+
+def _stop_at_checked(button: QAbstractButton, checked: bool) -> None:
+    """Let Tab come to the chosen one alone; Qt leaves it at whichever the focus comes to first, from either side."""
+    button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if checked else Qt.FocusPolicy.ClickFocus)
 
 
 def _sheet() -> str:
@@ -55,7 +60,6 @@ class Segmented(QWidget):
         for at, (key, text, help) in enumerate(options):
             button = QPushButton(text)
             button.setCheckable(True)
-            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             button.setProperty("place", "first" if at == 0 else "last" if at == len(options) - 1 else "")
             explain(button, f"{name}: {text}", help)
             button.clicked.connect(lambda _=False, key=key: self.chosen.emit(key))
@@ -67,6 +71,9 @@ class Segmented(QWidget):
             self._group.addButton(button)
             self._buttons[key] = button
             layout.addWidget(button)
+        self._group.buttonToggled.connect(_stop_at_checked)
+        for button in self._buttons.values():
+            _stop_at_checked(button, False)
         self.set_value(options[0][0])
 
     def value(self) -> str:

@@ -152,7 +152,8 @@ def test_closing_while_running_leaves_no_thread(running_window):
     assert not running_window.isVisible()
 
 
-def test_cancelling_keeps_the_window_and_its_run(window, qtbot, monkeypatch):
+def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatch):
+    window = fresh_window
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     with monkeypatch.context() as patched:
