@@ -18,7 +18,7 @@ _PROPERTIES = (
     "title", "windowTitle", "accessibleDescription", "placeholderText", "rowCount", "count",
 )  # fmt: skip
 #: What the room is shared between; how a panel shares its own comes of that, and of when it was first seen.
-_LAID_OUT = ("Tabs", "Drawer", "Canvas", "QtInteractor")
+_LAID_OUT = ("Tabs", "Drawer", "Canvas", "RenderWidget")
 _PLAIN = (bool, int, float, str, bytes, type(None), Enum, Path)
 
 

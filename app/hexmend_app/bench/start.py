@@ -16,7 +16,7 @@ from typing import Any
 from hexmend.errors import HexmendError
 from hexmend.study.section import Section
 
-_TIMES = 7
+_TIMES = 5
 _PATIENCE = 120.0  # seconds for a start
 
 #: What is measured, and how it is called where it is printed.
@@ -51,11 +51,14 @@ def started(mesh: Path | None = None) -> dict[str, dict[str, Any]]:
         with subprocess.Popen(words, env=os.environ | settings, stderr=subprocess.PIPE, text=True) as process:
             try:
                 told = _read(report, process, began)
-            finally:
                 process.send_signal(signal.SIGINT)
-            said = process.communicate(timeout=_PATIENCE)[1]
+                said = process.communicate(timeout=_PATIENCE)[1]
+            finally:
+                process.kill()  # or one that hangs would be waited for
         if len(told) < len(MOMENTS):
             raise HexmendError(f"the program ended, or hung, before its mesh was seen: {said.strip()}")
+        if process.returncode:
+            raise HexmendError(f"the program ended with {process.returncode} as it was to close: {said.strip()}")
     return {one["moment"]: {"seconds": one["at"] - began, "modules": one["modules"]} for one in told}
 
 

@@ -170,9 +170,12 @@ class RenderWidget(QOpenGLWidget):
 
     def _let_go_of_graphics(self) -> None:
         self._make_current()
+        self._end()
+        self.forget_context()
+
+    def _end(self) -> None:
         self.render_window.Finalize()
         self.render_window.SetReadyForRendering(False)
-        self.forget_context()
 
     def forget_context(self) -> None:
         """Draw no more on a context that is gone."""
@@ -180,7 +183,7 @@ class RenderWidget(QOpenGLWidget):
 
     def let_go(self) -> None:
         """End drawing for good, while the window still exists."""
-        self.render_window.Finalize()
+        self._end()
         for of, observer in self._told:
             of.RemoveObserver(observer)
         self._told.clear()

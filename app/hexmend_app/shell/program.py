@@ -48,7 +48,8 @@ def open_window(mesh: str | None = None) -> int:
     window = Window()
     report_start(window)
     report_unexpected_errors(window)
-    signal.signal(signal.SIGINT, lambda *_: window.close())
+    # A signal may come while something is painted: the window is closed after that.
+    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
     alive = QTimer()  # lets Python see a Ctrl-C
     alive.start(250)
     alive.timeout.connect(lambda: None)
