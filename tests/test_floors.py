@@ -43,6 +43,8 @@ APP = [
     {"bench", "cli"},
     {"__main__"},
 ]
+# Of these folders none imports another.
+SIBLINGS = "features"
 # The public face stands above the core's floors: of them only the command line may look at it.
 SEES_THE_FACE = {"cli", "__main__"}
 WINDOWS = (
@@ -93,6 +95,9 @@ def broken(package: Path, floors: Sequence[set[str]], sees_the_face: set[str]) -
             root, *below = name.split(".")
             if root == "":
                 rows.append(f"{where}: write the whole name, so that floors can be seen")
+            elif root == package.name and mine == SIBLINGS and below[:1] == [mine] and len(parts) > 1:
+                if below[1:2] and below[1] != parts[1]:
+                    rows.append(f"{where}, a sibling of {parts[1]}: features meet in the session")
             elif root != package.name or below[:1] == [mine]:
                 continue
             elif not below or below[0] not in level:
@@ -130,6 +135,14 @@ def test_a_broken_floor_is_seen(tmp_path, module, line, complaint):
     path.write_text(line)
     rows = broken(tmp_path / "hexmend", CORE, SEES_THE_FACE)
     assert [complaint in row for row in rows] == ([True] if complaint else [])
+
+
+def test_a_feature_that_imports_a_sibling_is_seen(tmp_path):
+    path = tmp_path / "hexmend_app" / "features" / "cut" / "feature.py"
+    path.parent.mkdir(parents=True)
+    path.write_text("from hexmend_app.features.cut.panel import Panel\nfrom hexmend_app.features.look import feature")
+    (row,) = broken(tmp_path / "hexmend_app", APP, set())
+    assert "a sibling of cut" in row
 
 
 def test_the_core_names_no_window():

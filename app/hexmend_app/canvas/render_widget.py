@@ -66,7 +66,6 @@ class RenderWidget(QOpenGLWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self._drawn_on: QOpenGLContext | None = None
         self._painting = False
-        self._held = Qt.MouseButton.NoButton
         self._turned = 0  # of the wheel, since its last whole step
         window = self.render_window = vtkGenericOpenGLRenderWindow()
         window.SetReadyForRendering(False)
@@ -206,15 +205,14 @@ class RenderWidget(QOpenGLWidget):
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin to lead the camera, or what is dragged."""
         self._tell_place(event, int(event.type() == QEvent.Type.MouseButtonDblClick))
-        self._held = event.button()
-        if self._held in _BUTTONS:
-            self.iren.InvokeEvent(f"{_BUTTONS[self._held]}PressEvent")
+        if event.button() in _BUTTONS:
+            self.iren.InvokeEvent(f"{_BUTTONS[event.button()]}PressEvent")
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """End it."""
         self._tell_place(event)
-        if self._held in _BUTTONS:
-            self.iren.InvokeEvent(f"{_BUTTONS[self._held]}ReleaseEvent")
+        if event.button() in _BUTTONS:
+            self.iren.InvokeEvent(f"{_BUTTONS[event.button()]}ReleaseEvent")
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Follow the hand."""
@@ -224,9 +222,10 @@ class RenderWidget(QOpenGLWidget):
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Zoom by whole steps."""
         self._turned += event.angleDelta().y()
-        if abs(self._turned) >= _STEP:
-            (self.iren.MouseWheelForwardEvent if self._turned > 0 else self.iren.MouseWheelBackwardEvent)()
-            self._turned = 0
+        zoom = self.iren.MouseWheelForwardEvent if self._turned > 0 else self.iren.MouseWheelBackwardEvent
+        for _ in range(abs(self._turned) // _STEP):
+            zoom()
+        self._turned -= int(self._turned / _STEP) * _STEP
 
     def _show_cursor(self) -> None:
         self.setCursor(_CURSORS.get(self.render_window.GetCurrentCursor(), Qt.CursorShape.ArrowCursor))

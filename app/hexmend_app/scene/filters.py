@@ -74,6 +74,9 @@ class Filters:
             self._known["isolation"][1],
             [self._known[name][1] for name in ("clip", "dug") if name in self._known],
         )
+        clip = frame.look.clip
+        if clip is not None and not clip.crinkle:
+            others.append(cut.left(frame.mesh.points, frame.mesh.hexes, clip))
         return reduce(np.logical_and, [near, ~isolated, *others])
 
     def left(self, frame: Frame) -> np.ndarray | None:

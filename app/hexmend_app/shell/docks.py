@@ -47,6 +47,7 @@ class Docks(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._where: dict[str, tuple[Tabs, QWidget]] = {}
+        self._lines: dict[str, QWidget] = {}  # around panels that are no tabs, below the view
         self._panels: dict[str, QWidget] = {}
         self.centre = QWidget()
         self.centre.setMinimumSize(*_LEAST_VIEW)
@@ -73,6 +74,7 @@ class Docks(QWidget):
         self._right.setStretchFactor(0, 3)
         self._right.setStretchFactor(1, 2)
         self._placed = False
+        self._put_away: tuple[bool, list[str]] = (True, [])  # whether the drawer was folded, and which lines there were
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._all)
@@ -92,7 +94,7 @@ class Docks(QWidget):
         for place, group in groupby(panels, key=lambda one: one.place):
             if place is Place.BELOW:
                 for panel in group:
-                    self.view.addWidget(panel.widget)
+                    self._add_line(panel)
                 continue
             if place is Place.EMPTY:
                 for panel in group:
@@ -102,6 +104,14 @@ class Docks(QWidget):
                 self._add_tab(self._tabs[place], title, list(within))
         for tabs in self._tabs.values():
             tabs.read_before_pages()
+
+    def _add_line(self, panel: Panel) -> None:
+        around = QWidget()  # so that the feature and the user each show and hide one of the two
+        layout = QVBoxLayout(around)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(panel.widget)
+        self.view.addWidget(around)
+        self._lines[panel.id] = around
 
     def _add_tab(self, tabs: Tabs, title: str, panels: list[Panel]) -> None:
         from hexmend_app.shell.column import column
@@ -115,35 +125,47 @@ class Docks(QWidget):
             self._panels[panel.id] = panel.widget
 
     def ids(self) -> list[str]:
-        """The panels that have tabs, in their order: tools first."""
-        return [id for tabs in self._tabs.values() for id, (where, _) in self._where.items() if where is tabs]
+        """The panels that can be shown and closed, in their order: tools first."""
+        tabs = [id for tabs in self._tabs.values() for id, (where, _) in self._where.items() if where is tabs]
+        return [*tabs, *self._lines]
 
     def show_panel(self, id: str) -> None:
         """Bring a panel to the front, unfolded, and all panels back if they are hidden."""
         self.set_hidden(False)
         from hexmend_app.shell.column import unfold
 
+        if id in self._lines:
+            self._lines[id].show()
+            return
         tabs, page = self._where[id]
         tabs.bring(page)
         unfold(page, self._panels[id])
 
     def offer_panel(self, id: str) -> None:
-        """Bring a panel to the front of its tabs, which stay folded or hidden if they are."""
+        """Bring a panel that is open to the front of its tabs, which stay folded or hidden if they are."""
         tabs, page = self._where[id]
-        tabs.offer(page)
+        if tabs.is_open(page):
+            tabs.offer(page)
 
     def close_panel(self, id: str) -> None:
         """Take a panel's tab away, until it is shown again."""
+        if id in self._lines:
+            self._lines[id].hide()
+            return
         tabs, page = self._where[id]
         tabs.close_page(page)
 
     def is_open(self, id: str) -> bool:
-        """Whether a panel has a tab."""
+        """Whether a panel has a tab, or its line below the view."""
+        if id in self._lines:
+            return not self._lines[id].isHidden()
         tabs, page = self._where[id]
         return tabs.is_open(page)
 
     def in_front(self, id: str) -> bool:
         """Whether a panel can be seen."""
+        if id in self._lines:
+            return self._lines[id].isVisible()
         tabs, page = self._where[id]
         return tabs.shows(page) and not tabs.isHidden() and not self._right_hidden(tabs)
 
@@ -156,11 +178,20 @@ class Docks(QWidget):
         return self._right.isHidden()
 
     def set_hidden(self, hidden: bool) -> None:
-        """Leave the window to the view, or bring the panels back as they were."""
-        if hidden != self.hidden:
-            self._right.setVisible(not hidden)
-            self.drawer.setVisible(not hidden)
-            self.changed.emit()
+        """Leave the window to the view, or bring the panels back as they were.
+
+        The line of the drawer's tabs stays: what is going on is said there, with a way out.
+        """
+        if hidden == self.hidden:
+            return
+        if hidden:
+            self._put_away = self.drawer.folded, [id for id in self._lines if self.is_open(id)]
+        folded, lines = self._put_away
+        self._right.setVisible(not hidden)
+        self.drawer.set_folded(hidden or folded)
+        for id in lines:
+            self._lines[id].setVisible(not hidden)
+        self.changed.emit()
 
     # How it is laid out
 
@@ -185,24 +216,46 @@ class Docks(QWidget):
             "all": self._all.saveState(),
             "right": self._right.saveState(),
             "hidden": self.hidden,
-            "drawer": self.drawer.height_unfolded,
-            "folded": self.drawer.folded,
+            "drawer": self.drawer.height_open,
+            "folded": self._put_away[0] if self.hidden else self.drawer.folded,
             "fronts": [tabs.front for tabs in self._tabs.values()],
-            "closed": [id for id in self._where if not self.is_open(id)],
+            "closed": self._closed(),
         }
 
-    def restore(self, state: dict[str, object]) -> None:
-        """Lay out as it was; what was saved with other panels is left alone."""
-        if state.get("layout") != LAYOUT:
+    def _closed(self) -> list[str]:
+        """What the user has closed, whether panels are hidden or not."""
+        put_away = self._put_away[1] if self.hidden else []
+        return [id for id in self.ids() if not self.is_open(id) and id not in put_away]
+
+    def restore(self, state: dict[str, object], room: bool = True, panels: bool = True) -> None:
+        """Lay out as it was; what was saved with other panels, or cannot be read, is left alone.
+
+        Parameters
+        ----------
+        state : dict
+        room : bool
+            Share the room out.
+        panels : bool
+            Bring tabs to the front and close them, which have to be there.
+        """
+        try:
+            if state["layout"] != LAYOUT:
+                return
+            sizes = [(self._all, QByteArray(state["all"])), (self._right, QByteArray(state["right"]))]
+            fronts = [str(title) for title in state["fronts"]]
+            closed = [id for id in state["closed"] if id in self.ids()]
+            height, folded, hidden = int(state["drawer"]), bool(state["folded"]), bool(state["hidden"])
+        except (KeyError, TypeError, ValueError):
             return
-        self._placed = True
-        for splitter, name in ((self._all, "all"), (self._right, "right")):
-            splitter.restoreState(QByteArray(state[name]))
-        for tabs, front in zip(self._tabs.values(), state["fronts"], strict=True):
-            tabs.set_front(front)
-        for id in state["closed"]:
-            if id in self._where:
+        if room:
+            self._placed = True
+            for splitter, kept in sizes:
+                splitter.restoreState(kept)
+            self.drawer.height_unfolded = height
+        if panels:
+            for tabs, title in zip(self._tabs.values(), fronts, strict=False):
+                tabs.set_front(title)
+            for id in closed:
                 self.close_panel(id)
-        self.drawer.height_unfolded = int(state["drawer"])
-        self.drawer.set_folded(bool(state["folded"]))
-        self.set_hidden(bool(state["hidden"]))
+            self.drawer.set_folded(folded)
+            self.set_hidden(hidden)

@@ -106,6 +106,11 @@ class Drawer(Tabs):
         self.tabBarClicked.connect(self._on_click)
         self.set_folded(True)
 
+    @property
+    def height_open(self) -> int:
+        """Pixels that it has while it is open, or had then."""
+        return self.height() if self.isVisible() and not self.folded else self.height_unfolded
+
     def set_folded(self, folded: bool) -> None:
         """Leave nothing but the tabs, or show the page in front."""
         if folded == self.folded:

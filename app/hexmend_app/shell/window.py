@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
@@ -63,7 +64,6 @@ class Window(QMainWindow):
         for part in (self.busy, self._counts):
             line.addWidget(part)
         self.docks.drawer.setCornerWidget(corner, Qt.Corner.TopRightCorner)
-        self.busy.done()
         self.session: Session | None = None
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}
@@ -84,7 +84,7 @@ class Window(QMainWindow):
         self.docks.add([panel for panel in self._panels() if panel.place is Place.EMPTY])
         for told in (self.session.changed, self.docks.changed, self.messages.filled, self.messages.emptied):
             told.connect(self.refresh_soon)
-        self.docks.restore(settings.PANELS.get())
+        self.docks.restore(settings.PANELS.get(), panels=False)
         self.refresh()
 
     def furnishing(self) -> Iterator[None]:
@@ -100,9 +100,12 @@ class Window(QMainWindow):
         built = dict(first)
         for kind in kinds:
             if name_of(kind) not in built:
-                built[name_of(kind)] = kind(self)
+                try:
+                    built[name_of(kind)] = kind(self)
+                except Exception:  # whatever it is, the others are there
+                    sys.excepthook(*sys.exc_info())
                 yield
-        self.features = {name_of(kind): built[name_of(kind)] for kind in kinds}
+        self.features = {name_of(kind): built[name_of(kind)] for kind in kinds if name_of(kind) in built}
         panels = self._panels()
         self.docks.add([panel for panel in panels if panel.place is not Place.EMPTY])
         actions = [action for feature in self.features.values() for action in feature.actions()]
@@ -110,7 +113,7 @@ class Window(QMainWindow):
         if self.canvas is not None:
             for name in self.features.keys() - first.keys():
                 self.features[name].canvas_ready(self.canvas)
-        self.docks.restore(settings.PANELS.get())
+        self.docks.restore(settings.PANELS.get(), room=False)
         self.refresh()
         self.furnished.emit()
 
@@ -210,11 +213,14 @@ class Window(QMainWindow):
             return
         document = self.session.document
         for feature in self.features.values():
-            feature.refresh()
+            try:
+                feature.refresh()
+            except Exception:  # whatever it is, the others are shown as they are now
+                sys.excepthook(*sys.exc_info())
         if self._menus is not None:
             self._menus.refresh(document.is_open)
         # Esc is for a message first, then for what is being opened.
-        self.busy.take_escape(self.session.opener.busy and self.messages.isHidden())
+        self.busy.take_escape("open" if self.session.opener.busy and self.messages.isHidden() else "")
         if document.is_open:
             summary = document.now.summary
             inverted = f"{summary.inverted:,} inverted" if summary.inverted else "none inverted"
@@ -251,7 +257,8 @@ class Window(QMainWindow):
             event.ignore()
             return
         settings.GEOMETRY.set(self.saveGeometry())
-        settings.PANELS.set(self.docks.state())
+        if self._menus is not None:  # or there are panels that have no place yet
+            settings.PANELS.set(self.docks.state())
         self.hide()  # threads may take a while to end
         for feature in self.features.values():
             feature.close()

@@ -7,8 +7,6 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.movement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Movement
 from hexmend.quality import ElementQuality, locked
-from hexmend_app.state.look import Isolation
-from hexmend_app.state.view import View
 
 #: Those that a movement tells apart.
 _MOVED = {"newly inverted": NEWLY_INVERTED, "still inverted": STILL_INVERTED, "mended": MENDED}
@@ -41,9 +39,3 @@ def of_kind(kind: str, mesh: Mesh, figures: ElementQuality, movement: Movement |
     if kind == "locked":
         return np.flatnonzero(locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted))
     return np.empty(0, np.int64) if movement is None else np.flatnonzero(movement.kinds == _MOVED[kind])
-
-
-def isolate(view: View, hexes: np.ndarray) -> None:
-    """Show some hexes among ghosts of their neighbours, whatever range was shown before; of none, do nothing."""
-    if len(hexes):
-        view.change(quality_range=None, isolation=Isolation(tuple(hexes.tolist()), rings=view.rings))

@@ -92,7 +92,11 @@ class View(QObject):
             As many as were last chosen where none are named.
         """
         self.rings = self.rings if rings is None else rings
-        self.change(isolation=Isolation(tuple(int(h) for h in hexes), self.rings))
+        hexes = tuple(int(h) for h in hexes)
+        if hexes:
+            # What else would hide them is given up: they are what is to be seen.
+            dug = self.look.dug - set(hexes)
+            self.change(isolation=Isolation(hexes, self.rings), quality_range=None, peel=0, dug=dug)
 
     def set_rings(self, rings: int) -> None:
         """Show so many rings of neighbours around what is isolated, now or next."""

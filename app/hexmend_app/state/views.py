@@ -84,10 +84,12 @@ class Views(QObject):
         return any(one.state is state for one in self.all)
 
     def show(self, name: str, state: State) -> bool:
-        """Show a state of the open mesh in a view under a name; whether there was room for it.
+        """Show a state of the open mesh in a view under a name, unless it is in one; whether there was room for it.
 
         A view of the same name shows the other state from then on.
         """
+        if self.shows(state):
+            return True
         shown = Shown(name, state)
         names = [one.name for one in self.all]
         if name in names:

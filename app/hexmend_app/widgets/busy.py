@@ -12,7 +12,7 @@ from hexmend_app.widgets.style import explain
 
 
 class Busy(QWidget):
-    """A line for the status bar: what is being done, that it goes on, and a button that ends it."""
+    """A line that says what is being done, that it goes on, with a button that ends it; of several, the newest."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -25,32 +25,49 @@ class Busy(QWidget):
         self._cancel = QPushButton()
         self._cancel.setFixedHeight(self._text.fontMetrics().height() + 4)
         self._cancel.clicked.connect(lambda: self._end())
-        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end())
-        self._end: Callable[[], object] = self.done
+        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escaping))
+        self._escaping = ""
+        self._works: dict[str, tuple[str, str, str, Callable[[], object]]] = {}  # by who does them
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         for part in (self._text, bar, self._cancel):
             layout.addWidget(part)
-        self.done()
+        self.hide()
 
-    def show_work(self, text: str, word: str = "", help: str = "", end: Callable[[], object] | None = None) -> None:
-        """Say what is being done; `word` on the button that calls `end`, with its `help`, or no button."""
-        self._end = end or self.done
+    def show_work(
+        self, who: str, text: str, word: str = "", help: str = "", end: Callable[[], object] | None = None
+    ) -> None:
+        """Say what somebody does; `word` on the button that calls `end`, with its `help`, or no button."""
+        self._works[who] = text, word, help, end or (lambda: self.done(who))
+        self._show()
+
+    def text(self) -> str:
+        """What is being done."""
+        return self._text.text()
+
+    def done(self, who: str) -> None:
+        """Somebody does nothing any more."""
+        if self._works.pop(who, None) is not None:
+            self._show()
+
+    def _end(self, who: str = "") -> None:
+        """End what somebody does, or the newest."""
+        if self._works:
+            self._works.get(who, list(self._works.values())[-1])[3]()
+
+    def _show(self) -> None:
+        if not self._works:
+            self._escape.setEnabled(False)
+            self.hide()
+            return
+        text, word, help, _ = list(self._works.values())[-1]
         self._text.setText(text)
         self._cancel.setText(word)
         explain(self._cancel, word, help)
         self._cancel.setVisible(bool(word))
         self.show()
 
-    def text(self) -> str:
-        """What is being done."""
-        return self._text.text()
-
-    def done(self) -> None:
-        """Nothing is being done any more."""
-        self._escape.setEnabled(False)
-        self.hide()
-
-    def take_escape(self, on: bool) -> None:
-        """Let Esc end it, or leave Esc to others."""
-        self._escape.setEnabled(on and not self.isHidden())
+    def take_escape(self, who: str) -> None:
+        """Let Esc end what somebody does, or, for "", leave Esc to others."""
+        self._escaping = who
+        self._escape.setEnabled(who in self._works)

@@ -179,8 +179,9 @@ class MessageBar(QFrame):
     def _refresh(self) -> None:
         self._timer.stop()
         self._escape.setEnabled(bool(self._messages))
+        filled = bool(self._messages) and self.isHidden()
         self.setVisible(bool(self._messages))
-        if self._messages:
+        if filled:
             self.filled.emit()
         if not self._messages:
             self._at = 0

@@ -137,3 +137,24 @@ def test_it_is_said_that_only_a_part_is_shown_until_esc_brings_back_the_rest(win
         key(window, Qt.Key.Key_Escape)
         window.refresh()
     assert "isolated" not in counts.text()
+
+
+def test_a_feature_that_fails_to_refresh_is_said_once_and_the_others_go_on(fresh_window, qtbot, monkeypatch):
+    window = fresh_window
+    monkeypatch.setattr(sys, "excepthook", sys.excepthook)
+    report_unexpected_errors(window)
+
+    def fail():
+        raise ZeroDivisionError("one over nothing")
+
+    later = []
+    monkeypatch.setattr(window.features["look"], "refresh", fail)
+    monkeypatch.setattr(window.features["compare"], "refresh", lambda: later.append(1))
+    window.session.selection.changed.emit()
+    qtbot.waitUntil(lambda: len(later) > 0)
+    for _ in range(50):
+        QApplication.processEvents()
+    ((kind, _, text),) = window.messages.messages()
+    assert kind == "error"
+    assert "one over nothing" in text
+    assert len(later) < 5

@@ -1,4 +1,4 @@
-"""Methods on the same mesh, compared: the lines between their results, the table, the views and the histogram."""
+"""Methods on the same mesh, compared: the lines between their results, the table and the views."""
 
 from __future__ import annotations
 

@@ -11,6 +11,7 @@ from PySide6.QtCore import QTimer
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.scene.export.shots import chosen, shots
+from hexmend_app.state.history import Record
 from hexmend_app.widgets.questions import ask_film
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ class FeatureFilm(Feature):
         self._canvas: Canvas | None = None
         self._path = Path()
         self._count = 0
+        self._record: Record | None = None
         self._frames: list[Image.Image] = []
         self._coming: Iterator[Image.Image] | None = None
         self._next = QTimer(self, interval=0)
@@ -87,7 +89,7 @@ class FeatureFilm(Feature):
         view = self._canvas.viewport
         size = (WIDTH, round(WIDTH * self._canvas.height() / self._canvas.width() / 2) * 2)
         taken = shots(history, record, self.session.document.now.mesh, numbers)
-        self._path, self._count, self._frames = path, len(numbers), []
+        self._path, self._count, self._frames, self._record = path, len(numbers), [], record
         self._coming = pictures(taken, view.frame.look, size, camera=view.camera, movement=view.frame.movement)
         self._next.start()
         self._say()
@@ -98,10 +100,21 @@ class FeatureFilm(Feature):
             self._next.stop()
             self._coming.close()
             self._coming, self._frames = None, []
-            self.host.busy.done()
+            self.host.busy.done("film")
+
+    def refresh(self) -> None:
+        """Give up the film of a run that is forgotten meanwhile."""
+        if self.going_on and self._record not in self.session.history.records:
+            self.cancel()
+            self.host.messages.show_error("The film was not made", "Its run was forgotten before its last frame.")
 
     def _draw_one(self) -> None:
-        frame = next(self._coming, None)
+        try:
+            frame = next(self._coming, None)
+        except Exception as error:  # whatever it is, half a film is none
+            self.cancel()
+            self.host.messages.show_error("The film was not made", f"A frame could not be drawn: {error}.")
+            return
         if frame is not None:
             self._frames.append(frame)
             self._say()
@@ -113,15 +126,14 @@ class FeatureFilm(Feature):
     def _write(self, path: Path, frames: list[Image.Image]) -> None:
         from hexmend_app.scene.export.film import write_film
 
-        try:
-            write_film(path, frames, self.session.timeline.speed)
-        except HexmendError as error:
-            self.host.messages.show_error("The film was not saved", str(error))
-        else:
-            self.host.messages.show_info(f"Film of {len(frames)} frames saved to {path}")
+        self.host.said(
+            "The film was not saved",
+            lambda: write_film(path, frames, self.session.timeline.speed),
+            f"Film of {len(frames)} frames saved to {path}",
+        )
 
     def _say(self) -> None:
         word, help = "Cancel", "Give the film up; no file is written."
         drawn = len(self._frames)
         what = f"Drawing frame {drawn + 1} of {self._count}…" if drawn < self._count else f"Writing {self._path.name}…"
-        self.host.busy.show_work(what, word, help, self.cancel)
+        self.host.busy.show_work("film", what, word, help, self.cancel)

@@ -1,4 +1,4 @@
-"""Help: how the view is driven, every key, every command by its name, and what Hexmend is."""
+"""What Hexmend is; the pages of keys and commands, which know every feature, are the window's."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from hexmend_app.features.histogram.file import write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept
-from hexmend_app.state.kinds import isolate, of_kind
+from hexmend_app.state.kinds import of_kind
 from hexmend_app.state.measured import values
 from hexmend_app.widgets.questions import ask_histogram
 
@@ -97,7 +97,7 @@ class FeatureHistogram(Feature):
 
     def _isolate_inverted(self) -> None:
         now = self._document.now
-        isolate(self._view, of_kind("inverted", now.mesh, now.figures))
+        self._view.isolate(of_kind("inverted", now.mesh, now.figures))
 
     # What is kept
 

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
 
+#: Panels that show what is chosen too, or do something with it: a click does not put another before them.
+_FOLLOWING = ("node", "tags", "worst")
+
+
 class FeatureInspect(Feature):
     """Chooses hexes and nodes, and shows what there is to know of them."""
 
@@ -142,7 +146,7 @@ class FeatureInspect(Feature):
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))
-        if hit is not None and not self.host.in_front("node"):
+        if hit is not None and not any(self.host.in_front(id) for id in _FOLLOWING):
             self.host.offer_panel("hex")
 
     def _go_to_worst(self, h: int) -> None:

@@ -10,7 +10,7 @@ from hexmend.movement import MOVEMENTS, Movement
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.look.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.scene.frame import Frame
-from hexmend_app.state.kinds import isolate, of_kind
+from hexmend_app.state.kinds import of_kind
 from hexmend_app.state.look import Arrows, Look
 from hexmend_app.state.run import Phase
 
@@ -111,7 +111,7 @@ class FeatureLook(Feature):
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
-        isolate(self._view, of_kind(kind, now.mesh, now.figures, self._movement))
+        self._view.isolate(of_kind(kind, now.mesh, now.figures, self._movement))
 
     @property
     def _movement(self) -> Movement | None:

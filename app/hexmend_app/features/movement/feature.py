@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from hexmend.movement import MOVEMENTS, NEWLY_INVERTED, Movement
+from hexmend.movement import MOVEMENTS, Movement
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.movement.movement_panel import MovementPanel
+from hexmend_app.state.kinds import of_kind
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -72,4 +71,5 @@ class FeatureMovement(Feature):
         return self.session.references.movement(self._view.look.traces.since)
 
     def _show_newly_inverted(self) -> None:
-        self._view.isolate(np.flatnonzero(self._movement.kinds == NEWLY_INVERTED))
+        now = self._document.now
+        self._view.isolate(of_kind("newly inverted", now.mesh, now.figures, self._movement))

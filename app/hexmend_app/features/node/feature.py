@@ -213,7 +213,7 @@ class FeatureNode(Feature):
 
     def _isolate(self, step: NodeStep) -> None:
         self._isolation = _isolation(step)
-        self._view.change(isolation=self._isolation)
+        self._view.change(isolation=self._isolation, quality_range=None, peel=0)  # which would hide some of it
         self._selection.visit(*step.hexes.tolist())
 
     # A sweep

@@ -105,21 +105,22 @@ class FeatureOpen(Feature):
 
     def _tell(self, progress: Progress) -> None:
         if self._opener.busy:
-            self.host.busy.show_work(said(progress), "Cancel", "Do not open this mesh (Esc).", self._opener.cancel)
+            help = "Do not open this mesh (Esc)."
+            self.host.busy.show_work("open", said(progress), "Cancel", help, self._opener.cancel)
 
     def _on_ended(self, path: Path) -> None:
-        self.host.busy.done()
+        self.host.busy.done("open")
         self.host.messages.clear()
         if path.resolve() != demo_mesh().resolve():
             remember_folder(path)
             self.recent.add(path)
 
     def _on_cancelled(self, path: Path) -> None:
-        self.host.busy.done()
+        self.host.busy.done("open")
         self.host.messages.show_info(f"Opening {path.name} was cancelled.{self._what_stays()}")
 
     def _on_failed(self, path: Path, error: Exception) -> None:
-        self.host.busy.done()
+        self.host.busy.done("open")
         detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
         self.host.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._what_stays()}")
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.quality.statistics import StatisticsTable
-from hexmend_app.state.kinds import isolate, of_kind
+from hexmend_app.state.kinds import of_kind
 
 
 class FeatureQuality(Feature):
@@ -41,4 +41,4 @@ class FeatureQuality(Feature):
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
-        isolate(self.session.view, of_kind(kind, now.mesh, now.figures))
+        self.session.view.isolate(of_kind(kind, now.mesh, now.figures))

@@ -155,12 +155,12 @@ class FeatureSmooth(Feature):
         if not self._seen.another("phase", phase):
             return
         if phase is Phase.STOPPING:
-            self.host.busy.show_work("Stopping…")
+            self.host.busy.show_work("run", "Stopping…")
         elif phase is Phase.PREPARING:
             help = "End the run before its first iteration (Shift+F5)."
-            self.host.busy.show_work("Preparing the method…", "Stop", help, self._smoothing.stop)
-        elif not self.session.opener.busy:
-            self.host.busy.done()  # its animation would slow a run that shows itself anyway
+            self.host.busy.show_work("run", "Preparing the method…", "Stop", help, self._smoothing.stop)
+        else:
+            self.host.busy.done("run")  # its animation would slow a run that shows itself anyway
 
     def _on_failed(self, error: Exception) -> None:
         self.host.messages.show_error("The method failed", f"{error}. The mesh is as it was before the run.")

@@ -1,4 +1,4 @@
-"""Watching runs: the lines between the timeline, the bar below the view, and break-points."""
+"""Watching runs: the lines between the timeline and the bar below the view."""
 
 from __future__ import annotations
 

@@ -285,7 +285,9 @@ def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkey
     window.actions["film"].trigger()
     said = [window.busy.text()]
     show = window.busy.show_work
-    monkeypatch.setattr(window.busy, "show_work", lambda text, *others: (said.append(text), show(text, *others)))
+    monkeypatch.setattr(
+        window.busy, "show_work", lambda who, text, *others: (said.append(text), show(who, text, *others))
+    )
     qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=PATIENCE)
     assert said == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
     assert "6 frames" in " ".join(window.messages.messages()[-1])
