@@ -7,11 +7,12 @@ import sys
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QWidget
 
 from hexmend.quality import METRICS
 from hexmend_app.shell.program import report_unexpected_errors
 from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.widgets.section import Section
 from tests.app.driving import LEFT, drag, key, named, pixels
 from tests.patience import PATIENCE
 
@@ -58,6 +59,27 @@ def test_nothing_is_cut_off(window, qtbot, size):
         QApplication.processEvents()
         assert cut_off(window) == [], metric
         assert (window.width(), window.height(), window.docks.centre.width()) == (*size, width)
+
+
+def test_no_panel_is_wider_than_the_column_that_it_is_unfolded_in(window, qtbot):
+    window.resize(1100, 700)
+    qtbot.waitUntil(lambda: window.docks.width() == 1100, timeout=PATIENCE)
+    for panel in ("run", "recipe", "look", "cut", "inside", "show"):
+        window.show_panel(panel)
+        for section in window.findChildren(Section):
+            if section.isVisible():
+                section.expand()
+        window.refresh()
+        qtbot.waitUntil(lambda: columns_overflowing(window) == [], timeout=PATIENCE)
+
+
+def columns_overflowing(window):
+    """What scrolls beside the view, of which not the whole width is seen."""
+    return [
+        area
+        for area in window.findChildren(QScrollArea)
+        if area.isVisible() and area.widget() and area.widget().width() > area.viewport().width()
+    ]
 
 
 def cut_off(window):

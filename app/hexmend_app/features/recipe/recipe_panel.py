@@ -80,7 +80,7 @@ class RecipePanel(QWidget):
         self._run = self._button("play", "Run", "Run the stages one after another, as one run.", "Run recipe")
         self._load = self._button("folder-open-outline", "Load", "Load a recipe from a TOML file, or one of Hexmend's.")
         self._save = self._button(
-            "content-save-outline", "Save", "Save the recipe as TOML, which hexmend smooth takes."
+            "content-save-outline", "", "Save the recipe as TOML, which hexmend smooth takes.", "Save"
         )
         self._menu = QMenu(self._load)
         self._menu.setToolTipsVisible(True)
@@ -114,10 +114,11 @@ class RecipePanel(QWidget):
         for part in (self._replace, self._up, self._down, self._remove):
             edit.addWidget(part)
         foot.setSpacing(6)
-        for column, part in enumerate((self._run, self._load, self._save)):
+        for column, part in enumerate((self._run, self._load)):
             part.setMinimumWidth(part.minimumSizeHint().width())
             foot.addWidget(part, 0, column)
             foot.setColumnStretch(column, 1)
+        foot.addWidget(self._save, 0, 2)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)

@@ -43,11 +43,11 @@ class BreakpointForm(QWidget):
         self._falls = self._check(grid, 1, "q min falls", _FALLS)
         self._node, self._node_box, self._move = self._watch(grid, 2, "Node", "moves more than", _NODE, " edge")
         self._hex, self._hex_box, self._change = self._watch(grid, 4, "Hex", "changes more than", _HEX, " q")
-        self._cut = self._check(grid, 6, "Line search cuts more than", _CUTS, span=1)
+        self._cut = self._check(grid, 6, "Line search", _CUTS)
         self._cuts = self._number(QSpinBox(), "Most cuts of the line search", _CUTS)
         self._cuts.setRange(0, 99)
         self._cuts.setValue(3)
-        grid.addWidget(self._cuts, 6, 1)
+        self._ask(grid, 7, "cuts more than", self._cuts)
         grid.setColumnStretch(0, 1)
         self._node.clicked.connect(lambda on: self._take(self._node_box, self._chosen[1], on))
         self._hex.clicked.connect(lambda on: self._take(self._hex_box, self._chosen[0], on))
@@ -121,12 +121,17 @@ class BreakpointForm(QWidget):
         amount.setValue(0.1)
         amount.setSuffix(suffix)
         grid.addWidget(which, row, 1)
-        line = QHBoxLayout()
-        line.setContentsMargins(22, 0, 0, 0)
-        line.addWidget(QLabel(verb))
-        grid.addLayout(line, row + 1, 0)
-        grid.addWidget(amount, row + 1, 1)
+        self._ask(grid, row + 1, verb, amount)
         return check, which, amount
+
+    @staticmethod
+    def _ask(grid: QGridLayout, row: int, verb: str, box: QWidget) -> None:
+        """A row for how much, below what."""
+        line = QHBoxLayout()
+        line.setContentsMargins(12, 0, 0, 0)
+        line.addWidget(QLabel(verb))
+        grid.addLayout(line, row, 0)
+        grid.addWidget(box, row, 1)
 
     @staticmethod
     def _number(box, name: str, help: str):
