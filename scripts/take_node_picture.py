@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from take_screenshots import opened, shoot, shut, turn, until
+from photographs import click, opened, set_method, settle, shoot, shut, until
 
 from hexmend.gallery import make
 from hexmend.io import write
@@ -20,19 +20,19 @@ def main(folder: Path) -> None:
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / "bridge-sharp.vtu"
         write(path, make("bridge-sharp", size=4000, scramble=0.3, seed=1))
-        window = opened(path, (1240, 780))
-        panel, chosen = window.features["node"].panel, window.session.document.now.mesh
-        window.features["smooth"].panel.set_method("local-sd")
+        window = opened(path)
+        mesh = window.session.document.now.mesh
+        set_method(window, "local-sd")
         window.show_panel("node")
-        node = int(chosen.free.nonzero()[0][2000])
-        window.session.selection.choose(int(chosen.topology.node_corners[node][0] // 8), node)
-        until(lambda: window.canvas.viewport.node_step is not None)
-        panel._patch.click()
-        turn(1)
+        node = int(mesh.free.nonzero()[0][2000])
+        window.session.selection.choose(int(mesh.topology.node_corners[node][0] // 8), node)
+        until(lambda: window.canvas.viewport.chosen.node_step is not None)
+        click(window, "Patch alone")
+        settle(window)
         camera = window.canvas.viewport.camera
         camera.Azimuth(-40)
         camera.Zoom(1.5)
-        window.canvas.rest()
+        window.canvas.draw_soon()
         shoot(window, folder / "node-step.png")
         shut(window)
 
