@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from photographs import choose_entry, click, cut, run, settle, step_back, take
+from photographs import choose_entry, click, cut, run, settle, step_back, take, widen
 
 from hexmend_app.shell.window import Window
 from hexmend_app.state.clip import BoxClip
@@ -55,12 +55,14 @@ def inside(window: Window) -> None:
 
 def compared(window: Window) -> None:
     """Three methods in one histogram, as the thesis's Figure 4.9 compares them; as shares up to each quality."""
+    widen(window, 480, 460)
     window.features["histogram"].panel.head.cumulative.trigger()
     for method in ("laplacian", "getme", "mend"):
         run(window, method)
         click(window, "Keep")
         window.session.commands.reset()
     run(window, "mend")
+    step_back(window)
 
 
 def dark(window: Window) -> None:

@@ -13,7 +13,7 @@ from photographs import cut, opened, set_method, shoot, shut, until
 from hexmend_app.shell.window import Window
 from hexmend_app.state.run import Phase
 
-_SIZE = (1400, 875)
+_SIZE = (1240, 780)
 
 
 def pause(window: Window) -> None:
