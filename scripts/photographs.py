@@ -26,7 +26,7 @@ from hexmend_app.widgets.theming import Choice, choose
 Scenes = Sequence[tuple[Callable[[Window], object], str, dict]]
 
 #: Bytes beyond which a picture is written with fewer colours, and the share of it that a colour has which stays.
-_LARGE, _AREA = 280_000, 0.001
+_LARGE, _AREA = 280_000, 0.004
 
 
 def turn(seconds: float) -> None:
