@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, Qt
 
-from hexmend_app.feature import Action, Panel
+from hexmend_app.feature import Action, Panel, Place
 from hexmend_app.shell.keys_page import KeysPage
 from hexmend_app.shell.offers import choices, commands, panels_in
 from hexmend_app.shell.palette import CommandPalette
@@ -32,7 +32,8 @@ def own_actions(window: Window, panels: Sequence[Panel]) -> list[Action]:
             Action(
                 id=f"panel_{id}",
                 text=by_id[id].title,
-                menu="View/Panels",
+                menu="View/Panels" if by_id[id].place is not Place.BELOW else "View",
+                part=0 if by_id[id].place is not Place.BELOW else 3,
                 help=by_id[id].help,
                 handle=lambda on, id=id: docks.show_panel(id) if on else docks.close_panel(id),
                 checked=lambda id=id: docks.is_open(id),

@@ -6,7 +6,7 @@ import pytest
 from hexmend.movement import Moment, Movement
 from hexmend.quality import measure, summarise
 from hexmend_app.scene.colours import resolve
-from hexmend_app.state.kinds import KINDS, isolate, of_kind
+from hexmend_app.state.kinds import KINDS, of_kind
 from hexmend_app.state.look import ColourScale, Isolation, ValueRange
 from hexmend_app.state.view import View
 from tests.core.grids import grid, scrambled
@@ -50,10 +50,12 @@ def test_another_name_is_refused():
 
 def test_what_is_isolated_is_shown_alone_and_whatever_its_value(qapp):
     view = View()
-    view.change(quality_range=ValueRange("q", 0.5, 1.0))
-    isolate(view, np.array([], np.int64))
+    view.change(quality_range=ValueRange("q", 0.5, 1.0), peel=2)
+    view.dig(3)
+    view.isolate(np.array([], np.int64))
     assert view.look.quality_range is not None
-    isolate(view, np.array([3, 8]))
+    view.isolate(np.array([3, 8]))
+    assert (view.look.peel, view.look.dug) == (0, frozenset())
     assert view.look.isolation == Isolation((3, 8), rings=view.rings)
     assert view.look.quality_range is None
     assert view.rings == 1  # those that are chosen for the next

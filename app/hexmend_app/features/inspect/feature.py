@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 #: Panels that show what is chosen too, or do something with it: a click does not put another before them.
-_FOLLOWING = ("node", "tags", "worst")
+_FOLLOWING = ("node", "tags")
 
 
 class FeatureInspect(Feature):

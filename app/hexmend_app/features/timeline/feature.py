@@ -67,7 +67,15 @@ class FeatureTimeline(Feature):
 
     def panels(self) -> Sequence[Panel]:
         """The bar below the view."""
-        return (Panel(id="timeline", title="Timeline", widget=self.panel, place=Place.BELOW),)
+        return (
+            Panel(
+                id="timeline",
+                title="Timeline",
+                widget=self.panel,
+                place=Place.BELOW,
+                help="Goes through the iterations of a run.",
+            ),
+        )
 
     def refresh(self) -> None:
         """Show where one is."""
