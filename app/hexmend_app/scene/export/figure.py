@@ -79,9 +79,10 @@ def figure(
     width, height = size
     unit = strip_height(size)
     strip, line = unit if bar and not look.neutral else 0, round(_CAPTION * unit)
-    rows = len(panels) // columns(len(panels)) if wipe is None else 1
-    with Stage((width, height - strip - rows * line)) as stage:
+    above = 0 if wipe is None else line  # views side by side leave room for captions themselves
+    with Stage((width, height - strip - above)) as stage:
         panes = Panes(stage.window, filters, pen_of(size))
+        panes.leave_heads(line)
         first, *others = panels
         panes.draw(Frame(first.mesh, first.figures, movement, look))
         panes.show([(other.mesh, other.figures) for other in others], wipe)
@@ -93,9 +94,9 @@ def figure(
         panes.shade()
         image = Image.fromarray(stage.picture(transparent))
     whole = paper(size, image.mode)
-    whole.paste(image, (0, line))
+    whole.paste(image, (0, above))
     if line:
-        _write(whole, panels, wipe, line, line + image.height)
+        _write(whole, panels, wipe, line, above + image.height)
     if strip:
         apart = [(name, None, colour) for name, _, colour in panes.first.colours.apart]
         whole.paste(colour_bar(panes.first.colouring, apart, (width, strip), image.mode), (0, height - strip))
@@ -103,16 +104,20 @@ def figure(
 
 
 def _write(whole: Image.Image, panels: Sequence[Panel], wipe: Wipe | None, line: int, below: int) -> None:
-    """Write the captions: of the upper row above it, of the lower below, of a wipe on either side."""
+    """Write the captions above the views, of a wipe on either side; the picture of the views ends at `below`."""
     draw = ImageDraw.Draw(whole)
     if wipe is not None:
         edge = round(wipe.at * whole.width)
         draw.line((edge, line, edge, below - 1), INK, max(1, line // 12))
         panels = [panels[wipe.left], panels[wipe.right]]
     across = columns(len(panels))
+    rows = len(panels) // across
     for k, panel in enumerate(panels):
         row, at = divmod(k, across)
-        _caption(draw, panel, at * whole.width / across, 0 if row == 0 else below, whole.width / across, line)
+        top = round(row * below / rows)
+        if at == 0:
+            whole.paste(paper((whole.width, line), whole.mode), (0, top))
+        _caption(draw, panel, at * whole.width / across, top, whole.width / across, line)
 
 
 def _caption(draw: ImageDraw.ImageDraw, panel: Panel, left: float, top: float, room: float, line: int) -> None:

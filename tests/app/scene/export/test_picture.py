@@ -224,3 +224,13 @@ def test_a_picture_is_written_as_what_it_is(tmp_path, capsys):
             assert (read.format, read.size) == ("PNG", (16, 16))
     with pytest.raises(FileError, match=r"Use \.png"):
         write_picture(tmp_path / "p.jpg", image)
+
+
+def test_each_caption_of_a_figure_stands_above_its_view():
+    panels = [Panel(name, mesh, measure(mesh.points, mesh.hexes)) for name in "abcd" for mesh in (grid(2),)]
+    drawn = np.asarray(figure(panels, Look(), (640, 430), bar=False)).astype(int)
+    white = (drawn[:, -8:] == 255).all(axis=(1, 2))  # beside what is written
+    for top in (0, 215):
+        assert white[top + 2 : top + 20].all()
+    assert not white[60:210].any()
+    assert not white[275:].any()
