@@ -19,7 +19,7 @@ GRACE = 20.0
 
 def _runs(thread: threading.Thread) -> bool:
     """Whether a thread runs. Of one that Python has not started (a QThread's, say) only the system knows."""
-    if isinstance(thread, threading._DummyThread) and sys.platform == "linux":
+    if isinstance(thread, threading._DummyThread) and sys.platform == "linux":  # noqa: SLF001
         return Path(f"/proc/self/task/{thread.native_id}").exists()
     return thread.is_alive()
 

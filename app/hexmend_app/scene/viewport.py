@@ -39,6 +39,10 @@ class Viewport:
     body : Body
     chosen : Chosen
         The marks of what is chosen.
+    outline : Silhouette or None
+        What a part is cut from, once there is a mesh.
+    structure : StructureLayers
+    arrow_layer : ArrowLayer
 
     Parameters
     ----------
@@ -61,9 +65,9 @@ class Viewport:
         self.colours = ElementColours()
         self.body = Body(pane, pen)
         self._ghosts = Ghosts(pane.renderer, pen)
-        self._outline: Silhouette | None = None
-        self._structure = StructureLayers(pane, pen)
-        self._arrows = ArrowLayer(pane, pen)
+        self.outline: Silhouette | None = None
+        self.structure = StructureLayers(pane, pen)
+        self.arrow_layer = ArrowLayer(pane, pen)
         self.chosen = Chosen(pane, pen)
         self._picker = Picker(pane, (self.body.skin, self.body.section))
         self.axes = Axes(pane, pen) if axes else None
@@ -77,8 +81,8 @@ class Viewport:
             self.axes.set_dark(dark)
         self.chosen.set_dark(dark)
         self._ghosts.set_dark(dark)
-        if self._outline is not None:
-            self._outline.set_dark(dark)
+        if self.outline is not None:
+            self.outline.set_dark(dark)
 
     # What is drawn
 
@@ -95,7 +99,7 @@ class Viewport:
         elif moved:
             self.chosen.move(frame.mesh)
         if pinned:
-            self._structure.set_pins(frame.mesh.pinned)
+            self.structure.set_pins(frame.mesh.pinned)
         if measured:
             self.colours.measure(frame)
         keep = self.kept()
@@ -110,11 +114,11 @@ class Viewport:
         if self.filters is None or not self.filters.suit(mesh):
             self.filters = Filters(mesh)
         self.body.set_mesh(mesh)
-        if self._outline is not None:
-            self._outline.close()
-        self._outline = Silhouette(self._pane.renderer, mesh, self._pen)
-        self._outline.set_dark(self._dark)
-        self._structure.set_mesh(mesh)
+        if self.outline is not None:
+            self.outline.close()
+        self.outline = Silhouette(self._pane.renderer, mesh, self._pen)
+        self.outline.set_dark(self._dark)
+        self.structure.set_mesh(mesh)
         self.chosen.set_mesh(mesh)
 
     def _rebuild(self) -> None:
@@ -123,18 +127,18 @@ class Viewport:
         look, points = frame.look, frame.mesh.points
         self.body.rebuild(frame, keep, self.colours)
         self._ghosts.draw(frame, self.filters.ghosts(frame), keep)
-        self._arrows.draw(frame, self._keep, self.body)
-        self._outline.show(look, points, keep)
-        self._structure.choose(look, points, frame.figures, self.body.faces, keep)
+        self.arrow_layer.draw(frame, self._keep, self.body)
+        self.outline.show(look, points, keep)
+        self.structure.choose(look, points, frame.figures, self.body.faces, keep)
 
     def _move(self) -> None:
         """The same faces, elsewhere and in other colours."""
         frame = self.frame
         self.body.move(frame, self._keep, self.colours)
         self._ghosts.move(frame)
-        self._arrows.draw(frame, self._keep, self.body)
-        self._outline.move(frame.mesh.points)
-        self._structure.move(frame.mesh.points, frame.figures)
+        self.arrow_layer.draw(frame, self._keep, self.body)
+        self.outline.move(frame.mesh.points)
+        self.structure.move(frame.mesh.points, frame.figures)
 
     def span(self, beside: tuple[float, float] | None) -> None:
         """Let a range of colours that is fitted span these values too, which are drawn in a view beside this."""
@@ -160,7 +164,7 @@ class Viewport:
     @property
     def arrows(self) -> tuple[int, int]:
         """How many arrows are drawn, and how many nodes could have one."""
-        return self._arrows.drawn, self._arrows.moved
+        return self.arrow_layer.drawn, self.arrow_layer.moved
 
     @property
     def colouring(self) -> Colouring | None:
@@ -228,8 +232,8 @@ class Viewport:
         if fast == self._fast:
             return
         self._fast = self.body.fast = fast
-        self._structure.set_fast(fast)
-        self._arrows.set_fast(fast)
+        self.structure.set_fast(fast)
+        self.arrow_layer.set_fast(fast)
         if self.frame is None:
             return
         if self.body.faces.many:
@@ -240,7 +244,7 @@ class Viewport:
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """What draws this view, one layer over the other."""
-        return self._pane.renderer, self._structure.layer, self._arrows.layer, *self.chosen.layers
+        return self._pane.renderer, self.structure.layer, self.arrow_layer.layer, *self.chosen.layers
 
     def close(self) -> None:
         """Draw no more, and leave the part of the window to another view."""

@@ -11,7 +11,8 @@ from hexmend.quality import METRICS, ElementQuality
 #: Metrics that are remembered of one mesh at one time: those that are looked at by turns.
 _MOST = 3
 
-_known: WeakKeyDictionary[ElementQuality, dict[str, np.ndarray]] = WeakKeyDictionary()
+#: Values by metric, of each mesh at one time.
+REMEMBERED: WeakKeyDictionary[ElementQuality, dict[str, np.ndarray]] = WeakKeyDictionary()
 
 
 def values(metric: str, points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
@@ -28,7 +29,7 @@ def values(metric: str, points: np.ndarray, hexes: np.ndarray, figures: ElementQ
     figures : ElementQuality
         Of the hexes at these points.
     """
-    known = _known.setdefault(figures, {})
+    known = REMEMBERED.setdefault(figures, {})
     found = known.get(metric)
     if found is None:
         found = METRICS[metric].of(points, hexes, figures)

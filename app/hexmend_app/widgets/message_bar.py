@@ -43,6 +43,11 @@ class MessageBar(QFrame):
     pressing than what is shown waits behind it. Esc dismisses the message shown. A message that repeats the last one
     of its kind is counted, not queued.
 
+    Attributes
+    ----------
+    title, text : QLabel
+        Of the message shown.
+
     Signals
     -------
     emptied
@@ -61,17 +66,17 @@ class MessageBar(QFrame):
         self.setObjectName("message_bar")
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         self._icon = QLabel()
-        self._title, self._text = QLabel(), QLabel()
-        for label in (self._title, self._text):
+        self.title, self.text = QLabel(), QLabel()
+        for label in (self.title, self.text):
             label.setWordWrap(True)
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setTextInteractionFlags(
                 Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
             )
             label.setMinimumWidth(80)
-        font = self._title.font()
+        font = self.title.font()
         font.setBold(True)
-        self._title.setFont(font)
+        self.title.setFont(font)
         self._next = QToolButton()
         self._next.setAutoRaise(True)
         self._next.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -104,9 +109,9 @@ class MessageBar(QFrame):
         layout.setVerticalSpacing(2)
         layout.setColumnStretch(1, 1)
         layout.addWidget(self._icon, 0, 0, Qt.AlignmentFlag.AlignTop)
-        layout.addWidget(self._title, 0, 1)
+        layout.addWidget(self.title, 0, 1)
         layout.addLayout(buttons, 0, 2, Qt.AlignmentFlag.AlignTop)
-        layout.addWidget(self._text, 1, 1, 1, 2)
+        layout.addWidget(self.text, 1, 1, 1, 2)
         self.hide()
         dress(self, self._paint)
 
@@ -190,10 +195,10 @@ class MessageBar(QFrame):
         message = self._messages[self._at]
         self._paint()
         self._icon.setAccessibleName(message.kind)
-        self._title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))
+        self.title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))
         long = len(message.text) > _MAX_SHOWN
-        self._text.setText(f"{message.text[:_MAX_SHOWN]}… (Copy takes all of it.)" if long else message.text)
-        self._text.setVisible(bool(message.text))
+        self.text.setText(f"{message.text[:_MAX_SHOWN]}… (Copy takes all of it.)" if long else message.text)
+        self.text.setVisible(bool(message.text))
         self._next.setVisible(len(self._messages) > 1)
         self._next.setText(f"{self._at + 1} of {len(self._messages)}  ›")
         if message.timeout_ms:

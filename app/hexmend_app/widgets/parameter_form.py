@@ -53,6 +53,13 @@ class ParameterForm(QWidget):
     declarations : iterable of Parameter
         As `hexmend.parameters.declared` gives them.
 
+    Attributes
+    ----------
+    rows : dict
+        What each parameter shows, by its name: label, editor, reset, problem and help.
+    none : QLabel
+        Says that there is nothing to set.
+
     Signals
     -------
     changed
@@ -63,13 +70,13 @@ class ParameterForm(QWidget):
 
     def __init__(self, declarations: Iterable[Parameter] = (), parent: QWidget | None = None):
         super().__init__(parent)
-        self._rows: dict[str, _Row] = {}
+        self.rows: dict[str, _Row] = {}
         self._grid = QGridLayout()
         self._grid.setHorizontalSpacing(8)
         self._grid.setVerticalSpacing(4)
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
-        self._none = note("There is nothing to set.")
+        self.none = note("There is nothing to set.")
         self._defaults = self._tool("Defaults", "restore", "Set all of these parameters to their defaults.")
         self._defaults.clicked.connect(self._reset_all)
         self._explain = self._tool("Explain", "help-circle-outline", "Write out what each parameter means.")
@@ -82,7 +89,7 @@ class ParameterForm(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addLayout(self._grid)
-        layout.addWidget(self._none)
+        layout.addWidget(self.none)
         layout.addLayout(foot)
         self.set_declarations(declarations)
 
@@ -103,14 +110,14 @@ class ParameterForm(QWidget):
             # At once: deleted later, rows stay for as long as the loop does not return to where they were made.
             shiboken6.delete(item.widget())
         before = self._explain.previousInFocusChain()
-        self._rows = {d.name: self._make_row(3 * i, d) for i, d in enumerate(declarations)}
+        self.rows = {d.name: self._make_row(3 * i, d) for i, d in enumerate(declarations)}
         # Qt puts what is made later at the end of the whole window.
-        parts = [part for row in self._rows.values() for part in (row.editor, row.reset)]
+        parts = [part for row in self.rows.values() for part in (row.editor, row.reset)]
         for one, following in pairwise([before, *parts, self._explain, self._defaults]):
             self.setTabOrder(one, following)
-        self._none.setVisible(not self._rows)
-        self._explain.setVisible(bool(self._rows))
-        self._defaults.setVisible(bool(self._rows))
+        self.none.setVisible(not self.rows)
+        self._explain.setVisible(bool(self.rows))
+        self._defaults.setVisible(bool(self.rows))
         self._show_help(self._explain.isChecked())
         self._refresh()
 
@@ -152,7 +159,7 @@ class ParameterForm(QWidget):
 
     def values(self) -> dict[str, Any]:
         """Values by name; where a text is wrong, the value from before it was typed."""
-        return {name: row.editor.value() for name, row in self._rows.items()}
+        return {name: row.editor.value() for name, row in self.rows.items()}
 
     def set_values(self, values: Mapping[str, Any]) -> None:
         """Show values, without a signal; parameters that are not named keep theirs.
@@ -163,27 +170,27 @@ class ParameterForm(QWidget):
             For a name that the form does not have or a value that is not admitted.
         """
         for name, value in values.items():
-            if name not in self._rows:
-                raise ParameterError(f"there is no parameter {name!r}: known are {', '.join(self._rows) or 'none'}")
-            self._rows[name].editor.set_value(value)
+            if name not in self.rows:
+                raise ParameterError(f"there is no parameter {name!r}: known are {', '.join(self.rows) or 'none'}")
+            self.rows[name].editor.set_value(value)
         self._refresh()
 
     def editor(self, name: str) -> Editor:
         """The editor of a parameter."""
-        return self._rows[name].editor
+        return self.rows[name].editor
 
     def problems(self) -> dict[str, str]:
         """What is wrong, by parameter; empty when all is well."""
-        return {name: row.editor.problem for name, row in self._rows.items() if row.editor.problem}
+        return {name: row.editor.problem for name, row in self.rows.items() if row.editor.problem}
 
     def show_problem(self) -> None:
         """Lead the user to the first wrong value."""
         for name in self.problems():
-            self._rows[name].editor.setFocus(Qt.FocusReason.OtherFocusReason)
+            self.rows[name].editor.setFocus(Qt.FocusReason.OtherFocusReason)
             return
 
     def _reset_all(self) -> None:
-        self._reset(self._rows.values())
+        self._reset(self.rows.values())
 
     def _reset(self, rows: Iterable[_Row]) -> None:
         for row in rows:
@@ -197,13 +204,13 @@ class ParameterForm(QWidget):
         self.changed.emit()
 
     def _refresh(self) -> None:
-        for row in self._rows.values():
+        for row in self.rows.values():
             row.refresh()
-        modified = any(row.editor.value() != row.declaration.default for row in self._rows.values())
+        modified = any(row.editor.value() != row.declaration.default for row in self.rows.values())
         self._defaults.setEnabled(modified or bool(self.problems()))
 
     def _show_help(self, shown: bool) -> None:
-        for row in self._rows.values():
+        for row in self.rows.values():
             row.help.setVisible(shown)
 
 

@@ -83,7 +83,7 @@ def descend(
     if np.isfinite(reach):
         ring = energy.mesh.topology.rings
         shorten(found.p, x, ring.start, ring.items, energy.nodes, reach)
-        _restrain(energy, x, delta, found.p)
+        restrain(energy, x, delta, found.p)
     if not dot(found.p, gradient) < 0:
         found = steepest_descent(value, gradient, hessian)
     slope = dot(found.p, gradient)
@@ -95,7 +95,7 @@ def descend(
 WORSE, MORE, HALVINGS = 2.0, 1.0, 8
 
 
-def _restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
+def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
     """Halve the steps of the nodes of hexes that would be spoilt, again and again: the rest need not wait for them."""
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
     limit = WORSE * energies(x, hexes, delta, energy.left_out) + MORE

@@ -209,7 +209,7 @@ def test_setting_the_plane_is_no_wish_of_the_user(pane):
     for plane in (INSIDE.planes[0], ClipPlane((1, 0, 0), (1, 0, 0)), None, INSIDE.planes[0]):
         widget.set(plane)
     assert told == []
-    widget._widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
+    widget.widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
     assert told == [INSIDE.planes[0]]
     widget.close()
 

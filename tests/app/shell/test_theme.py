@@ -36,9 +36,10 @@ from hexmend_app.state.order import Order
 from hexmend_app.state.recent import Recent
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.style import apply_style
 from hexmend_app.widgets.theming import Choice
-from tests.app.driving import pixels
+from tests.app.driving import named, pixels
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(5), 0.9, 4)
@@ -141,8 +142,9 @@ def convergence():
 
 def colours():
     panel = ColourPanel()
-    panel._low.lineEdit().setText("much")
-    panel._low._read("much")
+    line = named(panel, NumberBox, "Lowest value").lineEdit()
+    line.setText("much")
+    line.textEdited.emit("much")
     return panel
 
 

@@ -32,7 +32,7 @@ def test_few_metrics_are_remembered_and_none_of_figures_that_are_gone():
     figures = measure(MESH.points, MESH.hexes)
     for name in METRICS:
         values(name, MESH.points, MESH.hexes, figures)
-    assert len(measured._known[figures]) == 3
+    assert len(measured.REMEMBERED[figures]) == 3
     held = weakref.ref(values("volume", MESH.points, MESH.hexes, figures))
     del figures
     gc.collect()

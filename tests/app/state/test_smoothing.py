@@ -137,12 +137,12 @@ def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing,
     smoothing.want({"condition"})
     smoothing.start(LocalSteepestDescent(), Stop(), iterations=1)
     qtbot.waitUntil(lambda: len(frames) == 1, timeout=PATIENCE)
-    assert "condition" in measured._known[frames[0].state.figures]
+    assert "condition" in measured.REMEMBERED[frames[0].state.figures]
     assert smoothing.record.name == "Local steepest descent"
     smoothing.want({"taper", "q"})  # in the middle of a run
     smoothing.step()
     qtbot.waitUntil(lambda: len(frames) == 2, timeout=PATIENCE)
-    assert set(measured._known[frames[1].state.figures]) == {"taper", "q"}
+    assert set(measured.REMEMBERED[frames[1].state.figures]) == {"taper", "q"}
 
 
 def test_stop_is_answered_within_one_iteration(document, smoothing, qtbot):

@@ -2,11 +2,12 @@
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QGuiApplication, QShortcut
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from hexmend_app.widgets.message_bar import MessageBar
+from tests.app.driving import named
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -31,23 +32,23 @@ def test_it_is_hidden_until_there_is_something_to_say(bar):
     assert not bar.isVisible()
     bar.show_error("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
     assert bar.isVisible()
-    assert (bar._title.text(), bar._text.text()) == ("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
+    assert (bar.title.text(), bar.text.text()) == ("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
 
 
 def test_the_newest_error_is_shown_and_the_older_wait_behind_it(bar):
     bar.show_error("first")
     bar.show_error("second")
-    assert bar._title.text() == "second"
-    assert bar._next.text().startswith("1 of 2")
-    QTest.mouseClick(bar._next, _LEFT)
-    assert bar._title.text() == "first"
+    assert bar.title.text() == "second"
+    assert named(bar, QToolButton, "Next message").text().startswith("1 of 2")
+    QTest.mouseClick(named(bar, QToolButton, "Next message"), _LEFT)
+    assert bar.title.text() == "first"
     bar.show_error("third")
-    assert bar._title.text() == "third"
+    assert bar.title.text() == "third"
     for left in ("second", "first"):
-        QTest.mouseClick(bar._dismiss, _LEFT)
-        assert bar._title.text() == left
-    assert not bar._next.isVisible()
-    QTest.mouseClick(bar._dismiss, _LEFT)
+        QTest.mouseClick(named(bar, QToolButton, "Dismiss message"), _LEFT)
+        assert bar.title.text() == left
+    assert not named(bar, QToolButton, "Next message").isVisible()
+    QTest.mouseClick(named(bar, QToolButton, "Dismiss message"), _LEFT)
     assert not bar.isVisible()
 
 
@@ -58,8 +59,8 @@ def test_what_is_less_pressing_waits_behind_what_is_more(bar):
     bar.show_info("done", timeout_ms=0)
     shown = []
     while bar.isVisible():
-        shown.append(bar._title.text())
-        QTest.mouseClick(bar._dismiss, _LEFT)
+        shown.append(bar.title.text())
+        QTest.mouseClick(named(bar, QToolButton, "Dismiss message"), _LEFT)
     assert shown == ["broken", "more careful", "careful", "done"]
 
 
@@ -68,21 +69,21 @@ def test_escape_dismisses_wherever_the_focus_is_and_only_while_there_is_a_messag
     window.field.setFocus()
     QTest.keyClick(window.field, Qt.Key.Key_Escape)
     assert not bar.isVisible()
-    assert not bar._escape.isEnabled()
+    assert not bar.findChild(QShortcut).isEnabled()
 
 
 def test_a_repeated_message_is_counted(bar):
     for _ in range(1000):
         bar.show_error("The view cannot be drawn", "Traceback")
     assert len(bar.messages()) == 1
-    assert "1000" in bar._title.text()
+    assert "1000" in bar.title.text()
 
 
 def test_of_many_messages_the_newest_are_kept(bar):
     for k in range(500):
         bar.show_error(f"error {k}")
     titles = [title for _, title, _ in bar.messages()]
-    assert titles[-1] == bar._title.text() == "error 499"
+    assert titles[-1] == bar.title.text() == "error 499"
     assert titles == [f"error {k}" for k in range(500 - len(titles), 500)]
     assert 50 < len(titles) < 200
 
@@ -98,23 +99,23 @@ def test_information_goes_by_itself_and_errors_stay(bar, qtbot):
 def test_an_error_comes_before_information(bar):
     bar.show_info("Saved.", timeout_ms=0)
     bar.show_error("broken")
-    assert bar._title.text() == "broken"
+    assert bar.title.text() == "broken"
     bar.show_info("Saved again.")
-    assert bar._title.text() == "broken"
+    assert bar.title.text() == "broken"
     assert ("info", "Saved again.", "") in bar.messages()
 
 
 def test_copy_takes_all_of_a_long_message(bar):
     text = "line\n" * 400
     bar.show_error("long", text)
-    assert len(bar._text.text()) < len(text)
-    QTest.mouseClick(bar._copy, _LEFT)
+    assert len(bar.text.text()) < len(text)
+    QTest.mouseClick(named(bar, QToolButton, "Copy message"), _LEFT)
     assert QGuiApplication.clipboard().text() == f"long\n{text}"
 
 
 def test_markup_in_a_message_is_shown_as_it_is(bar):
     bar.show_error("<b>a</b>", "vector<int>")
-    assert bar._title.textFormat() == bar._text.textFormat() == Qt.TextFormat.PlainText
+    assert bar.title.textFormat() == bar.text.textFormat() == Qt.TextFormat.PlainText
 
 
 def test_the_end_of_all_messages_is_announced_once(bar, qtbot):

@@ -17,6 +17,7 @@ from hexmend.errors import ParameterError
 from hexmend.parameters import Parametrised, declared, parameter
 from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.parameter_form import ParameterForm
+from tests.app.driving import named
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -65,14 +66,14 @@ def type_into(editor, text):
 
 def test_defaults_stand_at_first_and_make_the_thing(form):
     assert AllKinds(**form.values()) == AllKinds()
-    assert not form._defaults.isEnabled()
+    assert not named(form, QToolButton, "Defaults").isEnabled()
 
 
 def test_values_come_back_as_they_were_set_without_a_signal(form, changes):
     form.set_values(_OTHER)
     assert form.values() == AllKinds(**form.values()).values() == _OTHER
     assert changes == []
-    assert form._defaults.isEnabled()
+    assert named(form, QToolButton, "Defaults").isEnabled()
 
 
 @pytest.mark.parametrize(("text", "value"), [("1e-4", 1e-4), (" 2.5E-3", 2.5e-3), ("10", 10.0), (".5", 0.5)])
@@ -95,7 +96,7 @@ def test_a_wrong_text_is_explained_and_left_alone(form, text):
     QTest.keyClick(editor, Qt.Key.Key_Tab)
     assert editor.lineEdit().text() == text
     assert "from 0 to 10" in form.problems()["delta"]
-    assert form._rows["delta"].problem.isVisible()
+    assert form.rows["delta"].problem.isVisible()
     assert form.values()["delta"] == 0.01  # as before the typing
 
 
@@ -132,7 +133,7 @@ def test_tab_walks_through_all_editors_in_order(form):
 
 def test_a_modified_value_is_marked_and_reset_alone(form, changes):
     form.set_values(_OTHER)
-    row = form._rows["delta"]
+    row = form.rows["delta"]
     assert row.label.font().bold()
     assert row.reset.isVisible()
     QTest.mouseClick(row.reset, _LEFT)
@@ -145,20 +146,20 @@ def test_a_modified_value_is_marked_and_reset_alone(form, changes):
 def test_defaults_mend_wrong_texts_and_values(form, changes):
     form.set_values(_OTHER)
     type_into(form.editor("delta"), "x")
-    QTest.mouseClick(form._defaults, _LEFT)
+    QTest.mouseClick(named(form, QToolButton, "Defaults"), _LEFT)
     assert AllKinds(**form.values()) == AllKinds()
     assert form.problems() == {}
-    assert not form._defaults.isEnabled()
+    assert not named(form, QToolButton, "Defaults").isEnabled()
 
 
 def test_help_is_a_tooltip_and_can_be_written_out(form):
     for declaration in declared(AllKinds):
         assert declaration.help in form.editor(declaration.name).toolTip()
         assert form.editor(declaration.name).accessibleName()
-        assert not form._rows[declaration.name].help.isVisible()
-    QTest.mouseClick(form._explain, _LEFT)
+        assert not form.rows[declaration.name].help.isVisible()
+    QTest.mouseClick(named(form, QToolButton, "Explain"), _LEFT)
     for declaration in declared(AllKinds):
-        label = form._rows[declaration.name].help
+        label = form.rows[declaration.name].help
         assert label.isVisible()
         assert label.text() == declaration.help
 
@@ -204,7 +205,7 @@ def test_other_declarations_replace_the_rows(form):
     assert form.editor("delta") is not old
     form.set_declarations(())
     assert form.values() == {}
-    assert form._none.isVisible()
+    assert form.none.isVisible()
     assert not any(button.isVisible() for button in form.findChildren(QToolButton))
 
 

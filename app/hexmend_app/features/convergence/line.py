@@ -37,12 +37,19 @@ class _Points(pg.ScatterPlotItem):
 
 
 class RunLine:
-    """What one quantity of one run is drawn with, anew only where it has changed."""
+    """What one quantity of one run is drawn with, anew only where it has changed.
+
+    Attributes
+    ----------
+    curve : pg.PlotCurveItem
+    items : tuple
+        All that is drawn.
+    """
 
     def __init__(self) -> None:
-        self._curve = pg.PlotCurveItem(connect="finite", skipFiniteCheck=False)
+        self.curve = pg.PlotCurveItem(connect="finite", skipFiniteCheck=False)
         self._points = _Points(pen=None)
-        self.items = (self._curve, self._points)
+        self.items = (self.curve, self._points)
         self._how: tuple = ()
         self._what: tuple = ()
 
@@ -52,7 +59,7 @@ class RunLine:
             name, strong, style = how
             colour = QColor(name)
             colour.setAlphaF(1.0 if strong else 0.65)
-            self._curve.setPen(pg.mkPen(colour, width=2.0 if strong else 1.0, style=style))
+            self.curve.setPen(pg.mkPen(colour, width=2.0 if strong else 1.0, style=style))
             self._points.setBrush(colour)
             self._points.setSize(5 if strong else 4)
             for item in self.items:
@@ -60,7 +67,7 @@ class RunLine:
         if what != self._what:
             x, y = find()
             finite = np.isfinite(y)
-            self._curve.setData(x, y) if finite.any() else self._curve.clear()
+            self.curve.setData(x, y) if finite.any() else self.curve.clear()
             few = len(x) <= _FEW
             self._points.setVisible(few)
             if few:

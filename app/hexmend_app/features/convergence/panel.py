@@ -42,6 +42,11 @@ _UNBOUNDED = (1 << 24) - 1
 class ConvergencePanel(QWidget):
     """Plots runs.
 
+    Attributes
+    ----------
+    side, plotting : QWidget
+        What lists and sets the runs, and what plots them.
+
     Signals
     -------
     picked(Record, number)
@@ -124,7 +129,7 @@ class ConvergencePanel(QWidget):
             charts.addWidget(plot, 1)
         self._none = note(_NONE)
         self._none.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self._charts, self._runs = _scrolled(stack), _scrolled(self.legend)
+        self.plotting, self._runs = _scrolled(stack), _scrolled(self.legend)
         buttons = QHBoxLayout()
         self.which.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (self.which, self.more):
@@ -137,11 +142,11 @@ class ConvergencePanel(QWidget):
         side.setContentsMargins(0, 0, 0, 0)
         side.addLayout(self._head)
         side.addWidget(self._runs, 1)
-        self._side = QWidget()
-        self._side.setLayout(side)
+        self.side = QWidget()
+        self.side.setLayout(side)
         self._layout = QBoxLayout(QBoxLayout.Direction.RightToLeft, self)
         self._layout.setContentsMargins(6, 4, 6, 4)
-        for part, stretch in ((self._side, 0), (self._charts, 1), (self._none, 1)):
+        for part, stretch in ((self.side, 0), (self.plotting, 1), (self._none, 1)):
             self._layout.addWidget(part, stretch)
 
     def minimumSizeHint(self) -> QSize:
@@ -158,8 +163,8 @@ class ConvergencePanel(QWidget):
         directions = QBoxLayout.Direction
         self._layout.setDirection(directions.RightToLeft if beside else directions.TopToBottom)
         self._head.setDirection(directions.TopToBottom if beside else directions.LeftToRight)
-        self._side.setMinimumWidth(_SIDE if beside else 0)
-        self._side.setMaximumWidth(_SIDE if beside else _UNBOUNDED)
+        self.side.setMinimumWidth(_SIDE if beside else 0)
+        self.side.setMaximumWidth(_SIDE if beside else _UNBOUNDED)
         row = self.fontMetrics().height() + 3
         self._runs.setMaximumHeight(_UNBOUNDED if beside else min(2, len(self.curves)) * row)
 
@@ -181,7 +186,7 @@ class ConvergencePanel(QWidget):
         self.legend.set_curves(curves)
         self.save.setEnabled(bool(curves))
         self._none.setVisible(not curves)
-        self._charts.setVisible(bool(curves))
+        self.plotting.setVisible(bool(curves))
         self._place()
         self._redraw()
 

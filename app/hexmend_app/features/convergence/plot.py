@@ -60,6 +60,15 @@ class _PickView(pg.ViewBox):
 class ConvergencePlot(QWidget):
     """Draws one chart; which iterations there are and where they lie it is told.
 
+    Attributes
+    ----------
+    here : pg.InfiniteLine
+        Stands at the iteration shown.
+    lines : dict
+        The `RunLine`s, by a run's slot and the quantity.
+    scale : Scale or None
+        Of the figures: its ends and its ticks.
+
     Parameters
     ----------
     chart : Chart
@@ -92,16 +101,16 @@ class ConvergencePlot(QWidget):
         self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._blank.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         QVBoxLayout(self.plot).addWidget(self._blank)
-        self._mark = pg.InfiniteLine(0, movable=False)
-        self._mark.setZValue(20)
-        self.plot.addItem(self._mark, ignoreBounds=True)
+        self.here = pg.InfiniteLine(0, movable=False)
+        self.here.setZValue(20)
+        self.plot.addItem(self.here, ignoreBounds=True)
         self.plot.getAxis("bottom").setStyle(showValues=False)
         self.plot.getAxis("bottom").label.setFont(smaller(self.font()))
-        self._lines: dict[tuple[int, str], RunLine] = {}
+        self.lines: dict[tuple[int, str], RunLine] = {}
         self._curves: Sequence[Curve] = ()
         self._by_time = self._log = False
         self._held: Record | None = None  # whose curve a drag has hold of
-        self._scale = Scale(0.0, 0.0, ())
+        self.scale = Scale(0.0, 0.0, ())
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -112,7 +121,7 @@ class ConvergencePlot(QWidget):
         dress(self, self._paint)
 
     def _paint(self) -> None:
-        self._mark.setPen(pg.mkPen(str(TEXT), width=1))
+        self.here.setPen(pg.mkPen(str(TEXT), width=1))
         self.draw(self._curves, self._by_time, self._log)
 
     # What is drawn
@@ -122,8 +131,8 @@ class ConvergencePlot(QWidget):
         self._curves, self._by_time, self._log = [one for one in curves if one.shown], by_time, log
         self._fit()
         wanted = {(curve.slot, quantity.key) for curve in self._curves for quantity in self.chart.quantities}
-        for key in self._lines.keys() - wanted:
-            for item in self._lines.pop(key).items:
+        for key in self.lines.keys() - wanted:
+            for item in self.lines.pop(key).items:
                 self.plot.removeItem(item)
         for curve in self._curves:
             for style, quantity in zip(_STYLES, self.chart.quantities, strict=False):
@@ -132,13 +141,13 @@ class ConvergencePlot(QWidget):
         self._blank.setText(why_blank(self.chart, curves))
 
     def _draw_curve(self, curve: Curve, quantity: Quantity, style: Qt.PenStyle) -> None:
-        line = self._lines.get((curve.slot, quantity.key))
+        line = self.lines.get((curve.slot, quantity.key))
         if line is None:
-            line = self._lines[curve.slot, quantity.key] = RunLine()
+            line = self.lines[curve.slot, quantity.key] = RunLine()
             for item in line.items:
                 self.plot.addItem(item, ignoreBounds=True)
         how = (str(colour_of(curve)), curve.current, style)
-        what = (curve.record, len(curve.columns), curve.begins, self._by_time, self.is_log, self._scale.floor)
+        what = (curve.record, len(curve.columns), curve.begins, self._by_time, self.is_log, self.scale.floor)
         line.draw(
             how, what, lambda: thinned(curve.x(self._by_time), self.heights(curve.columns.of(quantity.key)), MOST)
         )
@@ -149,8 +158,8 @@ class ConvergencePlot(QWidget):
             return values
         with np.errstate(divide="ignore", invalid="ignore"):
             heights = np.log10(values)
-        if self._scale.floor is not None:
-            heights[values <= 0] = self._scale.floor
+        if self.scale.floor is not None:
+            heights[values <= 0] = self.scale.floor
         return heights
 
     @property
@@ -160,9 +169,9 @@ class ConvergencePlot(QWidget):
 
     def mark(self, x: float | None) -> None:
         """Draw the line of the iteration that is shown; None for none."""
-        self._mark.setVisible(x is not None)
+        self.here.setVisible(x is not None)
         if x is not None:
-            self._mark.setValue(x)
+            self.here.setValue(x)
 
     def set_span(self, low: float, high: float) -> None:
         """Take the ends of the axis that all charts share."""
@@ -188,8 +197,8 @@ class ConvergencePlot(QWidget):
         known = np.concatenate([*parts, np.empty(0)])
         known, whole = known[np.isfinite(known)], self.chart.quantities[0].whole
         scale = UNIT if self.chart.key == "quality" else (powers if self.is_log else plain)(known, whole)
-        if scale != self._scale:
-            self._scale = scale
+        if scale != self.scale:
+            self.scale = scale
             self.plot.getAxis("left").setTicks([list(scale.ticks)])
             self.plot.setYRange(scale.low, scale.high, padding=0.08)
 

@@ -33,6 +33,11 @@ _RINGS = (
 class InsidePanel(QWidget):
     """Hides elements to show those behind them.
 
+    Attributes
+    ----------
+    isolated, dug, shown : QLabel
+        Say how many are isolated, dug away and shown.
+
     Signals
     -------
     peel_changed(int), shrink_changed(float), rings_changed(int), outline_changed(bool)
@@ -63,11 +68,11 @@ class InsidePanel(QWidget):
         self._rings.setFont(tabular(self._rings.font()))
         self._rings.setFixedWidth(width)
         explain(self._rings, "Rings around what is isolated", _RINGS)
-        self._isolated = QLabel()
+        self.isolated = QLabel()
         self._all = QPushButton("All")
         self._all.setFixedWidth(44)  # the style's 80 pixels are more than the column has
         explain(self._all, "Show all", "End the isolation: show again what is around.")
-        self._dug = QLabel()
+        self.dug = QLabel()
         self._undo = QPushButton(icon("undo"), "")
         explain(self._undo, "Undo digging", "Bring back the hex that was dug away last.")
         self._put_back = QPushButton(icon("restore"), "")
@@ -80,9 +85,9 @@ class InsidePanel(QWidget):
             "Sharp edges and outline",
             "Draw where the boundary has an edge; where a part is hidden, paler; of a round body, its shade.",
         )
-        self._shown = note()
-        self._shown.setFont(tabular(self._shown.font()))
-        self._shown.setWordWrap(False)  # a second line would be kept free for what never comes
+        self.shown = note()
+        self.shown.setFont(tabular(self.shown.font()))
+        self.shown.setWordWrap(False)  # a second line would be kept free for what never comes
         self._cut_smoothly = False
         self._lay_out()
 
@@ -105,8 +110,8 @@ class InsidePanel(QWidget):
         grid.setColumnStretch(1, 1)
         rings, dug = QHBoxLayout(), QHBoxLayout()
         for line, parts in (
-            (rings, (self._rings, self._isolated, self._all)),
-            (dug, (self._dug, self._undo, self._put_back)),
+            (rings, (self._rings, self.isolated, self._all)),
+            (dug, (self.dug, self._undo, self._put_back)),
         ):
             line.setSpacing(8)
             for part in parts:
@@ -120,7 +125,7 @@ class InsidePanel(QWidget):
         grid.addLayout(rings, 2, 1)
         grid.addLayout(dug, 3, 0, 1, 2)
         grid.addWidget(self._outline, 4, 0, 1, 2)
-        grid.addWidget(self._shown, 5, 0, 1, 2)
+        grid.addWidget(self.shown, 5, 0, 1, 2)
 
     def set_layers(self, layers: int) -> None:
         """Take the number of layers that can be peeled before nothing is left; without a signal."""
@@ -139,9 +144,9 @@ class InsidePanel(QWidget):
             with QSignalBlocker(self._rings):
                 self._rings.setValue(rings)
         isolated = len(look.isolation.hexes) if look.isolation is not None else 0
-        self._isolated.setText(f"{isolated:,} isolated" if isolated else "none isolated")
+        self.isolated.setText(f"{isolated:,} isolated" if isolated else "none isolated")
         self._all.setEnabled(look.isolation is not None)
-        self._dug.setText(f"{counted(len(look.dug), 'hex')} dug away" if look.dug else "Nothing dug away")
+        self.dug.setText(f"{counted(len(look.dug), 'hex')} dug away" if look.dug else "Nothing dug away")
         for button in (self._undo, self._put_back):
             button.setEnabled(bool(look.dug))
         self._outline.setChecked(look.outline)
@@ -149,7 +154,7 @@ class InsidePanel(QWidget):
     def set_shown(self, shown: int, total: int) -> None:
         """Say how many elements of how many are shown, whole or in part; 0 of 0 without a mesh."""
         if shown == 0 < total:
-            self._shown.setText(f"None of {counted(total, 'hex')} is left to show.")
+            self.shown.setText(f"None of {counted(total, 'hex')} is left to show.")
             return
         cut = ", then cut" if self._cut_smoothly else ""
-        self._shown.setText(f"{shown:,} of {counted(total, 'hex')} shown{cut}" if total else "")
+        self.shown.setText(f"{shown:,} of {counted(total, 'hex')} shown{cut}" if total else "")

@@ -29,7 +29,13 @@ _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class NodePlot(QWidget):
-    """Draws one step's energy."""
+    """Draws one step's energy.
+
+    Attributes
+    ----------
+    numbers : list of pg.TextItem
+        Beside the trials.
+    """
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -43,7 +49,7 @@ class NodePlot(QWidget):
         self._curve, self._bound = self._plot.plot(), self._plot.plot()
         self._dots = pg.ScatterPlotItem()
         self._plot.addItem(self._dots)
-        self._numbers: list[pg.TextItem] = []
+        self.numbers: list[pg.TextItem] = []
         self._step: NodeStep | None = None
         explain(self._plot, "Energy along the direction", _HELP)
         layout = QVBoxLayout(self)
@@ -54,9 +60,9 @@ class NodePlot(QWidget):
     def show_step(self, step: NodeStep | None) -> None:
         """Draw a step, or nothing."""
         self._step = step
-        for number in self._numbers:
+        for number in self.numbers:
             self._plot.removeItem(number)
-        self._numbers.clear()
+        self.numbers.clear()
         if not self.drawn:
             return
         alpha, change = step.curve[:, 0], step.curve[:, 1] - step.energy
@@ -121,7 +127,7 @@ class NodePlot(QWidget):
         text.setFont(smaller(self.font()))
         text.setPos(x, y)
         self._plot.addItem(text)
-        self._numbers.append(text)
+        self.numbers.append(text)
 
 
 def extent(step: NodeStep) -> tuple[float, float]:

@@ -67,6 +67,11 @@ _Entry = tuple[str, bool, str]
 class StructurePanel(QWidget):
     """Chooses what is drawn of the structure, and counts it.
 
+    Attributes
+    ----------
+    layers : dict
+        What there is of each, by the names of `Structure`'s fields: its check box, `box`, and `entries` beside it.
+
     Signals
     -------
     structure_changed(Structure)
@@ -79,13 +84,13 @@ class StructurePanel(QWidget):
         super().__init__(parent)
         self._structure = Structure()
         self._counts: tuple[int, ...] = ()
-        self._layers = {name: _Layer(*texts) for name, texts in _LAYERS.items()}
+        self.layers = {name: _Layer(*texts) for name, texts in _LAYERS.items()}
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(6)
         grid.setVerticalSpacing(5)
         grid.setColumnStretch(1, 1)
-        for row, (name, layer) in enumerate(self._layers.items()):
+        for row, (name, layer) in enumerate(self.layers.items()):
             grid.addWidget(layer.box, row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(layer.entries, row, 1)
             layer.box.clicked.connect(lambda on, name=name: self._choose(name, on))
@@ -93,26 +98,26 @@ class StructurePanel(QWidget):
 
     def offered(self) -> dict[str, bool]:
         """Which layers can be switched, by the names of `Structure`'s fields."""
-        return {name: layer.box.isEnabled() for name, layer in self._layers.items()}
+        return {name: layer.box.isEnabled() for name, layer in self.layers.items()}
 
     def set_structure(self, structure: Structure) -> None:
         """Show a choice, without a signal."""
         self._structure = structure
-        for name, layer in self._layers.items():
+        for name, layer in self.layers.items():
             layer.set_on(getattr(structure, name))
 
     def set_found(self, found: Found | None) -> None:
         """Take the edges of a mesh; None while they are being found."""
         if found is None:
             for name in _EDGES:
-                self._layers[name].set_entries(None)
+                self.layers[name].set_entries(None)
             return
         nodes: list[_Entry] = []
         if len(found.nodes):
             nodes = [(IRREGULAR_NODE, False, counted(len(found.nodes), "node"))]
-        self._layers["irregular"].set_entries(_by_valence(found.interior_valence) + nodes)
-        self._layers["boundary"].set_entries(_by_valence(found.boundary_valence))
-        self._layers["sharp"].set_entries([(SHARP, True, f"{len(found.sharp):,}")] if len(found.sharp) else [])
+        self.layers["irregular"].set_entries(_by_valence(found.interior_valence) + nodes)
+        self.layers["boundary"].set_entries(_by_valence(found.boundary_valence))
+        self.layers["sharp"].set_entries([(SHARP, True, f"{len(found.sharp):,}")] if len(found.sharp) else [])
 
     def set_nodes(self, boundary: int, pinned: int, free: int, locked: int) -> None:
         """Take the numbers of nodes on the boundary, pinned and free, and of locked elements."""
@@ -123,14 +128,14 @@ class StructurePanel(QWidget):
         fixed = [(BOUNDARY, False, f"{boundary:,} boundary")] if boundary else []
         if pinned:
             fixed.append((PINNED, False, f"{pinned:,} pinned"))
-        self._layers["fixed"].set_entries(fixed)
-        self._layers["free"].set_entries([(FREE, False, f"{free:,}")] if free else [])
+        self.layers["fixed"].set_entries(fixed)
+        self.layers["free"].set_entries([(FREE, False, f"{free:,}")] if free else [])
         of = f"of {counted(locked, 'locked hex')}"
-        self._layers["locked"].set_entries([(LOCKED, False, of)] if locked else [])
+        self.layers["locked"].set_entries([(LOCKED, False, of)] if locked else [])
 
     def _choose(self, name: str, on: bool) -> None:
         self._structure = dataclasses.replace(self._structure, **{name: on})
-        self._layers[name].set_on(on)
+        self.layers[name].set_on(on)
         self.structure_changed.emit(self._structure)
 
 

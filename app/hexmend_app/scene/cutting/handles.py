@@ -10,6 +10,10 @@ from hexmend_app.scene.pane import Pane
 class Handles:
     """Switches a widget on and off, and knows while it is dragged.
 
+    Attributes
+    ----------
+    widget : vtkAbstractWidget
+
     Parameters
     ----------
     pane : Pane
@@ -18,7 +22,7 @@ class Handles:
     """
 
     def __init__(self, pane: Pane, widget: vtkAbstractWidget):
-        self._widget = widget
+        self.widget = widget
         self._renderer = pane.renderer
         self._dragging = False
         widget.SetInteractor(pane.window.GetInteractor())
@@ -28,16 +32,16 @@ class Handles:
 
     def close(self) -> None:
         """Let go of the interactor."""
-        self._widget.Off()
-        self._widget.SetInteractor(None)
+        self.widget.Off()
+        self.widget.SetInteractor(None)
 
     def _switch(self, on: bool) -> None:
         if not on:
             self._dragging = False  # VTK does not say that a drag ends which is cut short
-        if bool(self._widget.GetEnabled()) != on:
+        if bool(self.widget.GetEnabled()) != on:
             if on:  # switched off, VTK forgets where it was, and takes the view that the mouse was over last
-                self._widget.SetCurrentRenderer(self._renderer)
-            self._widget.SetEnabled(on)
+                self.widget.SetCurrentRenderer(self._renderer)
+            self.widget.SetEnabled(on)
 
     def _drag(self, on: bool) -> None:
         self._dragging = on

@@ -45,6 +45,8 @@ class ArrowLayer:
     ----------
     drawn, moved : int
         Arrows, and nodes that could have one.
+    lines : pv.PolyData
+        Seven points of each arrow, where it begins first.
 
     Parameters
     ----------
@@ -55,7 +57,7 @@ class ArrowLayer:
 
     def __init__(self, pane: Pane, pen: float = 1.0):
         self._inside = pane.overlay()
-        self._points = pv.PolyData()
+        self.lines = pv.PolyData()
         self._front_actors = _actors(pane.renderer, pen)
         self._inside_actors = _actors(self._inside, pen)
         self._pen = pen
@@ -122,12 +124,12 @@ class ArrowLayer:
         start = movement.before.points[chosen]
         places = arrows(start, factor * (movement.points[chosen] - start), _LONGEST * movement.unit)
         if chosen.size == self.drawn:
-            set_points(self._points, places)
+            set_points(self.lines, places)
         else:
-            self._points, heads = _polys(places)
+            self.lines, heads = _polys(places)
             for rim, shaft, head in (self._front_actors, self._inside_actors):
-                rim.GetMapper().SetInputData(self._points)
-                shaft.GetMapper().SetInputData(self._points)
+                rim.GetMapper().SetInputData(self.lines)
+                shaft.GetMapper().SetInputData(self.lines)
                 head.GetMapper().SetInputData(heads)
         self.drawn, self.moved = chosen.size, moved
         self._through = through

@@ -20,6 +20,15 @@ _POINTS_BEFORE = (-60.0, -120.0)
 class Marks:
     """Marks of one sort in one renderer, which come, move with the nodes and go.
 
+    Attributes
+    ----------
+    poly : pv.PolyData
+        The lines or points, with a colour each.
+    nodes : (k,) int
+        Of the mesh, at the points of `poly`.
+    filled : vtkActor
+        Draws them without their rims.
+
     Parameters
     ----------
     renderer : vtkRenderer
@@ -33,16 +42,16 @@ class Marks:
 
     def __init__(self, renderer: vtkRenderer, size: float, rim: float, pen: float = 1.0):
         self._size, self._rim, self._pen = size, rim, pen
-        self._poly = pv.PolyData()
-        self._nodes = np.empty(0, np.int64)
+        self.poly = pv.PolyData()
+        self.nodes = np.empty(0, np.int64)
         self._around = self._actor(renderer, coloured=False)
-        self._filled = self._actor(renderer, coloured=True)
+        self.filled = self._actor(renderer, coloured=True)
         self.fit(1.0)
         self.hide()
 
     def _actor(self, renderer: vtkRenderer, coloured: bool) -> vtkActor:
         mapper = vtkPolyDataMapper()
-        mapper.SetInputData(self._poly)
+        mapper.SetInputData(self.poly)
         mapper.SetScalarVisibility(coloured)
         mapper.SetScalarModeToUseCellFieldData()
         mapper.SelectColorArray(_COLOURS)
@@ -61,12 +70,12 @@ class Marks:
     @property
     def shown(self) -> bool:
         """Whether anything is drawn."""
-        return bool(self._filled.GetVisibility())
+        return bool(self.filled.GetVisibility())
 
     @property
     def count(self) -> int:
         """Number of marks that are drawn."""
-        return self._poly.n_cells
+        return self.poly.n_cells
 
     def show(self, cells: np.ndarray, colours: np.ndarray, points: np.ndarray, opacity: float = 1.0) -> None:
         """Draw other marks.
@@ -83,34 +92,34 @@ class Marks:
         if not len(cells):
             self.hide()
             return
-        self._nodes, places = np.unique(cells, return_inverse=True)
+        self.nodes, places = np.unique(cells, return_inverse=True)
         width = cells.shape[1]
         rows = np.column_stack([np.full(len(cells), width), places.reshape(cells.shape)]).ravel()
-        self._poly = pv.PolyData(points[self._nodes], **{"lines" if width == 2 else "verts": rows})
-        self._poly.cell_data[_COLOURS] = colours
-        for actor in (self._around, self._filled):
-            actor.GetMapper().SetInputData(self._poly)
+        self.poly = pv.PolyData(points[self.nodes], **{"lines" if width == 2 else "verts": rows})
+        self.poly.cell_data[_COLOURS] = colours
+        for actor in (self._around, self.filled):
+            actor.GetMapper().SetInputData(self.poly)
             actor.GetProperty().SetOpacity(opacity)
-        self._filled.VisibilityOn()
+        self.filled.VisibilityOn()
         self.show_rims(True)
 
     def show_rims(self, on: bool) -> None:
         """Draw the rims or not; never where they would be seen through what they are around."""
-        self._around.SetVisibility(on and self.shown and self._filled.GetProperty().GetOpacity() == 1)
+        self._around.SetVisibility(on and self.shown and self.filled.GetProperty().GetOpacity() == 1)
 
     def move(self, points: np.ndarray) -> None:
         """Take the nodes' places, (n, 3) float64."""
         if self.shown:
-            set_points(self._poly, points[self._nodes])
+            set_points(self.poly, points[self.nodes])
 
     def fit(self, share: float) -> None:
         """Draw them smaller where there is little room between them, by a share from 0 to 1."""
         size, rim = max(1.0, share * self._size), max(0.5, share * self._rim)
-        for actor, width in ((self._filled, size), (self._around, size + 2 * rim)):
+        for actor, width in ((self.filled, size), (self._around, size + 2 * rim)):
             actor.GetProperty().SetLineWidth(self._pen * width)
             actor.GetProperty().SetPointSize(self._pen * width)
 
     def hide(self) -> None:
         """Draw none."""
-        self._filled.VisibilityOff()
+        self.filled.VisibilityOff()
         self._around.VisibilityOff()

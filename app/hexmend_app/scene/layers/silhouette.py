@@ -38,6 +38,11 @@ class Silhouette:
     Sharp edges of what is shown are dark lines, those of what is hidden are pale. A round body has none that go on
     into each other: it is a shade behind what is left of it.
 
+    Attributes
+    ----------
+    actor : vtkActor
+        Draws what was cut from.
+
     Parameters
     ----------
     renderer : vtkRenderer
@@ -57,22 +62,22 @@ class Silhouette:
         points = mesh.points[self._nodes]
         self._poly = _lines(points, places) if lines else pv.PolyData.from_regular_faces(points, places)
         self._renderer = renderer
-        self._actor, self._sharp = flat_actor(renderer, pen), flat_actor(renderer, _BOLD * pen)
-        self._actor.GetMapper().SetInputData(self._poly)
+        self.actor, self._sharp = flat_actor(renderer, pen), flat_actor(renderer, _BOLD * pen)
+        self.actor.GetMapper().SetInputData(self._poly)
         _offset(self._sharp.GetMapper(), _BEFORE, _BEFORE)
         if not lines:
-            self._actor.GetProperty().BackfaceCullingOn()
-            _offset(self._actor.GetMapper(), 0.0, _BEHIND)
+            self.actor.GetProperty().BackfaceCullingOn()
+            _offset(self.actor.GetMapper(), 0.0, _BEHIND)
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
         """Draw for the dark ground, or for the light one."""
-        self._actor.GetProperty().SetColor(rgb((SILHOUETTE if self._lines else SHADE).of(dark)))
+        self.actor.GetProperty().SetColor(rgb((SILHOUETTE if self._lines else SHADE).of(dark)))
         self._sharp.GetProperty().SetColor(rgb(SHARP.of(dark)))
 
     def hide(self) -> None:
         """Draw nothing."""
-        self._actor.SetVisibility(False)
+        self.actor.SetVisibility(False)
         self._sharp.SetVisibility(False)
 
     def show(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> None:
@@ -87,7 +92,7 @@ class Silhouette:
         """
         self.move(points)
         shown = self._shown(look, points, keep) if look.outline and self._lines else np.zeros(0, bool)
-        self._actor.SetVisibility(look.outline and (keep is not None or look.clip is not None))
+        self.actor.SetVisibility(look.outline and (keep is not None or look.clip is not None))
         self._sharp.SetVisibility(bool(shown.any()))
         if shown.any():
             lines = _lines(self._poly.points, self._places[shown])
@@ -112,7 +117,7 @@ class Silhouette:
 
     def close(self) -> None:
         """Draw it no more."""
-        for actor in (self._actor, self._sharp):
+        for actor in (self.actor, self._sharp):
             self._renderer.RemoveActor(actor)
 
 

@@ -36,6 +36,11 @@ _ROOM = 25.0
 class StructureLayers:
     """Draws what a `Look` wants to be seen of one mesh's structure; what is off costs nothing.
 
+    Attributes
+    ----------
+    irregular, irregular_inside, sharp, nodes : Marks
+        What is drawn of edges, in sight and behind it, and of nodes.
+
     Parameters
     ----------
     pane : Pane
@@ -47,12 +52,12 @@ class StructureLayers:
         self._inside = pane.overlay()  # what is not hidden is drawn twice, thick
         front = self._front = pane.renderer
         self._room = pen * _ROOM
-        self._irregular, self._irregular_inside = Marks(front, 4, 1.25, pen), Marks(self._inside, 1.5, 0.75, pen)
+        self.irregular, self.irregular_inside = Marks(front, 4, 1.25, pen), Marks(self._inside, 1.5, 0.75, pen)
         self._ends, self._ends_inside = Marks(front, 7, 2, pen), Marks(self._inside, 4, 1.5, pen)
-        self._boundary, self._sharp = Marks(front, 4, 1.25, pen), Marks(front, 3, 0.5, pen)
-        self._nodes, self._locked = Marks(front, 5, 1.5, pen), Marks(front, 5, 1.5, pen)
+        self._boundary, self.sharp = Marks(front, 4, 1.25, pen), Marks(front, 3, 0.5, pen)
+        self.nodes, self._locked = Marks(front, 5, 1.5, pen), Marks(front, 5, 1.5, pen)
         self._lines = (
-            self._irregular, self._irregular_inside, self._ends, self._ends_inside, self._boundary, self._sharp,
+            self.irregular, self.irregular_inside, self._ends, self._ends_inside, self._boundary, self.sharp,
         )  # fmt: skip
         self._found: Found | None = None
         self._fast = False
@@ -112,9 +117,9 @@ class StructureLayers:
         self._thin_out()
 
     def _thin_out(self) -> None:
-        for marks in (*self._lines, self._nodes):
+        for marks in (*self._lines, self.nodes):
             marks.show_rims(not self._sparing(marks))
-        self._inside.SetDraw(self._irregular_inside.shown and not self._sparing(self._irregular_inside))
+        self._inside.SetDraw(self.irregular_inside.shown and not self._sparing(self.irregular_inside))
 
     def _sparing(self, marks: Marks) -> bool:
         return self._fast and marks.count > _MANY
@@ -129,8 +134,8 @@ class StructureLayers:
             nodes = np.intersect1d(found.nodes, edges)[:, None]
             ends = _rgb(IRREGULAR_NODE).repeat(len(nodes), axis=0)
             opacity = min(1.0, (_MANY / max(1, len(edges))) ** 0.5)
-            self._irregular.show(edges, colours, points)
-            self._irregular_inside.show(edges, colours, points, opacity)
+            self.irregular.show(edges, colours, points)
+            self.irregular_inside.show(edges, colours, points, opacity)
             self._ends.show(nodes, ends, points)
             self._ends_inside.show(nodes, ends, points, opacity)
         if wanted.boundary:
@@ -138,7 +143,7 @@ class StructureLayers:
             self._boundary.show(found.boundary[shown], valence_colours(found.boundary_valence[shown]), points)
         if wanted.sharp:
             edges = found.sharp[self._shown(found.sharp, points)]
-            self._sharp.show(edges, _rgb(SHARP).repeat(len(edges), axis=0), points)
+            self.sharp.show(edges, _rgb(SHARP).repeat(len(edges), axis=0), points)
 
     def _shown(self, edges: np.ndarray, points: np.ndarray) -> np.ndarray:
         """True for the edges, (k, 2), of elements that are shown, and before a smooth cut; (k,) bool."""
@@ -151,23 +156,23 @@ class StructureLayers:
     def _choose_nodes(self, points: np.ndarray, figures: ElementQuality) -> None:
         wanted = self._look.structure
         if not (wanted.fixed or wanted.free or wanted.locked):
-            self._nodes.hide()
+            self.nodes.hide()
             self._locked.hide()
             return
         places = self._faces.places(points)
         kinds = node_kinds(self._mesh, points, figures, wanted)[self._faces.nodes]
         chosen = (kinds > 0) & uncut(self._look, places)
-        for marks, these in ((self._nodes, chosen & (kinds < 4)), (self._locked, chosen & (kinds == 4))):
+        for marks, these in ((self.nodes, chosen & (kinds < 4)), (self._locked, chosen & (kinds == 4))):
             marks.show(np.flatnonzero(these)[:, None], _KINDS[kinds[these]], places)
 
     def _fit(self, *_: object) -> None:
         """Draw marks as large as the elements leave room for, where they are many."""
-        shown = [marks for marks in (*self._lines, self._nodes, self._locked) if marks.shown]
+        shown = [marks for marks in (*self._lines, self.nodes, self._locked) if marks.shown]
         if shown:
             camera = self._front.GetActiveCamera()
             share = min(1.0, pixels(self._front, self._spacing, np.array(camera.GetFocalPoint())) / self._room)
             for marks in shown:
-                least = 0.5 if marks is self._nodes else 0.0 if marks.count > _MANY else 1.0
+                least = 0.5 if marks is self.nodes else 0.0 if marks.count > _MANY else 1.0
                 marks.fit(max(share, least))
 
 

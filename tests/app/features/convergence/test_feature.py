@@ -43,10 +43,10 @@ def test_a_click_in_a_chart_goes_there_and_the_line_follows(window, qtbot, panel
     qtbot.waitUntil(lambda: window.session.timeline.moment.number == 3, timeout=PATIENCE)
     window.refresh()
     assert window.session.document.previews
-    assert panel.plots["inverted"]._mark.value() == 3
+    assert panel.plots["inverted"].here.value() == 3
     window.session.timeline.go(record, 6)
     window.refresh()
-    assert panel.plots["objective"]._mark.value() == 6
+    assert panel.plots["objective"].here.value() == 6
 
 
 def test_branches_begin_where_they_left_or_at_nought_and_are_forgotten(window, qtbot, panel):

@@ -71,17 +71,16 @@ def test_the_default_charts_are_drawn_below_one_another_with_one_axis(panel):
     low, high = panel.drawn[0].view.viewRange()[0]
     assert low < 0
     assert high > 20
-    ticks = panel.plots["quality"].plot.getAxis("left")._tickLevels
-    assert [text for _, text in ticks[0]] == ["0", "0.5", "1"]
+    assert [text for _, text in panel.plots["quality"].scale.ticks] == ["0", "0.5", "1"]
 
 
 def test_zero_has_a_place_below_the_powers_of_ten_and_infinite_is_a_gap(panel):
     inverted, objective = panel.plots["inverted"], panel.plots["objective"]
     heights = inverted.heights(np.array([100.0, 10.0, 0.0]))
     assert heights.tolist() == [2, 1, -1]
-    ticks = dict(inverted.plot.getAxis("left")._tickLevels[0])
+    ticks = dict(inverted.scale.ticks)
     assert ticks[-1.0] == "0"
-    _, y = objective._lines[0, "objective"]._curve.getData()
+    _, y = objective.lines[0, "objective"].curve.getData()
     assert np.isnan(y[:3]).all()
     assert np.isfinite(y[3:]).all()
     panel.log.trigger()
@@ -139,11 +138,11 @@ def test_a_drag_goes_through_iterations_and_keeps_to_its_run(panel):
 
 def test_the_iteration_shown_is_marked_on_its_branch(panel):
     panel.set_shown(BRANCH, 3)
-    assert {plot._mark.value() for plot in panel.drawn} == {11.0}
+    assert {plot.here.value() for plot in panel.drawn} == {11.0}
     QTest.mouseClick(panel.axis.button("time"), LEFT)
-    assert panel.drawn[0]._mark.value() == pytest.approx(1.1)
+    assert panel.drawn[0].here.value() == pytest.approx(1.1)
     panel.set_shown(None)
-    assert not panel.drawn[0]._mark.isVisible()
+    assert not panel.drawn[0].here.isVisible()
 
 
 def test_what_is_under_the_mouse_is_told_and_what_was_thinned_out(panel):
@@ -175,7 +174,7 @@ def test_runs_are_switched_and_forgotten_in_the_legend(panel):
     assert forgotten == ["local-sd"]
     panel.set_curves((curve(TRUNK, going=True), curve(BRANCH, 1, (8.0, 0.8), shown=False, current=False)))
     assert not panel.legend.rows[TRUNK].cross.isEnabled()
-    assert all(slot == 0 for slot, _ in panel.plots["objective"]._lines)
+    assert all(slot == 0 for slot, _ in panel.plots["objective"].lines)
     panel.set_curves(())
     assert panel.legend.rows == {}
     assert not panel.save.isEnabled()
@@ -183,13 +182,13 @@ def test_runs_are_switched_and_forgotten_in_the_legend(panel):
 
 def test_where_room_is_short_runs_stand_above_the_charts(panel):
     def beside():
-        return panel._side.mapTo(panel, QPoint(0, 0)).x() > panel._charts.mapTo(panel, QPoint(0, 0)).x()
+        return panel.side.mapTo(panel, QPoint(0, 0)).x() > panel.plotting.mapTo(panel, QPoint(0, 0)).x()
 
     assert beside()
     panel.resize(330, 300)
     QTest.qWait(30)
     assert not beside()
-    assert panel._charts.width() > 250
+    assert panel.plotting.width() > 250
 
 
 def test_while_a_run_goes_on_axes_change_seldom(panel):

@@ -6,10 +6,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QStyle, QStyleOptionSlider
+from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton, QSlider, QStyle, QStyleOptionSlider, QTabBar
+from superqt import QRangeSlider
 
 from hexmend_app.features.cut.clip_panel import ClipPanel
 from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.widgets.segmented import Segmented
+from tests.app.driving import named
 
 _LEFT = Qt.MouseButton.LeftButton
 _BOUNDS = (-1.0, 3.0, 0.0, 30.0, 2.0, 4.0)
@@ -30,8 +33,40 @@ def heard(panel):
     return planes
 
 
+def on(panel):
+    return named(panel, QCheckBox, "Cut")
+
+
+def kind(panel):
+    return named(panel, Segmented, "Cut by")
+
+
+def cut(panel):
+    return named(panel, Segmented, "Cut")
+
+
+def axis(panel):
+    return named(panel, Segmented, "Axis")
+
+
+def slider(panel):
+    return named(panel, QSlider, "Position")
+
+
+def tabs(panel):
+    return named(panel, QTabBar, "Plane")
+
+
+def add(panel):
+    return named(panel, QPushButton, "Add a plane")
+
+
+def remove(panel):
+    return named(panel, QPushButton, "Remove the plane")
+
+
 def switch_on(panel):
-    QTest.mouseClick(panel._on, _LEFT, pos=_BOX)
+    QTest.mouseClick(on(panel), _LEFT, pos=_BOX)
 
 
 def handle(slider):
@@ -44,7 +79,7 @@ def handle(slider):
 
 def test_without_a_mesh_nothing_can_be_clipped(shown):
     panel = shown(ClipPanel())
-    assert not panel._on.isEnabled()
+    assert not on(panel).isEnabled()
     assert panel.clip() is None
 
 
@@ -58,75 +93,75 @@ def test_switching_on_cuts_across_the_middle_and_off_again(panel, heard):
 @pytest.mark.parametrize(("key", "normal"), [("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))])
 def test_axis_buttons_turn_the_plane_to_the_middle_of_the_mesh(panel, heard, key, normal):
     panel.set_clip(PlaneClip.at((1, 2, 3), (0, 0, 2)))
-    QTest.mouseClick(panel._plane_page._axis.button(key), _LEFT)
+    QTest.mouseClick(axis(panel).button(key), _LEFT)
     assert heard == [PlaneClip.at(normal, (1, 15, 3))]
 
 
 def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, heard):
     panel.set_clip(PlaneClip.at((0, 1, 0), (1, 15, 3)))
-    slider = panel._plane_page._slider
-    start = handle(slider).center()
-    QTest.mousePress(slider, _LEFT, pos=start)
+    moved = slider(panel)
+    start = handle(moved).center()
+    QTest.mousePress(moved, _LEFT, pos=start)
     for dx in range(2, 42, 4):
-        QTest.mouseMove(slider, start + QPoint(dx, 0))
-    QTest.mouseRelease(slider, _LEFT, pos=start + QPoint(40, 0))
+        QTest.mouseMove(moved, start + QPoint(dx, 0))
+    QTest.mouseRelease(moved, _LEFT, pos=start + QPoint(40, 0))
     planes = [clip.planes[0] for clip in heard]
     places = [plane.origin[1] for plane in planes]
     assert len(places) > 3
     assert places == sorted(places)
     assert places[-1] > 17
     assert all(plane.normal == (0, 1, 0) for plane in planes)
-    assert panel._plane_page._value.text() == f"{places[-1]:.4g}"
+    assert named(panel, QLabel, "Position in mesh units").text() == f"{places[-1]:.4g}"
 
 
 def test_keys_move_the_plane_by_a_thousandth_and_to_the_ends(panel, heard):
     switch_on(panel)
-    QTest.keyClick(panel._plane_page._slider, Qt.Key.Key_Right)
+    QTest.keyClick(slider(panel), Qt.Key.Key_Right)
     assert heard[-1].planes[0].origin[0] == pytest.approx(1 + 4 / 1000)
-    QTest.keyClick(panel._plane_page._slider, Qt.Key.Key_End)
+    QTest.keyClick(slider(panel), Qt.Key.Key_End)
     assert heard[-1].planes[0].origin[0] == pytest.approx(3)
-    QTest.keyClick(panel._plane_page._slider, Qt.Key.Key_Home)
+    QTest.keyClick(slider(panel), Qt.Key.Key_Home)
     assert heard[-1].planes[0].origin[0] == pytest.approx(-1)
 
 
 @pytest.mark.parametrize(("place", "text"), [(-1.356e-5, "0"), (1e-6, "0"), (-0.02, "−0.02"), (1.356, "1.356")])
 def test_a_position_next_to_zero_reads_zero(panel, place, text):
     panel.set_clip(PlaneClip.at((1, 0, 0), (place, 0, 0)))
-    assert panel._plane_page._value.text() == text
+    assert named(panel, QLabel, "Position in mesh units").text() == text
 
 
 def test_flipping_hides_the_other_side_in_the_same_place(panel, heard):
     plane = PlaneClip.at((0, 1, 0), (1, 7, 3))
     panel.set_clip(plane)
-    before = panel._plane_page._slider.value()
-    QTest.mouseClick(panel._plane_page._flip, _LEFT)
+    before = slider(panel).value()
+    QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
     assert heard == [plane.with_plane(0, plane.planes[0].flipped())]
-    assert panel._plane_page._slider.value() == before
-    assert panel._plane_page._axis.value() == "y"
-    QTest.mouseClick(panel._plane_page._flip, _LEFT)
+    assert slider(panel).value() == before
+    assert axis(panel).value() == "y"
+    QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
     assert heard[-1] == plane
 
 
 def test_the_cut_is_whole_or_smooth(panel, heard):
     switch_on(panel)
-    QTest.mouseClick(panel._cut.button("smooth"), _LEFT)
+    QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
     assert heard[-1].crinkle is False
-    QTest.keyClick(panel._cut.button("smooth"), Qt.Key.Key_Left)
-    assert panel._cut.value() == "crinkle"
+    QTest.keyClick(cut(panel).button("smooth"), Qt.Key.Key_Left)
+    assert cut(panel).value() == "crinkle"
     assert heard[-1].crinkle is True
 
 
 def test_handles_are_announced(panel, qtbot):
     switch_on(panel)
     with qtbot.waitSignal(panel.handles_changed) as caught:
-        QTest.mouseClick(panel._handles, _LEFT, pos=_BOX)
+        QTest.mouseClick(named(panel, QCheckBox, "Handles"), _LEFT, pos=_BOX)
     assert caught.args == [False]
 
 
 def test_a_dragged_plane_is_shown_free_and_silently(panel, heard):
     panel.set_clip(PlaneClip.at((1, 1, 0), (1, 15, 3), crinkle=False))
-    assert panel._plane_page._axis.value() == "free"
-    assert panel._cut.value() == "smooth"
+    assert axis(panel).value() == "free"
+    assert cut(panel).value() == "smooth"
     panel.set_clip(None)
     panel.set_handles(False)
     panel.set_bounds(None)
@@ -138,42 +173,42 @@ def test_a_dragged_plane_is_shown_free_and_silently(panel, heard):
 def test_the_slider_sweeps_the_whole_mesh_whatever_the_normal(panel, normal, tick):
     corners = np.array([[x, y, z] for x in (-1, 3) for y in (0, 30) for z in (2, 4)], dtype=float)
     panel.set_clip(PlaneClip.at(normal, (0, 0, 0)))
-    panel._plane_page._slider.setValue(0)
-    panel._plane_page._slider.setValue(1)  # so that both ends are changes
-    panel._plane_page._slider.setValue(0)
+    slider(panel).setValue(0)
+    slider(panel).setValue(1)  # so that both ends are changes
+    slider(panel).setValue(0)
     low = panel.clip().planes[0].signed_distance(corners)
-    panel._plane_page._slider.setValue(1000)
+    slider(panel).setValue(1000)
     high = panel.clip().planes[0].signed_distance(corners)
     assert min(np.abs(low).min(), np.abs(high).min()) < 1e-9
     assert np.all(low * high <= 1e-9)  # all of the mesh lies between the two ends
-    panel._plane_page._slider.setValue(tick)
+    slider(panel).setValue(tick)
     shown = panel.clip()
     panel.set_clip(shown)
-    assert panel._plane_page._slider.value() == tick
+    assert slider(panel).value() == tick
     assert panel.clip() == shown
 
 
 def texts(panel):
-    return [panel._row._tabs.tabText(k) for k in range(panel._row._tabs.count())]
+    return [tabs(panel).tabText(k) for k in range(tabs(panel).count())]
 
 
 def test_planes_are_added_chosen_and_removed(panel, heard, qtbot):
     switch_on(panel)
-    assert not panel._row._remove.isEnabled()
-    assert not panel._beyond.isVisible()
-    QTest.mouseClick(panel._row._add, _LEFT)
+    assert not remove(panel).isEnabled()
+    assert not named(panel, Segmented, "Hide").isVisible()
+    QTest.mouseClick(add(panel), _LEFT)
     assert [plane.normal for plane in heard[-1].planes] == [(1, 0, 0), (0, 1, 0)]
-    assert (texts(panel), panel._row._tabs.currentIndex()) == (["1", "2"], 1)
-    QTest.keyClick(panel._plane_page._slider, Qt.Key.Key_End)
+    assert (texts(panel), tabs(panel).currentIndex()) == (["1", "2"], 1)
+    QTest.keyClick(slider(panel), Qt.Key.Key_End)
     assert heard[-1].planes[0].origin == (1, 15, 3)
     assert heard[-1].planes[1].origin[1] == pytest.approx(30)
     with qtbot.waitSignal(panel.plane_chosen) as chosen:
-        QTest.mouseClick(panel._row._tabs, _LEFT, pos=panel._row._tabs.tabRect(0).center())
+        QTest.mouseClick(tabs(panel), _LEFT, pos=tabs(panel).tabRect(0).center())
     assert chosen.args == [0]
-    assert panel._plane_page._axis.value() == "x"
-    QTest.mouseClick(panel._beyond.button("all"), _LEFT)
+    assert axis(panel).value() == "x"
+    QTest.mouseClick(named(panel, Segmented, "Hide").button("all"), _LEFT)
     assert heard[-1].notch
-    QTest.mouseClick(panel._row._remove, _LEFT)
+    QTest.mouseClick(remove(panel), _LEFT)
     assert [plane.normal for plane in heard[-1].planes] == [(0, 1, 0)]
     assert texts(panel) == ["1"]
 
@@ -181,32 +216,32 @@ def test_planes_are_added_chosen_and_removed(panel, heard, qtbot):
 def test_more_planes_than_six_are_not_offered(panel, heard):
     switch_on(panel)
     for _ in range(7):
-        QTest.mouseClick(panel._row._add, _LEFT)
+        QTest.mouseClick(add(panel), _LEFT)
     assert len(heard[-1].planes) == 6
-    assert not panel._row._add.isEnabled()
+    assert not add(panel).isEnabled()
 
 
 def test_a_box_is_moved_by_its_sliders_and_turned_inside_out(panel, heard):
     switch_on(panel)
-    QTest.mouseClick(panel._kind.button("box"), _LEFT)
+    QTest.mouseClick(kind(panel).button("box"), _LEFT)
     assert heard[-1] == BoxClip((0, 7.5, 2.5), (2, 22.5, 3.5))
-    assert not panel._plane_page.isVisible()
-    slider = panel._box_page._sliders[1]
-    QTest.mouseClick(slider, _LEFT, pos=QPoint(slider.width() - 3, slider.height() // 2))
-    QTest.mouseClick(panel._side.button("all"), _LEFT)
+    assert not slider(panel).isVisible()
+    sides = named(panel, QRangeSlider, "Y of the box")
+    QTest.mouseClick(sides, _LEFT, pos=QPoint(sides.width() - 3, sides.height() // 2))
+    QTest.mouseClick(named(panel, Segmented, "Hide of the box").button("all"), _LEFT)
     box = heard[-1]
     assert (box.low, box.notch) == ((0, 7.5, 2.5), True)
     assert box.high[1] > 22.5
     assert (box.high[0], box.high[2]) == (2, 3.5)
-    QTest.mouseClick(panel._kind.button("planes"), _LEFT)
+    QTest.mouseClick(kind(panel).button("planes"), _LEFT)
     assert heard[-1] == PlaneClip.at((1, 0, 0), (1, 15, 3))
-    QTest.mouseClick(panel._kind.button("box"), _LEFT)
+    QTest.mouseClick(kind(panel).button("box"), _LEFT)
     assert heard[-1] == box
 
 
 def test_a_box_dragged_in_the_view_is_not_rounded_to_the_sliders(panel, heard):
     box = BoxClip((0.12345, 1, 2), (2, 20.54321, 3))
     panel.set_clip(box)
-    QTest.mouseClick(panel._cut.button("smooth"), _LEFT)
+    QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
     assert (heard[-1].low, heard[-1].high) == (box.low, box.high)
     assert not heard[-1].crinkle

@@ -15,8 +15,12 @@ from hexmend_app.shell.program import application
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation, Look, ValueRange
 from hexmend_app.state.run import Phase
+from hexmend_app.widgets.slider_box import SliderBox
 from tests.app.driving import LEFT, choose, click, named, open_and_wait, press, tick
 from tests.patience import PATIENCE
+
+PEEL, SHRINK, RINGS = "Layers peeled from the boundary", "Shrink the hexes", "Rings around what is isolated"
+BUTTONS = ("Show all", "Undo digging", "Put back")
 
 
 @pytest.fixture
@@ -50,7 +54,7 @@ def faces(window):
 def shown(window):
     """What the panel says of how many hexes are shown."""
     window.refresh()
-    return window.features["cut"].inside._shown.text()
+    return window.features["cut"].inside.shown.text()
 
 
 def type_into(box, text):
@@ -66,56 +70,56 @@ def type_into(box, text):
 def test_slider_and_box_say_the_same_layers(panel):
     heard = []
     panel.peel_changed.connect(heard.append)
-    panel._peel._slider.setFocus()
-    QTest.keyClick(panel._peel._slider, Qt.Key.Key_Right)
-    assert panel._peel._box.value() == 1
-    type_into(panel._peel._box, "3")
-    assert panel._peel._slider.value() == 3
+    named(panel, QSlider, PEEL).setFocus()
+    QTest.keyClick(named(panel, QSlider, PEEL), Qt.Key.Key_Right)
+    assert named(panel, QSpinBox, PEEL).value() == 1
+    type_into(named(panel, QSpinBox, PEEL), "3")
+    assert named(panel, QSlider, PEEL).value() == 3
     assert heard == [1, 3]
     panel.set_look(Look(peel=2), 1)
-    assert panel._peel.value() == 2
+    assert named(panel, SliderBox, PEEL).value() == 2
     assert heard == [1, 3]
 
 
 def test_there_is_nothing_to_peel_where_all_touch_the_boundary(panel):
     panel.set_layers(0)
-    assert not panel._peel.isEnabled()
-    assert "every hex has a face on the boundary" in panel._peel.toolTip()
+    assert not named(panel, SliderBox, PEEL).isEnabled()
+    assert "every hex has a face on the boundary" in named(panel, SliderBox, PEEL).toolTip()
     panel.set_layers(2)
-    assert panel._peel.isEnabled()
-    assert "Hide the outer layers" in panel._peel.toolTip()
+    assert named(panel, SliderBox, PEEL).isEnabled()
+    assert "Hide the outer layers" in named(panel, SliderBox, PEEL).toolTip()
 
 
-@pytest.mark.parametrize("part", ["_slider", "_box"])
+@pytest.mark.parametrize("part", [QSlider, QSpinBox])
 def test_scrolling_past_changes_nothing(panel, part):
-    widget = getattr(panel._shrink, part)
-    panel._rings.setFocus()
+    widget = named(panel, part, SHRINK)
+    named(panel, QSpinBox, RINGS).setFocus()
     centre = QPointF(widget.rect().center())
     turn = QWheelEvent(
         centre, widget.mapToGlobal(centre), QPoint(), QPoint(0, 120),
         Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
     )  # fmt: skip
     QApplication.sendEvent(widget, turn)
-    assert panel._shrink.value() == 0
+    assert named(panel, SliderBox, SHRINK).value() == 0
 
 
 def test_a_smooth_cut_and_shrinking_exclude_each_other(panel):
     panel.set_look(Look(clip=PlaneClip(crinkle=False), shrink=0.2), 1)
-    assert not panel._shrink.isEnabled()
-    assert "Whole hexes" in panel._shrink.toolTip()
+    assert not named(panel, SliderBox, SHRINK).isEnabled()
+    assert "Whole hexes" in named(panel, SliderBox, SHRINK).toolTip()
     panel.set_look(Look(clip=PlaneClip(crinkle=True), shrink=0.2), 1)
-    assert panel._shrink.isEnabled()
-    assert panel._shrink.value() == 20
+    assert named(panel, SliderBox, SHRINK).isEnabled()
+    assert named(panel, SliderBox, SHRINK).value() == 20
 
 
 def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
-    buttons = panel._all, panel._undo, panel._put_back
+    buttons = [named(panel, QPushButton, name) for name in BUTTONS]
     assert not any(button.isEnabled() for button in buttons)
     panel.set_look(Look(isolation=Isolation((4,), 2), dug=frozenset({1, 2, 3})), 2)
     assert all(button.isEnabled() for button in buttons)
-    assert panel._rings.value() == 2
-    assert panel._isolated.text() == "1 isolated"
-    assert panel._dug.text() == "3 hexes dug away"
+    assert named(panel, QSpinBox, RINGS).value() == 2
+    assert panel.isolated.text() == "1 isolated"
+    assert panel.dug.text() == "3 hexes dug away"
     heard = []
     panel.all_requested.connect(lambda: heard.append("all"))
     panel.undo_requested.connect(lambda: heard.append("undo"))
@@ -131,14 +135,14 @@ def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
 )
 def test_it_says_how_many_are_shown(panel, numbers, text):
     panel.set_shown(*numbers)
-    assert panel._shown.text() == text
+    assert panel.shown.text() == text
 
 
 # The window
 
 
 def test_peeling_hides_layer_after_layer(window):
-    layers = named(window.features["cut"].inside, QSpinBox, "Layers peeled from the boundary")
+    layers = named(window.features["cut"].inside, QSpinBox, PEEL)
     type_into(layers, "2")
     assert window.session.view.look.peel == 2
     assert set(faces(window)) == set(np.flatnonzero(window.session.document.now.mesh.topology.layers == 2))
@@ -150,7 +154,7 @@ def test_isolating_with_rings_and_back(window):
     view, panel = window.session.view, window.features["cut"].inside
     view.isolate([555], 0)
     assert set(faces(window)) == {555}
-    type_into(named(panel, QSpinBox, "Rings around what is isolated"), "1")
+    type_into(named(panel, QSpinBox, RINGS), "1")
     assert view.look.isolation == Isolation((555,), 1)
     assert shown(window) == "1 of 1,000 hexes shown"
     assert window.canvas.viewport.filters.ghosts(window.canvas.viewport.frame).sum() == 26
@@ -200,7 +204,7 @@ def test_everything_combines(window):
 
 
 def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtbot):
-    slider = named(window.features["cut"].inside, QSlider, "Shrink the hexes")
+    slider = named(window.features["cut"].inside, QSlider, SHRINK)
     slider.setFocus()
     for _ in range(5):
         QTest.keyClick(slider, Qt.Key.Key_PageUp)
@@ -241,7 +245,7 @@ def test_a_smooth_cut_is_not_shrunk(window):
 
 
 def test_the_outline_is_drawn_while_something_is_hidden_and_wanted(window):
-    actor = window.canvas.viewport._outline._actor
+    actor = window.canvas.viewport.outline.actor
     box = named(window.features["cut"].inside, QCheckBox, "Sharp edges and outline")
     assert not actor.GetVisibility()
     window.session.view.change(peel=1)
@@ -264,7 +268,7 @@ def test_another_mesh_is_shown_whole(window, qtbot, tmp_path):
     open_and_wait(qtbot, window, tmp_path / "small.vtu")
     assert window.session.view.look == Look()
     assert shown(window) == "8 of 8 hexes shown"
-    assert not named(window.features["cut"].inside, QSlider, "Layers peeled from the boundary").isEnabled()
+    assert not named(window.features["cut"].inside, QSlider, PEEL).isEnabled()
 
 
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
@@ -273,14 +277,15 @@ def test_nothing_is_cut_off(window, qtbot, size):
     window.session.view.isolate(range(500), 12)
     for h in range(12):
         window.session.view.dig(h)
-    qtbot.wait(50)
+    window.refresh()
     panel = window.features["cut"].inside
-    parts = (panel._isolated, panel._dug, panel._shown, panel._all, panel._undo, panel._put_back, panel._outline)
+    parts = [panel.isolated, panel.dug, panel.shown, named(panel, QCheckBox, "Sharp edges and outline")]
+    parts += [named(panel, QPushButton, name) for name in BUTTONS]
     for part in parts:
         # A button's hint is 80 pixels at least, whatever its word.
         button = isinstance(part, QPushButton)
         need = part.fontMetrics().horizontalAdvance(part.text()) + 10 if button else part.sizeHint().width()
         assert part.width() >= need, part.text()
         assert panel.rect().contains(part.geometry())
-    for box in (panel._peel._box, panel._shrink._box, panel._rings):
+    for box in (named(panel, QSpinBox, PEEL), named(panel, QSpinBox, SHRINK), named(panel, QSpinBox, RINGS)):
         assert box.width() >= box.sizeHint().width() - 2

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QActionGroup, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton, QToolTip
 
@@ -414,7 +414,7 @@ def test_bins_are_chosen_in_the_head_and_in_the_menu(histogram, data):
     QTest.keyClick(bins, Qt.Key.Key_Up)
     assert len(histogram.series()[0].part.counts) == 60
     assert len(histogram.plot.outlines["now"].curve.yData) == 60
-    numbers = {action.text(): action for action in histogram.head._numbers.actions()}
+    numbers = {action.text(): action for action in histogram.head.findChild(QActionGroup).actions()}
     numbers["200"].trigger()
     assert bins.value() == 200
     assert numbers["200"].isChecked()

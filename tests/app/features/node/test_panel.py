@@ -3,10 +3,11 @@
 import dataclasses
 
 import numpy as np
+import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QLabel, QPushButton
 
 from hexmend.node_step import Trial, Verdict, explain
 from hexmend.smoothers import METHODS
@@ -14,6 +15,7 @@ from hexmend_app.features.node.panel import NodePanel
 from hexmend_app.features.node.plot import NodePlot, extent
 from hexmend_app.features.node.words import rows, verdict
 from hexmend_app.widgets.style import TEXT, WORSE
+from tests.app.driving import named
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(3), 0.2, 5)
@@ -60,7 +62,7 @@ def test_what_is_infinite_is_said_and_not_drawn(shown):
     panel = shown(NodePanel(), 500, 260)
     panel.show_step(step, "Local steepest descent", made=False)
     assert not panel.plot.isVisible()
-    assert "infinite" in panel._verdict.text()
+    assert "infinite" in named(panel, QLabel, "What becomes of it").text()
 
 
 def test_the_energy_of_a_method_that_does_not_look_at_it_may_rise():
@@ -98,9 +100,9 @@ def test_trials_beyond_the_plot_stand_at_its_upper_edge(shown):
         assert alpha == trials[number - 1].alpha
         assert low < height < high
         assert (height > 0.8 * high) == (number < len(trials))
-    assert len(plot._numbers) > 1
+    assert len(plot.numbers) > 1
     plot.show_step(None)
-    assert plot._numbers == []
+    assert plot.numbers == []
 
 
 def test_large_changes_leave_their_power_of_ten_to_the_label(shown):
@@ -109,7 +111,7 @@ def test_large_changes_leave_their_power_of_ten_to_the_label(shown):
     curve[:, 1] = step.energy + 1e6 * (curve[:, 1] - step.energy)
     plot = shown(NodePlot(), 260, 180)
     plot.show_step(dataclasses.replace(step, curve=curve))
-    axis = plot._plot.getAxis("left")
+    axis = named(plot, pg.PlotWidget, "Energy along the direction").getAxis("left")
     assert "[10" in axis.labelText
     assert 0.1 <= max(abs(v) for v in axis.range) * axis.scale < 20
 
@@ -128,4 +130,4 @@ def test_a_sweep_is_offered_or_the_reason_given(shown):
     for button in buttons:
         QTest.mouseClick(button, Qt.MouseButton.LeftButton)
     assert heard == ["next", "ten", "finish"]
-    assert panel._progress.text() == "3 of 10 nodes"
+    assert named(panel, QLabel, "Progress of the sweep").text() == "3 of 10 nodes"

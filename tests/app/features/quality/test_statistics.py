@@ -7,11 +7,12 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication, QMenu, QTableWidget
 
 from hexmend.quality.summary import Summary
 from hexmend_app.features.quality.statistics import ROWS, StatisticsTable, change
 from hexmend_app.widgets.style import BETTER, MUTED, WORSE
+from tests.app.driving import named
 
 _START = {
     "hexes": 32735,
@@ -46,8 +47,12 @@ def table(shown):
     return widget
 
 
+def grid(table):
+    return named(table, QTableWidget, "Statistics of the mesh")
+
+
 def cell(table, key, column):
-    return table._table.item(_AT[key], column)
+    return grid(table).item(_AT[key], column)
 
 
 def test_every_figure_of_a_summary_but_the_trivial_has_a_row():
@@ -87,8 +92,8 @@ def test_every_row_explains_itself(table):
 
 
 def test_control_c_copies_full_precision_for_a_spreadsheet(table):
-    table._table.setFocus()
-    QTest.keyClick(table._table, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    grid(table).setFocus()
+    QTest.keyClick(grid(table), Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     lines = [line.split("\t") for line in QGuiApplication.clipboard().text().splitlines()]
     assert len(lines) == len(ROWS) + 1
     assert all(len(line) == 3 for line in lines)
@@ -100,7 +105,7 @@ def test_control_c_copies_full_precision_for_a_spreadsheet(table):
 
 def test_the_context_menu_copies(table, qtbot):
     QGuiApplication.clipboard().setText("before")
-    table._table.customContextMenuRequested.emit(table._table.viewport().rect().center())
+    grid(table).customContextMenuRequested.emit(grid(table).viewport().rect().center())
     menu = QApplication.activePopupWidget()
     assert isinstance(menu, QMenu)
     QTest.keyClick(menu, Qt.Key.Key_Down)
@@ -111,8 +116,7 @@ def test_the_context_menu_copies(table, qtbot):
 def test_nothing_is_cut_off_in_a_narrow_panel(table):
     assert table.sizeHint().width() <= 360
     table.resize(table.sizeHint())
-    QTest.qWait(10)
-    view = table._table
+    view = grid(table)
     for at in range(view.rowCount()):
         for column in range(view.columnCount()):
             need = view.fontMetrics().horizontalAdvance(view.item(at, column).text())
@@ -135,9 +139,9 @@ def tangled(table):
 
 
 def click(table, key, column):
-    place = table._table.visualItemRect(cell(table, key, column)).center()
-    QTest.mouseMove(table._table.viewport(), place)
-    QTest.mouseClick(table._table.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    place = grid(table).visualItemRect(cell(table, key, column)).center()
+    QTest.mouseMove(grid(table).viewport(), place)
+    QTest.mouseClick(grid(table).viewport(), Qt.MouseButton.LeftButton, pos=place)
 
 
 def test_the_numbers_of_inverted_and_locked_elements_are_links(tangled):
@@ -152,13 +156,13 @@ def test_the_numbers_of_inverted_and_locked_elements_are_links(tangled):
 
 def test_links_are_reached_by_keys(tangled):
     table, asked = tangled
-    table._table.setFocus()
-    table._table.setCurrentCell(_AT["inverted"], 0)
-    QTest.keyClick(table._table, Qt.Key.Key_Return)
-    QTest.keyClick(table._table, Qt.Key.Key_Down)
-    QTest.keyClick(table._table, Qt.Key.Key_Enter)
-    QTest.keyClick(table._table, Qt.Key.Key_Down)
-    QTest.keyClick(table._table, Qt.Key.Key_Enter)
+    grid(table).setFocus()
+    grid(table).setCurrentCell(_AT["inverted"], 0)
+    QTest.keyClick(grid(table), Qt.Key.Key_Return)
+    QTest.keyClick(grid(table), Qt.Key.Key_Down)
+    QTest.keyClick(grid(table), Qt.Key.Key_Enter)
+    QTest.keyClick(grid(table), Qt.Key.Key_Down)
+    QTest.keyClick(grid(table), Qt.Key.Key_Enter)
     assert asked == ["inverted", "locked"]
 
 
@@ -166,8 +170,8 @@ def test_where_there_are_none_there_is_no_link(tangled):
     table, asked = tangled
     table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW))
     click(table, "inverted", 2)
-    table._table.setCurrentCell(_AT["inverted"], 0)
-    QTest.keyClick(table._table, Qt.Key.Key_Return)
+    grid(table).setCurrentCell(_AT["inverted"], 0)
+    QTest.keyClick(grid(table), Qt.Key.Key_Return)
     assert asked == []
     assert not cell(table, "inverted", 2).font().underline()
     assert "determinant" in cell(table, "inverted", 2).toolTip()

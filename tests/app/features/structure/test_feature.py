@@ -63,7 +63,7 @@ def press(box):
 def texts(panel, name):
     """What stands beside a layer."""
     QTest.qWait(10)  # until what stood there before is gone
-    return [label.text() for label in panel._layers[name].entries.findChildren(QLabel)]
+    return [label.text() for label in panel.layers[name].entries.findChildren(QLabel)]
 
 
 def pixels(window):
@@ -86,7 +86,7 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     panel.set_nodes(8, 1, 3, 2)
     assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked"]
     assert texts(panel, "irregular") == ["counting…"]
-    assert "Being counted" in panel._layers["sharp"].box.toolTip()
+    assert "Being counted" in panel.layers["sharp"].box.toolTip()
     assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
     assert texts(panel, "locked") == ["of 2 locked hexes"]
 
@@ -94,7 +94,7 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
 def test_edges_are_counted_by_valence(panel):
     panel.set_found(structure(tetrahedron()))
     assert texts(panel, "irregular") == ["4 of 3", "1 node"]
-    assert "120° at three" in panel._layers["irregular"].box.toolTip()
+    assert "120° at three" in panel.layers["irregular"].box.toolTip()
     mesh = grid(8)
     p = mesh.points / 4 - 1
     size = np.maximum(np.linalg.norm(p, axis=1, keepdims=True), 1e-9)
@@ -120,13 +120,13 @@ def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
-    assert "four hexes share every edge" in panel._layers["irregular"].box.toolTip()
+    assert "four hexes share every edge" in panel.layers["irregular"].box.toolTip()
     heard = []
     panel.structure_changed.connect(heard.append)
-    press(panel._layers["irregular"].box)
+    press(panel.layers["irregular"].box)
     assert heard == []
     panel.set_structure(Structure(irregular=True))
-    press(panel._layers["irregular"].box)
+    press(panel.layers["irregular"].box)
     assert heard == [Structure()]
     assert not panel.offered()["irregular"]
 
@@ -136,8 +136,8 @@ def test_a_click_chooses_one_layer_more(panel):
     heard = []
     panel.structure_changed.connect(heard.append)
     panel.set_structure(Structure(locked=True))
-    press(panel._layers["sharp"].box)
-    press(panel._layers["sharp"].box)
+    press(panel.layers["sharp"].box)
+    press(panel.layers["sharp"].box)
     assert heard == [Structure(sharp=True, locked=True), Structure(locked=True)]
 
 
@@ -147,7 +147,7 @@ def test_a_click_chooses_one_layer_more(panel):
 @pytest.mark.parametrize("name", ["irregular", "sharp", "fixed", "free"])
 def test_a_key_shows_and_hides_a_layer(five, name):
     before = pixels(five)
-    box = five.features["structure"].panel._layers[name].box
+    box = five.features["structure"].panel.layers[name].box
     press_key(five, name)
     assert five.session.view.look.structure == Structure(**{name: True})
     assert box.isChecked()
@@ -186,7 +186,7 @@ def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five,
     qtbot.wait(10)
     assert five.canvas.viewport.frame.look.structure == Structure(irregular=True, sharp=True)
     assert texts(five.features["structure"].panel, "sharp") == ["36"]
-    assert five.features["structure"].panel._layers["irregular"].box.isEnabled()  # to be switched off
+    assert five.features["structure"].panel.layers["irregular"].box.isEnabled()  # to be switched off
     assert count(pixels(five), SHARP) > 300
     assert count(pixels(five), VALENCES[5]) == 0
 
@@ -195,21 +195,21 @@ def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
     with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
         open_and_wait(qtbot, window, tmp_path / "five.vtu")
-    tick(window.features["structure"].panel._layers["irregular"].box)
-    marks = window.canvas.viewport._structure._irregular_inside
-    before = np.array(marks._poly.points)
+    tick(window.features["structure"].panel.layers["irregular"].box)
+    marks = window.canvas.viewport.structure.irregular_inside
+    before = np.array(marks.poly.points)
     start = window.session.document.now
     choose(window, "laplacian")
     click(window, "Step")
     qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
     window.refresh()
-    now = np.array(marks._poly.points)
+    now = np.array(marks.poly.points)
     assert not np.array_equal(now, before)
-    np.testing.assert_array_equal(now, window.session.document.now.mesh.points[marks._nodes])
+    np.testing.assert_array_equal(now, window.session.document.now.mesh.points[marks.nodes])
 
 
 def test_a_pinned_node_changes_its_colour(five, qtbot):
-    tick(five.features["structure"].panel._layers["fixed"].box)
+    tick(five.features["structure"].panel.layers["fixed"].box)
     inside = int(np.flatnonzero(five.session.document.now.mesh.free)[0])
     five.session.view.change(peel=1)
     five.refresh()
@@ -219,7 +219,7 @@ def test_a_pinned_node_changes_its_colour(five, qtbot):
     five.session.commands.pin(inside, True)
     qtbot.wait(20)
     assert texts(five.features["structure"].panel, "fixed")[1] == "1 pinned"
-    nodes = five.canvas.viewport._structure._nodes._poly
+    nodes = five.canvas.viewport.structure.nodes.poly
     assert (nodes.cell_data["colours"] == tuple(bytes.fromhex(PINNED[1:]))).all(axis=1).sum() == 1
     five.session.commands.undo()
     qtbot.wait(20)
@@ -266,7 +266,7 @@ def test_nothing_is_cut_off(five, qtbot, size):
     valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
     panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))
     qtbot.wait(50)
-    for layer in panel._layers.values():
+    for layer in panel.layers.values():
         assert layer.box.width() >= layer.box.sizeHint().width()
         for label in layer.entries.findChildren(QLabel):
             if label.isVisible():

@@ -87,7 +87,7 @@ def test_of_many_the_longest_are_drawn(viewport, monkeypatch):
     look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     move(viewport)
     assert viewport.arrows == (20, int(MESH.free.sum()))
-    starts = np.asarray(viewport._arrows._points.points)[::7]
+    starts = np.asarray(viewport.arrow_layer.lines.points)[::7]
     longest = np.argsort(np.linalg.norm(NOW - MESH.points, axis=1))[-20:]
     np.testing.assert_allclose(starts, MESH.points[np.sort(longest)])
 

@@ -125,40 +125,40 @@ def test_nodes_of_locked_elements(draw):
 def test_only_what_is_shown_has_marks(draw, clip):
     wanted = Structure(irregular=True, sharp=True, fixed=True)
     draw(FIVE, wanted, clip=clip)
-    layers = draw.viewport._structure
-    assert layers._irregular.count == 5  # of the eleven, those below the plane
-    for marks in (layers._irregular, layers._sharp, layers._nodes):
-        assert marks._poly.points[:, 2].max() <= 0.75
+    layers = draw.viewport.structure
+    assert layers.irregular.count == 5  # of the eleven, those below the plane
+    for marks in (layers.irregular, layers.sharp, layers.nodes):
+        assert marks.poly.points[:, 2].max() <= 0.75
     draw.viewport.draw(
         dataclasses.replace(draw.viewport.frame, look=Look(structure=wanted, dug=frozenset(range(FIVE.n_hexes))))
     )
-    assert not layers._irregular.shown
-    assert not layers._nodes.shown
+    assert not layers.irregular.shown
+    assert not layers.nodes.shown
 
 
 def test_marks_follow_the_nodes_shrunk_elements_too(draw):
     draw(FIVE, Structure(irregular=True, fixed=True), shrink=0.3)
     moved = FIVE.points * [1, 1, 0.5]
     draw.viewport.draw(Frame(FIVE.with_points(moved), measure(moved, FIVE.hexes), look=draw.viewport.frame.look))
-    layers = draw.viewport._structure
-    axis = layers._irregular._poly.points
+    layers = draw.viewport.structure
+    axis = layers.irregular.poly.points
     assert axis[:, 2].max() == pytest.approx(0.75)
     corners = moved[FIVE.hexes]
     shrunk = (corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)).reshape(-1, 3)
-    for point in layers._nodes._poly.points[::50]:
+    for point in layers.nodes.poly.points[::50]:
         assert np.abs(shrunk - point).max(axis=1).min() < 1e-6
 
 
 def test_many_marks_are_drawn_in_full_in_fine_frames_alone(draw, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.layers.structure._MANY", 5)
     draw(FIVE, Structure(irregular=True))
-    layers = draw.viewport._structure
-    assert not layers._inside.GetDraw()
+    layers = draw.viewport.structure
+    assert not layers.layer.GetDraw()
     draw.viewport.still()
-    assert layers._inside.GetDraw()
-    assert layers._irregular_inside._filled.GetProperty().GetOpacity() == pytest.approx((5 / 11) ** 0.5)
+    assert layers.layer.GetDraw()
+    assert layers.irregular_inside.filled.GetProperty().GetOpacity() == pytest.approx((5 / 11) ** 0.5)
     draw.viewport.draw(dataclasses.replace(draw.viewport.frame, look=Look()))
-    assert not layers._inside.GetDraw()
+    assert not layers.layer.GetDraw()
 
 
 def test_valences_without_a_colour_of_their_own_share_one():
