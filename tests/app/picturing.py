@@ -27,7 +27,7 @@ def everything(window: QWidget) -> Counter[str]:
     lines: Counter[str] = Counter()
     _widgets(window, "", lines)
     for one in QApplication.topLevelWidgets():
-        if one.isVisible() and one is not window:
+        if one.isVisible() and not isinstance(one, Window):  # there are two while they are compared
             lines[f"open: {type(one).__name__} {one.windowTitle()}"] += 1
     focus = QApplication.focusWidget()
     lines[f"focus: {type(focus).__name__} {focus.accessibleName() if focus else ''}"] += 1
