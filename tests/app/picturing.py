@@ -12,6 +12,8 @@ import numpy as np
 from PySide6.QtCore import QObject, QSettings
 from PySide6.QtWidgets import QApplication, QComboBox, QScrollBar, QTabBar, QWidget
 
+from hexmend_app.shell.window import Window
+
 #: Properties of widgets and actions that show what was done to them.
 _PROPERTIES = (
     "enabled", "text", "plainText", "checked", "value", "minimum", "maximum", "currentIndex", "currentText", "toolTip",
