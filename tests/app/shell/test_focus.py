@@ -9,7 +9,15 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QAccessible, QAction, QKeySequence
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractScrollArea, QAbstractSpinBox, QApplication, QLabel, QTabBar, QWidget
+from PySide6.QtWidgets import (
+    QAbstractScrollArea,
+    QAbstractSpinBox,
+    QApplication,
+    QLabel,
+    QTabBar,
+    QTableWidget,
+    QWidget,
+)
 
 from hexmend_app.scene.palette import BLUE
 from hexmend_app.widgets.section import Section
@@ -72,6 +80,8 @@ def everything_on(window):
     for section in window.findChildren(Section):
         section.expand()
     window.refresh()
+    # A table without a current row has none to mark; whether it has one depends on what was done before.
+    window.features["tags"].panel.findChild(QTableWidget).setCurrentCell(0, 0)
     return window
 
 
