@@ -251,7 +251,7 @@ class Docks(QWidget):
             self._placed = True
             for splitter, kept in sizes:
                 splitter.restoreState(kept)
-            self.drawer.height_unfolded = height
+            self.drawer.set_height_open(height)
         if panels:
             for tabs, title in zip(self._tabs.values(), fronts, strict=False):
                 tabs.set_front(title)

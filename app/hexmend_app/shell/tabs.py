@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QStackedWidget, QTabWidget, QWidget
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabWidget, QWidget
 
 from hexmend_app.widgets.style import smaller
 
@@ -109,24 +109,33 @@ class Drawer(Tabs):
     @property
     def height_open(self) -> int:
         """Pixels that it has while it is open, or had then."""
-        return self.height() if self.isVisible() and not self.folded else self.height_unfolded
+        seen = self.isVisible() and not self.folded and self.height() > self.tabBar().height()
+        return self.height() if seen else self.height_unfolded
 
     def set_folded(self, folded: bool) -> None:
         """Leave nothing but the tabs, or show the page in front."""
         if folded == self.folded:
             return
-        if folded and self.isVisible() and self.height() > self.tabBar().height():
-            self.height_unfolded = self.height()
+        self.height_unfolded = self.height_open
         self.folded = folded
         self.findChild(QStackedWidget).setVisible(not folded)
         bar = max(self.tabBar().sizeHint().height(), 24)
         self.setMinimumHeight(bar)
         self.setMaximumHeight(bar if folded else _UNBOUNDED)
-        splitter = self.parentWidget()
-        if not folded and splitter is not None and hasattr(splitter, "setSizes"):
-            height = splitter.height()
-            splitter.setSizes([height - self.height_unfolded, self.height_unfolded])
+        self._share(bar if folded else self.height_unfolded)
         self.changed.emit()
+
+    def set_height_open(self, height: int) -> None:
+        """Have so many pixels as soon as it is open."""
+        self.height_unfolded = height
+        if not self.folded:
+            self._share(height)
+
+    def _share(self, height: int) -> None:
+        """Take so much of the room, and leave what is above it the rest; by itself Qt leaves that empty."""
+        splitter = self.parentWidget()
+        if isinstance(splitter, QSplitter):
+            splitter.setSizes([splitter.height() - height, height])
 
     def bring(self, page: QWidget) -> None:
         """Bring a page to the front, and open the drawer."""
