@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from superqt import QCollapsible
 
@@ -40,6 +41,11 @@ class Section(QCollapsible):
         explain(button, title, help)
         self.toggled.connect(self._fit)
         self._fit(False)
+
+    def minimumSizeHint(self) -> QSize:
+        """As wide as what is folded away needs: whatever is around keeps its width as it unfolds."""
+        size = super().minimumSizeHint()
+        return QSize(max(size.width(), self.content().minimumSizeHint().width()), size.height())
 
     def _fit(self, open_: bool) -> None:
         # Hidden, not only of no height, so that Tab does not walk through what cannot be seen.

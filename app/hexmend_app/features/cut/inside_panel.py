@@ -108,11 +108,9 @@ class InsidePanel(QWidget):
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(7)
         grid.setColumnStretch(1, 1)
-        rings, dug = QHBoxLayout(), QHBoxLayout()
-        for line, parts in (
-            (rings, (self._rings, self.isolated, self._all)),
-            (dug, (self.dug, self._undo, self._put_back)),
-        ):
+        lines = QHBoxLayout(), QHBoxLayout()
+        groups = (self.isolated, self._all), (self.dug, self._undo, self._put_back)
+        for line, parts in zip(lines, groups, strict=True):
             line.setSpacing(8)
             for part in parts:
                 line.addWidget(part, isinstance(part, QLabel))
@@ -122,10 +120,11 @@ class InsidePanel(QWidget):
             grid.addWidget(label, row, 0)
         grid.addWidget(self._peel, 0, 1)
         grid.addWidget(self._shrink, 1, 1)
-        grid.addLayout(rings, 2, 1)
-        grid.addLayout(dug, 3, 0, 1, 2)
-        grid.addWidget(self._outline, 4, 0, 1, 2)
-        grid.addWidget(self.shown, 5, 0, 1, 2)
+        grid.addWidget(self._rings, 2, 1)
+        for row, line in enumerate(lines, start=3):
+            grid.addLayout(line, row, 0, 1, 2)
+        grid.addWidget(self._outline, 5, 0, 1, 2)
+        grid.addWidget(self.shown, 6, 0, 1, 2)
 
     def set_layers(self, layers: int) -> None:
         """Take the number of layers that can be peeled before nothing is left; without a signal."""
@@ -144,7 +143,7 @@ class InsidePanel(QWidget):
             with QSignalBlocker(self._rings):
                 self._rings.setValue(rings)
         isolated = len(look.isolation.hexes) if look.isolation is not None else 0
-        self.isolated.setText(f"{isolated:,} isolated" if isolated else "none isolated")
+        self.isolated.setText(f"{counted(isolated, 'hex')} isolated" if isolated else "Nothing isolated")
         self._all.setEnabled(look.isolation is not None)
         self.dug.setText(f"{counted(len(look.dug), 'hex')} dug away" if look.dug else "Nothing dug away")
         for button in (self._undo, self._put_back):

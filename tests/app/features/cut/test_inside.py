@@ -118,7 +118,7 @@ def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
     panel.set_look(Look(isolation=Isolation((4,), 2), dug=frozenset({1, 2, 3})), 2)
     assert all(button.isEnabled() for button in buttons)
     assert named(panel, QSpinBox, RINGS).value() == 2
-    assert panel.isolated.text() == "1 isolated"
+    assert panel.isolated.text() == "1 hex isolated"
     assert panel.dug.text() == "3 hexes dug away"
     heard = []
     panel.all_requested.connect(lambda: heard.append("all"))
