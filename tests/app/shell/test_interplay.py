@@ -51,14 +51,22 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
     assert window.features["smooth"].panel.isEnabled()
 
 
-def test_a_hex_can_be_tagged_only_under_a_name(window):
+def test_a_hex_is_tagged_only_under_a_name_and_only_if_there_is_one(window):
+    window.show_panel("tags")
     name = named(window.features["tags"].panel, QComboBox, "Tag as")
-    for hex, tag, there in ((7, "", []), (7, "bad", ["bad"]), (None, "worse", ["bad"])):
-        window.session.selection.choose(hex)
-        name.setCurrentText(tag)
-        window.refresh()
-        window.action("tag").trigger()
-        assert list(window.session.document.now.mesh.hex_sets) == there
+    window.session.selection.choose(7)
+    name.setCurrentText("")
+    window.canvas.interactor.setFocus()
+    key(window, Qt.Key.Key_T)
+    assert "write one" in window.messages.messages()[-1][1]
+    name.setCurrentText("bad")
+    window.session.selection.choose(None)
+    key(window, Qt.Key.Key_T)
+    assert "No hex is chosen" in window.messages.messages()[-1][1]
+    assert not window.session.document.now.mesh.hex_sets
+    window.session.selection.choose(7)
+    key(window, Qt.Key.Key_T)
+    assert window.session.document.now.mesh.hex_sets["bad"].tolist() == [7]
 
 
 def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
