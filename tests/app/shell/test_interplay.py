@@ -120,6 +120,12 @@ def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
     window.session.view.set_clip(other)
     window.refresh()
     np.testing.assert_allclose(window.canvas.box.corners, [other.low, other.high])
+    window.session.view.set_clip(box)
+    pixels(window)
+    for k in range(6):
+        QTest.mouseMove(view, place - QPoint(0, 4 * k))
+        QTest.qWait(10)
+    assert window.session.view.look.clip == box  # no button is held any more
 
 
 def test_the_chosen_plane_is_still_the_one_after_the_cut_was_off_or_a_box(window):

@@ -36,8 +36,10 @@ class Handles:
         self.widget.SetInteractor(None)
 
     def _switch(self, on: bool) -> None:
-        if not on:
-            self._dragging = False  # VTK does not say that a drag ends which is cut short
+        if not on and self._dragging:
+            # VTK does not end a drag that is cut short: switched on again, it would go on with no button held.
+            self.widget.GetInteractor().InvokeEvent("LeftButtonReleaseEvent")
+            self._dragging = False
         if bool(self.widget.GetEnabled()) != on:
             if on:  # switched off, VTK forgets where it was, and takes the view that the mouse was over last
                 self.widget.SetCurrentRenderer(self._renderer)
