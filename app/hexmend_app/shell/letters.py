@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 
 def letter_of(text: str) -> str:
@@ -15,27 +15,28 @@ def letter_of(text: str) -> str:
 
 
 def letters(texts: Sequence[str]) -> list[str]:
-    """A letter for each of a menu's texts, lower case; "" where all of its are taken.
+    """A letter for each of a menu's texts, lower case; "" only where there are too few for all.
 
-    What stands behind an ampersand is given first, to the first that has it there; then words' first letters, then
-    any others.
+    What stands behind an ampersand is given to the first that has it there. The others have words' first letters as
+    far as these go, then any of theirs.
 
     Parameters
     ----------
     texts : sequence of str
 
-    >>> letters(["Open &recent", "&Run", "R&eset", "Cut", "Compare", "Cu"])
-    ['r', 'u', 'e', 'c', 'o', '']
+    >>> letters(["Open &recent", "&Run", "Cut", "Compare", "Cu"])
+    ['r', 'u', 't', 'o', 'c']
     """
-    given: dict[int, str] = {}
+    holders: dict[str, int] = {}
     for at, text in enumerate(texts):
-        wanted = letter_of(text)
-        if wanted and wanted not in given.values():
-            given[at] = wanted
-    for at, text in enumerate(texts):
-        if at not in given:
-            given[at] = next((one for one in _offered(text) if one not in given.values()), "")
-    return [given[at] for at in range(len(texts))]
+        holders.setdefault(letter_of(text), at)
+    holders.pop("", None)
+    named = set(holders.values())
+    for at in range(len(texts)):
+        if at not in named:
+            _give(at, texts, holders, {letter_of(texts[one]) for one in named})
+    held = {at: letter for letter, at in holders.items()}
+    return [held.get(at, "") for at in range(len(texts))]
 
 
 def marked(text: str, letter: str) -> str:
@@ -47,16 +48,28 @@ def marked(text: str, letter: str) -> str:
     if letter_of(text) == letter:
         return text
     text = text.replace("&", "")
-    starts = [at for at, one in enumerate(text) if one.lower() == letter]
-    at = min(starts, key=lambda at: (not _begins(text, at), at), default=None)
+    places = [at for at, one in enumerate(text) if one.lower() == letter]
+    at = min(places, key=lambda at: (not _begins(text, at), at), default=None)
     return text if at is None else f"{text[:at]}&{text[at:]}"
+
+
+def _give(at: int, texts: Sequence[str], holders: dict[str, int], closed: set[str]) -> bool:
+    """Give a text a letter that is free, or one whose holder takes another; no letter of `closed`, which grows."""
+    plain = texts[at].replace("&", "")
+    initials = [one for place, one in enumerate(plain) if _begins(plain, place)]
+    offered = [one.lower() for one in (*initials, *plain) if one.isalnum()]
+    free = next((one for one in offered if one not in holders), "")
+    if free:
+        holders[free] = at
+        return True
+    for letter in offered:
+        if letter not in closed:
+            closed.add(letter)
+            if _give(holders[letter], texts, holders, closed):
+                holders[letter] = at
+                return True
+    return False
 
 
 def _begins(text: str, at: int) -> bool:
     return at == 0 or not text[at - 1].isalnum()
-
-
-def _offered(text: str) -> Iterator[str]:
-    plain = text.replace("&", "")
-    initials = [one for at, one in enumerate(plain) if _begins(plain, at)]
-    yield from (one.lower() for one in (*initials, *plain) if one.isalnum())
