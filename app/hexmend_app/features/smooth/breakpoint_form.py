@@ -41,13 +41,13 @@ class BreakpointForm(QWidget):
         grid.setVerticalSpacing(4)
         self._inverts = self._check(grid, 0, "A hex inverts", _INVERTS)
         self._falls = self._check(grid, 1, "q min falls", _FALLS)
-        self._node, self._node_box, self._move = self._watch(grid, 2, "Node", "moves more than", _NODE, " edge")
-        self._hex, self._hex_box, self._change = self._watch(grid, 4, "Hex", "changes more than", _HEX, " q")
-        self._cut = self._check(grid, 6, "Line search", _CUTS)
+        self._node, self._node_box, self._move = self._watch(grid, 2, "Node", "moves", _NODE, " edge")
+        self._hex, self._hex_box, self._change = self._watch(grid, 4, "Hex", "changes", _HEX, " q")
+        self._cut = self._check(grid, 6, "Line search cuts", _CUTS)
         self._cuts = self._number(QSpinBox(), "Most cuts of the line search", _CUTS)
         self._cuts.setRange(0, 99)
         self._cuts.setValue(3)
-        self._ask(grid, 7, "cuts more than", self._cuts)
+        self._ask(grid, 7, "more often than", self._cuts)
         grid.setColumnStretch(0, 1)
         self._node.clicked.connect(lambda on: self._take(self._node_box, self._chosen[1], on))
         self._hex.clicked.connect(lambda on: self._take(self._hex_box, self._chosen[0], on))
@@ -112,24 +112,24 @@ class BreakpointForm(QWidget):
         self, grid: QGridLayout, row: int, what: str, verb: str, help: str, suffix: str
     ) -> tuple[QCheckBox, QSpinBox, QDoubleSpinBox]:
         """Two rows: which one, and how much."""
-        check = self._check(grid, row, what, help, span=1)
+        check = self._check(grid, row, f"{what} {verb}", help, span=1)
         which = self._number(QSpinBox(), f"Number of the {what.lower()}", help)
-        amount = self._number(QDoubleSpinBox(), f"How much the {what.lower()} {verb.split()[0]}", help)
+        amount = self._number(QDoubleSpinBox(), f"How much the {what.lower()} {verb}", help)
         amount.setRange(0, 10)
         amount.setDecimals(3)
         amount.setSingleStep(0.01)
         amount.setValue(0.1)
         amount.setSuffix(suffix)
         grid.addWidget(which, row, 1)
-        self._ask(grid, row + 1, verb, amount)
+        self._ask(grid, row + 1, "by more than", amount)
         return check, which, amount
 
     @staticmethod
-    def _ask(grid: QGridLayout, row: int, verb: str, box: QWidget) -> None:
+    def _ask(grid: QGridLayout, row: int, words: str, box: QWidget) -> None:
         """A row for how much, below what."""
         line = QHBoxLayout()
-        line.setContentsMargins(12, 0, 0, 0)
-        line.addWidget(QLabel(verb))
+        line.setContentsMargins(22, 0, 0, 0)
+        line.addWidget(QLabel(words))
         grid.addLayout(line, row, 0)
         grid.addWidget(box, row, 1)
 

@@ -177,7 +177,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
 
 
 @pytest.mark.parametrize(
-    ("text", "method", "chooses"), [("Node", "laplacian", True), ("Line search", "global-sd", False)]
+    ("text", "method", "chooses"), [("Node moves", "laplacian", True), ("Line search cuts", "global-sd", False)]
 )
 def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
     window.features["smooth"].panel.show_break_points()
