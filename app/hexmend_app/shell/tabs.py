@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabWidget, QWidget
 
 from hexmend_app.widgets.style import smaller
@@ -119,11 +119,25 @@ class Drawer(Tabs):
         self.height_unfolded = self.height_open
         self.folded = folded
         self.findChild(QStackedWidget).setVisible(not folded)
+        self._fit()
+        self.changed.emit()
+
+    def tabInserted(self, index: int) -> None:
+        """Be as high as the tabs, which are higher than none."""
+        super().tabInserted(index)
+        if self.folded:
+            self._fit()
+
+    def _fit(self) -> None:
         bar = max(self.tabBar().sizeHint().height(), 24)
         self.setMinimumHeight(bar)
-        self.setMaximumHeight(bar if folded else _UNBOUNDED)
-        self._share(bar if folded else self.height_unfolded)
-        self.changed.emit()
+        self.setMaximumHeight(bar if self.folded else _UNBOUNDED)
+        self._share(bar if self.folded else self.height_unfolded)
+
+    def sizeHint(self) -> QSize:
+        """Folded, as high as its tabs: a splitter gives it that at first, and more would be left empty."""
+        size = super().sizeHint()
+        return QSize(size.width(), min(size.height(), self.maximumHeight()))
 
     def set_height_open(self, height: int) -> None:
         """Have so many pixels as soon as it is open."""
@@ -135,7 +149,7 @@ class Drawer(Tabs):
         """Take so much of the room, and leave what is above it the rest; by itself Qt leaves that empty."""
         splitter = self.parentWidget()
         if isinstance(splitter, QSplitter):
-            splitter.setSizes([splitter.height() - height, height])
+            splitter.setSizes([splitter.height() - splitter.handleWidth() - height, height])
 
     def bring(self, page: QWidget) -> None:
         """Bring a page to the front, and open the drawer."""
