@@ -74,6 +74,15 @@ def mesh_file(tmp_path_factory):
 
 
 @pytest.fixture
+def bare_window(qtbot, tmp_path):
+    """A window on the screen in which nothing is yet; the test gives it a canvas."""
+    with kept_apart(tmp_path / "settings"):
+        window = first_seen(qtbot)
+        yield window
+        close(window)
+
+
+@pytest.fixture
 def fresh_window(qtbot, tmp_path, mesh_file, monkeypatch):
     """A window of the test's own, with a mesh open in it."""
     with kept_apart(tmp_path / "settings"):
@@ -129,13 +138,19 @@ def kept_apart(settings):
         yield
 
 
-def made(qtbot, path):
-    """A window in which a mesh is open."""
+def first_seen(qtbot):
+    """A window as it is first seen."""
     application()
     window = Window()
     window.resize(*SIZE)
     window.show()
     qtbot.waitExposed(window)
+    return window
+
+
+def made(qtbot, path):
+    """A window in which a mesh is open."""
+    window = first_seen(qtbot)
     window.furnish()
     window.build_canvas()
     open_and_wait(qtbot, window, path)

@@ -7,12 +7,14 @@ import sys
 
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  brings what VTK writes with
 from PySide6.QtCore import QEvent, Qt, QTimer
-from PySide6.QtGui import QGuiApplication, QMouseEvent, QOpenGLContext, QSurfaceFormat, QWheelEvent
+from PySide6.QtGui import QGuiApplication, QMouseEvent, QOpenGLContext, QWheelEvent
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QSizePolicy, QWidget
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
 from vtkmodules.vtkRenderingUI import vtkGenericRenderWindowInteractor
+
+from hexmend_app.widgets.opengl import choose_format
 
 _DRAW_FRAMEBUFFER, _COLOUR = 0x8CA9, 0x8CE0  # GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0
 _SCISSORS, _DEPTH_TEST = 0x0C11, 0x0B71  # GL_SCISSOR_TEST, GL_DEPTH_TEST
@@ -58,7 +60,7 @@ class RenderWidget(QOpenGLWidget):
     """
 
     def __init__(self, parent: QWidget | None = None):
-        QSurfaceFormat.setDefaultFormat(_format())  # under Wayland the window has to have the same
+        choose_format()
         super().__init__(parent)
         self.setUpdateBehavior(QOpenGLWidget.UpdateBehavior.NoPartialUpdate)
         self.setMouseTracking(True)
@@ -229,20 +231,6 @@ class RenderWidget(QOpenGLWidget):
 
     def _show_cursor(self) -> None:
         self.setCursor(_CURSORS.get(self.render_window.GetCurrentCursor(), Qt.CursorShape.ArrowCursor))
-
-
-def _format() -> QSurfaceFormat:
-    """OpenGL as VTK wants it; without smooth edges, which it makes itself."""
-    answer = QSurfaceFormat()
-    answer.setRenderableType(QSurfaceFormat.RenderableType.OpenGL)  # Wayland may else give one for telephones
-    answer.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
-    answer.setVersion(3, 2)
-    answer.setSwapBehavior(QSurfaceFormat.SwapBehavior.DoubleBuffer)
-    for part in ("Red", "Green", "Blue", "Alpha", "Depth"):
-        getattr(answer, f"set{part}BufferSize")(8)
-    answer.setStencilBufferSize(0)
-    answer.setSamples(0)
-    return answer
 
 
 def _loader() -> int:

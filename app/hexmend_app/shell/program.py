@@ -43,6 +43,7 @@ def open_window(mesh: str | None = None) -> int:
     """Show the window, open `mesh` (or the demo) in it, and run until it is closed; the exit status."""
     app = application()
     from hexmend_app.shell.start_report import report_start
+    from hexmend_app.shell.starting import Starting
     from hexmend_app.shell.window import Window
 
     window = Window()
@@ -55,17 +56,8 @@ def open_window(mesh: str | None = None) -> int:
     alive.timeout.connect(lambda: None)
     window.show()
     app.processEvents()  # it is seen before what is slow to load is loaded
-    QTimer.singleShot(0, lambda: _go_on(window, Path(mesh) if mesh else demo_mesh()))
+    Starting(window, Path(mesh) if mesh else demo_mesh())
     return app.exec()
-
-
-def _go_on(window: Window, mesh: Path) -> None:
-    from hexmend_app.shell.furnisher import Furnisher
-
-    window.begin()
-    window.features["open"].open(mesh)  # in a thread
-    window.build_canvas()
-    Furnisher(window)
 
 
 def report_unexpected_errors(window: Window) -> None:

@@ -15,6 +15,7 @@ from hexmend_app.shell.docks import Docks
 from hexmend_app.state import settings
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.opengl import make_room
 from hexmend_app.widgets.overlay import Overlay
 
 if TYPE_CHECKING:
@@ -56,6 +57,7 @@ class Window(QMainWindow):
         self.docks = Docks()
         Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
         self.setCentralWidget(self.docks)
+        make_room(self)
         self._counts = QLabel()
         self._counts.setAccessibleName("Counts")
         corner = QWidget()
