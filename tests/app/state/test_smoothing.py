@@ -15,6 +15,7 @@ from hexmend_app.state.history import History
 from hexmend_app.state.run import Phase, Smoothing
 from hexmend_app.state.task import running
 from hexmend_app.state.worker import Mailbox
+from tests.app.driving import turn
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
@@ -72,16 +73,15 @@ def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtb
     for count in (2, 3):
         smoothing.step()
         qtbot.waitUntil(lambda count=count: seen[-1:] == [count], timeout=5000)
-    qtbot.wait(120)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
     assert seen == [1, 2, 3]
     smoothing.resume()
     qtbot.waitUntil(lambda: seen[-1] > 6, timeout=5000)
     smoothing.pause()
     qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=5000)
-    qtbot.wait(80)
-    held = seen[-1]
-    qtbot.wait(150)
-    assert seen[-1] == held
+    turn()  # what was on its way when it paused
+    with qtbot.assertNotEmitted(smoothing.iterated, wait=150):
+        pass
     assert seen == sorted(set(seen))
 
 
@@ -105,8 +105,8 @@ def test_stop_ends_a_paused_run(document, smoothing, qtbot):
 
 @pytest.mark.parametrize("iterations", [1, float("inf")])
 def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
-    smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
-    qtbot.wait(50)
+    with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
+        smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
     smoothing.shut_down()
     assert not smoothing.busy
     assert running() == ()

@@ -6,6 +6,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from hexmend_app.widgets.overlay import Overlay
+from tests.app.driving import turn
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -67,10 +68,10 @@ def test_it_stands_where_its_shares_say(over, home, corner):
 def test_it_follows_what_it_lies_over_and_shrinks_with_it(over):
     card, _ = laid(over)
     over.resize(400, 200)
-    QTest.qWait(20)
+    turn()
     assert card.geometry().getRect() == (292, 8, 100, 184)
     over.resize(900, 700)
-    QTest.qWait(20)
+    turn()
     assert card.geometry().getRect() == (792, 200, 100, 300)
 
 
@@ -101,7 +102,7 @@ def test_its_place_is_kept_as_shares_and_a_double_click_puts_it_back(over):
     again, _ = laid(over)
     assert again.x() == card.x() == 250
     over.resize(1000, 500)
-    QTest.qWait(20)
+    turn()
     assert card.x() == 450
     again.hide()
     QTest.mouseDClick(card.window().windowHandle(), _LEFT, pos=card.geometry().center())
@@ -139,6 +140,6 @@ def test_a_text_has_the_height_that_its_width_makes_it(over):
     assert text.width() == 400
     assert text.height() == text.heightForWidth(400)
     over.resize(300, 500)
-    QTest.qWait(20)
+    turn()
     assert text.width() == 284
     assert text.height() == text.heightForWidth(284)

@@ -272,12 +272,12 @@ def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(com
 def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(compared, qtbot):
     tick(compared, "getme", VIEW)
     canvas, view = compared.canvas, compared.canvas.interactor
-    qtbot.wait(400)
+    canvas.draw_still()
     before = pixels(compared)
     half = before.shape[1] // 2
     right = QPoint(view.width() * 3 // 4, view.height() // 2)
     drag(view, right, right + QPoint(60, 20))
-    qtbot.wait(400)
+    canvas.draw_still()
     after = pixels(compared)
     for part in (after[:, :half] - before[:, :half], after[:, half:] - before[:, half:]):
         assert (np.abs(part).max(axis=2) > 40).mean() > 0.02

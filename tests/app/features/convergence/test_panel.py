@@ -11,6 +11,7 @@ from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.convergence.words import describe
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Moment, Record
+from tests.app.driving import turn
 from tests.core.grids import grid
 
 LEFT = Qt.MouseButton.LeftButton
@@ -51,7 +52,7 @@ BOTH = (curve(TRUNK, kept=range(0, 21, 4)), curve(BRANCH, 1, (8.0, 0.8), current
 def panel(shown):
     panel = shown(ConvergencePanel(), 640, 300)
     panel.set_curves(BOTH)
-    QTest.qWait(30)
+    turn()
     return panel
 
 
@@ -186,7 +187,7 @@ def test_where_room_is_short_runs_stand_above_the_charts(panel):
 
     assert beside()
     panel.resize(330, 300)
-    QTest.qWait(30)
+    turn()
     assert not beside()
     assert panel.plotting.width() > 250
 

@@ -44,14 +44,13 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
     assert window.session.view.look.clip.planes[0].origin[1] != pytest.approx(clip.planes[0].origin[1])
     key(window, Qt.Key.Key_C)
     assert window.session.view.look.clip is None
-    qtbot.wait(50)
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
 def test_the_plane_is_dragged_in_the_view(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "Z")
-    qtbot.wait(200)
+    window.canvas.draw_still()
     before = window.session.view.look.clip
     x, y, z = before.planes[0].origin
     place = seen_at(window, (x + 0.3, y - 0.3, z))  # on the plane, beside its arrow
@@ -64,7 +63,7 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
 def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "X")
-    qtbot.wait(200)
+    window.canvas.draw_still()
     view, straight = window.canvas.interactor, window.session.view.look.clip
     arrow = seen_at(window, np.array(straight.planes[0].origin) + (0.1, 0, 0))
     drag(view, arrow, arrow + QPoint(10, 2))
@@ -75,7 +74,6 @@ def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window
     assert np.degrees(np.arccos(turned[0])) > 8
     choose(window, "X")
     tick(next(b for b in window.features["cut"].panel.findChildren(QCheckBox) if b.text() == "Snap"))
-    qtbot.wait(100)
     drag(view, arrow, arrow + QPoint(10, 2))
     assert window.session.view.look.clip != straight
 
@@ -84,7 +82,7 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     whole = moving(window)
     key(window, Qt.Key.Key_C)
     choose(window, "Box")
-    qtbot.wait(200)
+    window.canvas.draw_still()
     before = window.session.view.look.clip
     assert isinstance(before, BoxClip)
     (x0, y0, _), (x1, y1, z1) = before.low, before.high
@@ -100,7 +98,6 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     assert (np.abs(moving(window) - inside).sum(axis=2) > 60).mean() > 0.1
     key(window, Qt.Key.Key_C)
     assert window.session.view.look.clip is None
-    qtbot.wait(50)
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtCore import QEvent, QPointF, Qt, QTimer
 from PySide6.QtGui import QActionGroup, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton, QToolTip
@@ -13,6 +13,8 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.state.look import ValueRange
+from tests.app.driving import turn
+from tests.patience import PATIENCE
 
 _LEFT = Qt.MouseButton.LeftButton
 
@@ -29,7 +31,7 @@ def histogram(shown, data):
     widget = shown(QualityHistogram(), height=360)
     widget.set_initial(*data)
     widget.set_current(data[0] ** 0.5, np.zeros(2000, bool))
-    QTest.qWait(20)
+    turn()
     return widget
 
 
@@ -50,6 +52,11 @@ def place(histogram, x):
     view, plot = histogram.plot.view, histogram.plot.plot
     middle = view.viewRect().center().y()
     return plot.mapFromScene(view.mapViewToScene(QPointF(x, middle)))
+
+
+def nothing_waits(histogram):
+    """Whether no range waits for its turn to be announced."""
+    return not any(timer.isActive() for timer in histogram.findChildren(QTimer))
 
 
 def drag(histogram, *stations):
@@ -119,18 +126,17 @@ def test_a_click_on_the_bar_of_the_inverted_asks_for_them(histogram, heard, data
     assert (asked, heard) == ([True], [])
 
 
-def test_the_inverted_are_taken_in_or_left_out_by_a_button(histogram, heard):
+def test_the_inverted_are_taken_in_or_left_out_by_a_button(histogram, heard, qtbot):
     QTest.mouseClick(histogram.ends.inverted, _LEFT)
     assert heard == [ValueRange("q", 0.0, 1.0)]
     histogram.set_range(ValueRange("q", 0.2, 0.5))
     QTest.mouseClick(histogram.ends.inverted, _LEFT)
-    QTest.qWait(60)
-    assert heard[-1] == ValueRange("q", 0.2, 0.5, inverted=True)
+    qtbot.waitUntil(lambda: heard[-1] == ValueRange("q", 0.2, 0.5, inverted=True), timeout=PATIENCE)
     histogram.set_range(None)
     assert histogram.ends.inverted.isChecked()
 
 
-def test_typing_one_end_leaves_the_other_where_it_was_brushed(histogram, heard):
+def test_typing_one_end_leaves_the_other_where_it_was_brushed(histogram, heard, qtbot):
     histogram.head.bins.setValue(200)
     histogram.plot.view.brushed.emit((0.3049, 0.6))
     brushed = heard[-1]
@@ -140,8 +146,7 @@ def test_typing_one_end_leaves_the_other_where_it_was_brushed(histogram, heard):
     box.selectAll()
     QTest.keyClicks(box, "0.7")
     QTest.keyClick(box, Qt.Key.Key_Return)
-    QTest.qWait(60)
-    assert heard[-1] == ValueRange("q", brushed.low, 0.7)
+    qtbot.waitUntil(lambda: heard[-1] == ValueRange("q", brushed.low, 0.7), timeout=PATIENCE)
 
 
 def test_an_edge_moves_alone_and_the_inside_moves_the_range(histogram, heard):
@@ -160,14 +165,13 @@ def test_the_range_is_announced_while_dragged_but_not_at_every_move(histogram, h
     assert heard[-1] == histogram.range()
 
 
-def test_a_double_click_shows_all_again(histogram, heard):
+def test_a_double_click_shows_all_again(histogram, heard, qtbot):
     histogram.set_range(ValueRange("q", 0.3, 0.5))
     # Through the window, which makes of the second press what a mouse would.
     at = histogram.plot.plot.viewport().mapTo(histogram, place(histogram, 0.8))
     QTest.mouseDClick(histogram.windowHandle(), _LEFT, pos=at)
-    QTest.qWait(40)
+    qtbot.waitUntil(lambda: heard == [None], timeout=PATIENCE)
     assert histogram.range() is None
-    assert heard == [None]
 
 
 def test_the_button_shows_all_again(histogram, heard):
@@ -177,7 +181,7 @@ def test_the_button_shows_all_again(histogram, heard):
     assert not histogram.ends.all.isEnabled()
 
 
-def test_the_keyboard_reaches_the_same_range(histogram, heard):
+def test_the_keyboard_reaches_the_same_range(histogram, heard, qtbot):
     box = histogram.ends.low.lineEdit()
     box.setFocus()
     box.selectAll()
@@ -185,25 +189,24 @@ def test_the_keyboard_reaches_the_same_range(histogram, heard):
     QTest.keyClick(box, Qt.Key.Key_Return)
     assert heard == [ValueRange("q", 0.4, 1.0)]
     QTest.keyClick(histogram.ends.high, Qt.Key.Key_Down)
-    QTest.qWait(60)
-    assert heard[-1] == ValueRange("q", 0.4, 0.99)
+    qtbot.waitUntil(lambda: heard[-1] == ValueRange("q", 0.4, 0.99), timeout=PATIENCE)
 
 
-def test_setters_are_silent(histogram, heard, data):
+def test_setters_are_silent(histogram, heard, data, qtbot):
     histogram.set_range(ValueRange("q", 0.1, 0.2))
     histogram.set_current(*data)
     histogram.set_range(None)
     histogram.clear()
-    QTest.qWait(60)
+    qtbot.waitUntil(lambda: nothing_waits(histogram), timeout=PATIENCE)
     assert heard == []
     assert histogram.words.text() == "No mesh is open."
 
 
-def test_a_set_range_withdraws_one_that_waits_to_be_announced(histogram, heard):
+def test_a_set_range_withdraws_one_that_waits_to_be_announced(histogram, heard, qtbot):
     histogram.plot.view.brushed.emit((0.1, 0.2))
     histogram.plot.view.brushed.emit((0.1, 0.3))  # waits for its turn
     histogram.set_range(None)
-    QTest.qWait(60)
+    qtbot.waitUntil(lambda: nothing_waits(histogram), timeout=PATIENCE)
     assert [ends(one) for one in heard] == [pytest.approx((0.1, 0.2))]
 
 
@@ -295,7 +298,7 @@ def test_with_all_elements_inverted_there_is_an_axis_all_the_same(histogram):
 def test_the_plot_has_160_pixels_in_a_low_panel(histogram, data, kept):
     histogram.resize(600, 230)
     histogram.set_kept([(slot, f"getme {slot}", *data) for slot in range(kept)])
-    QTest.qWait(50)
+    turn()
     assert histogram.size().height() == 230
     assert histogram.plot.height() >= 160
     space = histogram.plot.view.sceneBoundingRect()
@@ -310,11 +313,11 @@ def test_the_plot_has_160_pixels_in_a_low_panel(histogram, data, kept):
 
 def test_words_hold_still_and_stand_in_one_line(histogram):
     histogram.resize(600, 230)
-    QTest.qWait(30)
+    turn()
     before = histogram.plot.geometry()
     for chosen in (None, ValueRange("q", 0.123, 0.789, inverted=True), ValueRange("q", 0.2, 0.3)):
         histogram.set_range(chosen)
-        QTest.qWait(10)
+        turn()
         assert histogram.plot.geometry() == before
         assert histogram.words.height() < 2 * histogram.fontMetrics().height()
         assert histogram.words.toolTip() == histogram.words.text()
@@ -356,18 +359,18 @@ def test_another_metric_is_brushed_to_its_end_and_beyond(histogram, heard, condi
     assert histogram.ends.high.text() == "∞"
 
 
-def test_numbers_of_another_metric_are_typed_in_any_notation(histogram, heard, condition):
-    for box, text in ((histogram.ends.low, "2.5e0"), (histogram.ends.high, "4"), (histogram.ends.high, "inf")):
+def test_numbers_of_another_metric_are_typed_in_any_notation(histogram, heard, condition, qtbot):
+    typed = ((histogram.ends.low, "2.5e0"), (histogram.ends.high, "4"), (histogram.ends.high, "inf"))
+    for number, (box, text) in enumerate(typed, start=1):
         box.setFocus()
         box.selectAll()
         QTest.keyClicks(box, text)
         QTest.keyClick(box, Qt.Key.Key_Return)
-        QTest.qWait(50)
+        qtbot.waitUntil(lambda number=number: len(heard) == number, timeout=PATIENCE)
     expected = [(2.5, np.inf), (2.5, 4.0), (2.5, np.inf)]
     assert heard == [ValueRange("condition", *ends) for ends in expected]
     QTest.keyClick(histogram.ends.high, Qt.Key.Key_Down)  # from infinity back to the axis
-    QTest.qWait(50)
-    assert heard[-1].high == histogram.axis.high
+    qtbot.waitUntil(lambda: heard[-1].high == histogram.axis.high, timeout=PATIENCE)
     box = histogram.ends.low
     box.selectAll()
     QTest.keyClicks(box, "1e-")
@@ -388,7 +391,7 @@ def test_every_metric_fits_into_a_narrow_column_which_holds_its_width(histogram,
     histogram.set_initial(np.linspace(1e-6, 3.456e-5, 2000), np.zeros(2000, bool))
     assert histogram.minimumSizeHint().width() == narrow <= 270
     histogram.resize(narrow, 268)
-    QTest.qWait(20)
+    turn()
     for part in (*histogram.ends.parts, histogram.head.metric, histogram.head.scale, histogram.head.more):
         right = part.mapTo(histogram, part.rect().topRight()).x()
         assert 0 < right < narrow
@@ -407,7 +410,7 @@ def test_inverted_elements_stand_apart_whatever_the_metric(histogram):
 
 def test_bins_are_chosen_in_the_head_and_in_the_menu(histogram, data):
     histogram.resize(700, 360)
-    QTest.qWait(20)
+    turn()
     bins = histogram.head.bins
     assert bins.isVisible()
     bins.setFocus()
@@ -424,7 +427,7 @@ def test_bins_are_chosen_in_the_head_and_in_the_menu(histogram, data):
 
 def cumulative_button(histogram):
     histogram.resize(700, 360)
-    QTest.qWait(20)
+    turn()
     (button,) = (b for b in histogram.findChildren(QToolButton) if b.text() == "Cumulative")
     return button
 
@@ -457,7 +460,7 @@ def test_what_is_kept_is_drawn_named_renamed_and_removed(histogram, data):
     half = data[0] / 2, np.zeros(2000, bool)
     kept = [(0, "laplacian 5", *half), (3, "now", *data)]
     histogram.set_kept(kept)
-    QTest.qWait(30)
+    turn()
     assert [one.name for one in histogram.series()] == ["at the start", "now", "laplacian 5", "now"]
     assert len({one.colour for one in histogram.series()}) == 4
     assert len(histogram.plot.outlines) == 4
@@ -471,7 +474,7 @@ def test_what_is_kept_is_drawn_named_renamed_and_removed(histogram, data):
     QTest.mouseClick(histogram.legend.entries[3].cross, _LEFT)
     assert wishes == [(0, "Laplace"), 3]
     histogram.set_kept(kept[:1])
-    QTest.qWait(30)
+    turn()
     assert list(histogram.legend.entries) == [0]
     assert len(histogram.plot.outlines) == 3
 
@@ -480,7 +483,7 @@ def test_an_empty_name_is_no_name(histogram, data):
     wishes = []
     histogram.renamed.connect(lambda *wish: wishes.append(wish))
     histogram.set_kept([(1, "mend 4", *data)])
-    QTest.qWait(30)
+    turn()
     name = histogram.legend.entries[1].name
     QTest.mouseClick(name, _LEFT)
     name.selectAll()
@@ -490,14 +493,18 @@ def test_an_empty_name_is_no_name(histogram, data):
     assert name.text() == "mend 4"
 
 
-def test_the_tooltip_over_the_plot_counts_all_that_is_drawn(histogram, data):
+def test_the_tooltip_over_the_plot_counts_all_that_is_drawn(histogram, data, qtbot):
     histogram.set_kept([(0, "laplacian 5", *data)])
-    QTest.qWait(30)
+    turn()
     viewport = histogram.plot.plot.viewport()
-    for x in (0.3, 0.705):  # a tooltip comes as the mouse moves
-        QTest.mouseMove(viewport, place(histogram, x))
-        QTest.qWait(60)
-    assert QToolTip.text() == histogram.describe_at(0.705)
+
+    def told():
+        for x in (0.3, 0.705):  # a tooltip comes as the mouse moves
+            QTest.mouseMove(viewport, place(histogram, x))
+            turn()
+        return QToolTip.text() == histogram.describe_at(0.705)
+
+    qtbot.waitUntil(told, timeout=PATIENCE)
     assert [row.partition(":")[0] for row in QToolTip.text().splitlines()[1:]] == ["at the start", "now", "laplacian 5"]
 
 

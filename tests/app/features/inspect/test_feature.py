@@ -200,7 +200,7 @@ def test_a_click_with_ctrl_digs_and_a_key_brings_back(window, qtbot):
     click_view(window, Qt.KeyboardModifier.ControlModifier)
     assert window.session.view.look.dug == {first}
     assert window.session.selection.hex is None
-    qtbot.wait(100)
+    window.canvas.draw_still()
     click_view(window)
     behind = window.session.selection.hex
     assert behind not in (None, first)

@@ -126,7 +126,7 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
             break
         QTest.keyClick(label, Qt.Key.Key_Tab)
         QTest.keyClick(label, Qt.Key.Key_Return)
-        qtbot.wait(5)
+        window.refresh()
     assert window.session.selection.node != before
     wait_for_step(window, qtbot, "local-sd")
     choose_by_keys(window, "local-mnr")

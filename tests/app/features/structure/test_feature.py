@@ -20,7 +20,7 @@ from hexmend_app.shell.program import application
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Look, Structure
 from hexmend_app.state.task import running
-from tests.app.driving import LEFT, choose, click, key, open_and_wait, tick
+from tests.app.driving import LEFT, choose, click, key, open_and_wait, tick, turn
 from tests.app.driving import pixels as drawn
 from tests.core.grids import grid
 from tests.core.test_structure import tetrahedron
@@ -62,7 +62,7 @@ def press(box):
 
 def texts(panel, name):
     """What stands beside a layer."""
-    QTest.qWait(10)  # until what stood there before is gone
+    turn()  # what stood there before goes
     return [label.text() for label in panel.layers[name].entries.findChildren(QLabel)]
 
 
@@ -107,7 +107,7 @@ def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
     panel.set_found(dataclasses.replace(structure(tetrahedron()), interior_valence=valence))
     panel.set_nodes(9156, 120, 28317, 44)
     panel.resize(280, 400)
-    QTest.qWait(10)
+    turn()
     for label in panel.findChildren(QLabel):
         if label.isVisible():
             assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
@@ -183,7 +183,7 @@ def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five,
         open_and_wait(qtbot, five, tmp_path / "cube.vtu")
         assert five.session.finder.structure is None
         assert not five.canvas.viewport.frame.look.structure.edges  # the view does not wait for them
-    qtbot.wait(10)
+    five.refresh()
     assert five.canvas.viewport.frame.look.structure == Structure(irregular=True, sharp=True)
     assert texts(five.features["structure"].panel, "sharp") == ["36"]
     assert five.features["structure"].panel.layers["irregular"].box.isEnabled()  # to be switched off
@@ -217,12 +217,12 @@ def test_a_pinned_node_changes_its_colour(five, qtbot):
     visible = five.canvas.viewport.body.faces.nodes
     inside = int(visible[five.session.document.now.mesh.free[visible]][0])
     five.session.commands.pin(inside, True)
-    qtbot.wait(20)
+    five.refresh()
     assert texts(five.features["structure"].panel, "fixed")[1] == "1 pinned"
     nodes = five.canvas.viewport.structure.nodes.poly
     assert (nodes.cell_data["colours"] == tuple(bytes.fromhex(PINNED[1:]))).all(axis=1).sum() == 1
     five.session.commands.undo()
-    qtbot.wait(20)
+    five.refresh()
     assert len(texts(five.features["structure"].panel, "fixed")) == 1
 
 
@@ -265,7 +265,8 @@ def test_nothing_is_cut_off(five, qtbot, size):
     found = structure(tetrahedron())
     valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
     panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))
-    qtbot.wait(50)
+    five.refresh()
+    turn()
     for layer in panel.layers.values():
         assert layer.box.width() >= layer.box.sizeHint().width()
         for label in layer.entries.findChildren(QLabel):
@@ -289,8 +290,8 @@ def test_closing_before_it_is_found_leaves_no_thread(fresh_window, qtbot, mesh_f
     if searching:
         begin_searching(window)
     window.close()
-    qtbot.wait(150)
-    assert running() == ()
+    qtbot.waitUntil(lambda: running() == (), timeout=PATIENCE)
+    turn()
     assert window.session.finder.structure is None
 
 

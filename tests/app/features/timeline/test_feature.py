@@ -14,7 +14,7 @@ from hexmend.run import Stop
 from hexmend_app.features.film.feature import WIDTH
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run import Phase
-from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels
+from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels, turn
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
 
@@ -311,7 +311,7 @@ def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path
     cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
     QTest.mouseClick(cancel, LEFT)
     assert not window.features["film"].going_on
-    qtbot.wait(100)
+    turn()
     assert list(tmp_path.glob("*.gif")) == []
     path = tmp_path / "run.avi"
     window.actions["film"].trigger()
