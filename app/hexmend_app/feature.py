@@ -210,6 +210,11 @@ class Feature(QObject):
         self.host = host
         self.session = host.session
 
+    @property
+    def canvas(self) -> Canvas | None:
+        """The 3D view, which comes later than the rest; `canvas_ready` is called as it does."""
+        return self.host.canvas
+
     def actions(self) -> Sequence[Action]:
         """What the user can do."""
         return ()

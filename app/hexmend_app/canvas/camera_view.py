@@ -149,10 +149,6 @@ class CameraView(QWidget):
         """Fly to what is remembered, and forget it; where nothing is, stay."""
         self.travel.come_back()
 
-    def forget_pose(self) -> None:
-        """Stay: nothing is to be returned to."""
-        self.travel.forget()
-
     def _on_flown(self) -> None:
         self.panes.eye.reset_depth()
         self.turning()

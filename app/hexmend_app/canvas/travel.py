@@ -152,7 +152,3 @@ class Travel(QObject):
         pose, self._remembered = self._remembered, None
         if pose is not None:
             self.fly(Flight(self._camera, pose))
-
-    def forget(self) -> None:
-        """Stay where the camera is: nothing is to be come back to."""
-        self._remembered = None

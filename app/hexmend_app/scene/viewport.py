@@ -162,11 +162,6 @@ class Viewport:
         return self.frame.mesh.n_hexes if keep is None else int(np.count_nonzero(keep))
 
     @property
-    def arrows(self) -> tuple[int, int]:
-        """How many arrows are drawn, and how many nodes could have one."""
-        return self.arrow_layer.drawn, self.arrow_layer.moved
-
-    @property
     def colouring(self) -> Colouring | None:
         """What the colours that are drawn stand for; None before there is a mesh."""
         return self.colours.colouring

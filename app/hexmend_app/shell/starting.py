@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import threading
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer
 
 from hexmend_app.shell.window import Window
+from hexmend_app.state.task import Task
 
 #: Milliseconds that the panels wait for a picture: a large mesh is read for long.
 _WAIT = 700
@@ -29,39 +29,24 @@ class Starting(QObject):
     mesh : Path
     """
 
-    _loaded = Signal()
-
     def __init__(self, window: Window, mesh: Path):
         super().__init__(window)
         self._window, self._mesh = window, mesh
-        self._error: Exception | None = None
         self._steps = window.furnishing()
         self._step = QTimer(self, interval=0)
         self._step.timeout.connect(self._furnish)
         self._wait = QTimer(self, interval=_WAIT, singleShot=True)
         self._wait.timeout.connect(self._step.start)
-        self._loaded.connect(self._open, Qt.ConnectionType.QueuedConnection)
-        threading.Thread(target=self._load, name="what draws").start()
-
-    def _load(self) -> None:
-        try:
-            import hexmend_app.canvas.canvas
-            import hexmend_app.state.session  # noqa: F401
-            from hexmend_app.shell.features import FIRST, kind_of
-
-            for name in FIRST:
-                kind_of(name)
-        except Exception as error:  # the window has to say it
-            self._error = error
-        finally:
-            self._loaded.emit()
+        self._loading = Task("what draws", _load)
+        self._loading.ended.connect(self._open)
+        self._loading.start()
 
     def _open(self) -> None:
         window = self._window
         if not window.isVisible():
             return  # it has been closed
-        if self._error is not None:
-            raise self._error
+        if self._loading.error is not None:
+            raise self._loading.error
         window.begin()
         window.features["open"].open(self._mesh)  # in a thread
         window.build_canvas()
@@ -84,3 +69,12 @@ class Starting(QObject):
     def _furnish(self) -> None:
         if not self._window.isVisible() or next(self._steps, _OVER) is _OVER:
             self._step.stop()
+
+
+def _load(task: Task) -> None:
+    import hexmend_app.canvas.canvas
+    import hexmend_app.state.session  # noqa: F401
+    from hexmend_app.shell.features import FIRST, kind_of
+
+    for name in FIRST:
+        kind_of(name)

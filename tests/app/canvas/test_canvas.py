@@ -137,11 +137,6 @@ def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
     canvas.look_along("+z")
     canvas.return_to_pose()  # there is nothing to return to
     assert not canvas.flying
-    canvas.remember_pose()
-    canvas.forget_pose()
-    canvas.look_along("+x")
-    canvas.return_to_pose()
-    assert not canvas.flying
 
 
 def test_an_excursion_begun_on_the_way_ends_where_the_way_led(canvas, qtbot):

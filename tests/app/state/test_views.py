@@ -100,3 +100,9 @@ def test_distributions_are_kept_as_long_as_a_view_shows_them(document, states):
     assert [one.name for one in kept.all] == ["second"]
     views.close_all()
     assert kept.all == ()
+
+
+def test_a_state_that_is_shown_gets_no_second_view(views, states):
+    assert views.show("first", states[0])
+    assert views.show("second", states[0])
+    assert [one.name for one in views.all] == ["first"]

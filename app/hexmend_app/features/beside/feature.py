@@ -28,7 +28,6 @@ class FeatureBeside(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._views, self._kept = self.session.views, self.session.kept
-        self._canvas: Canvas | None = None
         self._seen = Seen()
 
     def actions(self) -> Sequence[Action]:
@@ -94,7 +93,6 @@ class FeatureBeside(Feature):
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take the 3D view."""
-        self._canvas = canvas
         canvas.frame.view_closed.connect(self._views.close)
         canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
         canvas.frame.wipe_moved.connect(self._views.move_wipe)
@@ -103,13 +101,13 @@ class FeatureBeside(Feature):
     def refresh(self) -> None:
         """Show the views as they are now."""
         views, document = self._views, self.session.document
-        if self._canvas is None or not document.is_open:
+        if self.canvas is None or not document.is_open:
             return
         if self._seen.another("views", views.all, views.wipe and (views.wipe.left, views.wipe.right)):
-            self._canvas.show_beside([(one.state.mesh, one.state.figures) for one in views.all], views.wipe)
+            self.canvas.show_beside([(one.state.mesh, one.state.figures) for one in views.all], views.wipe)
             self._seen.another("wipe", views.wipe)
         elif self._seen.another("wipe", views.wipe) and views.wipe is not None:
-            self._canvas.move_wipe(views.wipe)
+            self.canvas.move_wipe(views.wipe)
         now = document.now if views.all else None
         if self._seen.another("captions", views.all, views.wipe, self._kept.all, now):
             self._show_captions()
@@ -132,7 +130,7 @@ class FeatureBeside(Feature):
         shown = [(_NOW, self.session.document.now, BLUE)]
         shown += [(one.name, one.state, self._colour(one.state)) for one in self._views.all]
         captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
-        self._canvas.frame.set_captions(captions, self._views.wipe)
+        self.canvas.frame.set_captions(captions, self._views.wipe)
 
     def _colour(self, state: State) -> Role | None:
         kept = self._kept.of(state)

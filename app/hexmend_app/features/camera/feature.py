@@ -33,7 +33,6 @@ class FeatureCamera(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._canvas: Canvas | None = None
         self._seen = Seen()
         self.session.selection.visited.connect(self._fly)
 
@@ -48,7 +47,7 @@ class FeatureCamera(Feature):
                 icon="fit-to-page-outline",
                 help="Show all that is shown of the mesh, as large as it can be.",
                 tool="Fit",
-                handle=lambda: self._canvas.fit(),
+                handle=lambda: self.canvas.fit(),
                 enabled=self._ready,
                 in_view=True,
             ),
@@ -61,7 +60,7 @@ class FeatureCamera(Feature):
                     icon=icon,
                     help=f"Look at what is shown from {'a corner' if name == 'iso' else name.replace('-', '−')}.",
                     tool=tool,
-                    handle=lambda name=name: self._canvas.look_along(name),
+                    handle=lambda name=name: self.canvas.look_along(name),
                     enabled=self._ready,
                 )
                 for name, id, text, keys, icon, tool in _DIRECTIONS
@@ -69,22 +68,22 @@ class FeatureCamera(Feature):
             self._move("face", "Face the pl&ane", "Shift+C", "Look straight at the plane of the cut.", self._face,
                        lambda: self._plane is not None, in_view=True),
             self._move("roll_left", "Roll to the &left", "Shift+[", "Turn the picture counter-clockwise.",
-                       lambda: self._canvas.roll(_ROLL)),
+                       lambda: self.canvas.roll(_ROLL)),
             self._move("roll_right", "Roll to the ri&ght", "Shift+]", "Turn the picture clockwise.",
-                       lambda: self._canvas.roll(-_ROLL)),
+                       lambda: self.canvas.roll(-_ROLL)),
             self._move("view_back", "View &back", "Alt+Left", "Fly to the view before this one.",
-                       lambda: self._canvas.back_view(), lambda: self._canvas.can_go_back, in_view=True),
+                       lambda: self.canvas.back_view(), lambda: self.canvas.can_go_back, in_view=True),
             self._move("view_forward", "View for&ward", "Alt+Right", "Fly to the view that was left by going back.",
-                       lambda: self._canvas.forward_view(), lambda: self._canvas.can_go_forward),
+                       lambda: self.canvas.forward_view(), lambda: self.canvas.can_go_forward),
             *(
                 Action(
                     id=f"up_{axis}",
                     text=f"{axis.upper()} is &up" if axis == "z" else f"{axis.upper()} is up",
                     menu="View/Up",
                     help=f"Let the {axis.upper()} axis point upwards in every direction that is looked from.",
-                    handle=lambda on, axis=axis: self._canvas.set_up(axis),
+                    handle=lambda on, axis=axis: self.canvas.set_up(axis),
                     enabled=self._ready,
-                    checked=lambda axis=axis: self._canvas is not None and self._canvas.up == axis,
+                    checked=lambda axis=axis: self.canvas is not None and self.canvas.up == axis,
                     exclusive=True,
                 )
                 for axis in "xyz"
@@ -96,25 +95,24 @@ class FeatureCamera(Feature):
                 part=2,
                 keys="P",
                 help="Without perspective, for figures.",
-                handle=lambda on: self._canvas.set_parallel(on),
+                handle=lambda on: self.canvas.set_parallel(on),
                 enabled=self._ready,
-                checked=lambda: self._canvas is not None and self._canvas.parallel,
+                checked=lambda: self.canvas is not None and self.canvas.parallel,
             ),
         )  # fmt: skip
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take the 3D view."""
-        self._canvas = canvas
         canvas.views_changed.connect(self.host.refresh_soon)
 
     def refresh(self) -> None:
         """Come back to where the camera was before something was isolated, once it no longer is."""
         isolated = self.session.view.look.isolation is not None
-        if self._canvas is not None and self._seen.another("isolated", isolated):
+        if self.canvas is not None and self._seen.another("isolated", isolated):
             if isolated:
-                self._canvas.remember_pose()
+                self.canvas.remember_pose()
             else:
-                self._canvas.return_to_pose()
+                self.canvas.return_to_pose()
 
     def _move(
         self,
@@ -140,7 +138,7 @@ class FeatureCamera(Feature):
         )
 
     def _ready(self) -> bool:
-        return self._canvas is not None
+        return self.canvas is not None
 
     @property
     def _plane(self) -> object:
@@ -149,10 +147,10 @@ class FeatureCamera(Feature):
         return clip.planes[self.session.view.plane_at] if isinstance(clip, PlaneClip) else None
 
     def _face(self) -> None:
-        self._canvas.face(self._plane)
+        self.canvas.face(self._plane)
 
     def _fly(self, hexes: tuple[int, ...]) -> None:
-        if self._canvas is not None and self.session.document.is_open:
+        if self.canvas is not None and self.session.document.is_open:
             if self.session.view.look.isolation is not None:
-                self._canvas.remember_pose()
-            self._canvas.fly_to(*hexes)
+                self.canvas.remember_pose()
+            self.canvas.fly_to(*hexes)

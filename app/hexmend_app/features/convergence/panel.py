@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from PySide6.QtCore import QPointF, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
+from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
     QHBoxLayout,
@@ -55,8 +55,6 @@ class ConvergencePanel(QWidget):
         The user wants a run plotted or not, or forgotten.
     choice_changed
         The user wants it plotted otherwise.
-    came_into_view
-        What was put off while nobody saw it is due.
     save_requested
         The user wants the charts as a file.
     """
@@ -65,7 +63,6 @@ class ConvergencePanel(QWidget):
     toggled = Signal(object, bool)
     forget_requested = Signal(object)
     choice_changed = Signal()
-    came_into_view = Signal()
     save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
@@ -194,11 +191,6 @@ class ConvergencePanel(QWidget):
         """Mark the iteration that the view shows; None where that is none."""
         self._shown = None if record is None else (record, number)
         self._mark()
-
-    def showEvent(self, event: QShowEvent) -> None:
-        """Draw what was put off."""
-        super().showEvent(event)
-        self.came_into_view.emit()
 
     def _arrange(self) -> None:
         drawn = self.drawn

@@ -21,7 +21,6 @@ class FeatureCut(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
-        self._canvas: Canvas | None = None
         self._seen = Seen()
         self.panel = ClipPanel()
         self.panel.clip_changed.connect(view.set_clip)
@@ -114,7 +113,6 @@ class FeatureCut(Feature):
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take what is dragged and dug in the view."""
-        self._canvas = canvas
         canvas.plane_dragged.connect(self._view.drag_plane)
         canvas.box_dragged.connect(self._view.drag_box)
         canvas.dug.connect(self._dig)
@@ -137,8 +135,8 @@ class FeatureCut(Feature):
             low, high = points.min(axis=0), points.max(axis=0)
             self.panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
         self.inside.set_look(view.look, view.rings)
-        if self._canvas is not None:
-            self.inside.set_shown(self._canvas.viewport.shown, document.now.mesh.n_hexes)
+        if self.canvas is not None:
+            self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
 
     def _switch(self, on: bool) -> None:
         if on != (self._view.look.clip is not None):

@@ -17,7 +17,6 @@ from hexmend_app.widgets.questions import ask_film
 if TYPE_CHECKING:
     from PIL import Image
 
-    from hexmend_app.canvas.canvas import Canvas
 
 #: Most frames of a film, and its width in pixels: larger ones are not opened where they are sent to.
 FRAMES, WIDTH = 60, 960
@@ -30,7 +29,6 @@ class FeatureFilm(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._canvas: Canvas | None = None
         self._path = Path()
         self._count = 0
         self._record: Record | None = None
@@ -51,13 +49,9 @@ class FeatureFilm(Feature):
                 icon="movie-open-outline",
                 help="Save the run as an animation: its iterations one after another, as the view shows them.",
                 handle=self.ask,
-                enabled=lambda: self._canvas is not None and self.session.timeline.record is not None,
+                enabled=lambda: self.canvas is not None and self.session.timeline.record is not None,
             ),
         )
-
-    def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view, as which the film looks."""
-        self._canvas = canvas
 
     def close(self) -> None:
         """Give up what is being made."""
@@ -86,8 +80,8 @@ class FeatureFilm(Feature):
             self.host.messages.show_error("The film was not made", str(error))
             return
         numbers = chosen(history, record, FRAMES)
-        view = self._canvas.viewport
-        size = (WIDTH, round(WIDTH * self._canvas.height() / self._canvas.width() / 2) * 2)
+        view = self.canvas.viewport
+        size = (WIDTH, round(WIDTH * self.canvas.height() / self.canvas.width() / 2) * 2)
         taken = shots(history, record, self.session.document.now.mesh, numbers)
         self._path, self._count, self._frames, self._record = path, len(numbers), [], record
         self._coming = pictures(taken, view.frame.look, size, camera=view.camera, movement=view.frame.movement)

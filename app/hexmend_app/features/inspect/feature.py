@@ -32,7 +32,6 @@ class FeatureInspect(Feature):
         session = self.session
         selection = self._selection = session.selection
         self._document, self._view = session.document, session.view
-        self._canvas: Canvas | None = None
         self._seen = Seen()
         self.worst_list = WorstList()
         self.worst_list.chosen.connect(self._go_to_worst)
@@ -117,7 +116,6 @@ class FeatureInspect(Feature):
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take what is clicked in the view."""
-        self._canvas = canvas
         canvas.clicked.connect(self._on_clicked)
 
     def refresh(self) -> None:
@@ -129,7 +127,7 @@ class FeatureInspect(Feature):
             self.worst_list.set_figures(now.mesh, now.figures)
         self.worst_list.set_selected(chosen.hex)
         corners, editable = self.panel.corners_in_view, self.session.editable
-        if self._seen.another("chosen", now, chosen.hex, chosen.node, corners, editable, self._canvas):
+        if self._seen.another("chosen", now, chosen.hex, chosen.node, corners, editable, self.canvas):
             self._show_element()
 
     def _show_element(self) -> None:
@@ -141,8 +139,8 @@ class FeatureInspect(Feature):
             self.panel.show_element(element(mesh, chosen.hex), tags)
         at = None if chosen.node is None else node(mesh, chosen.node)
         self.panel.show_node(at, not self.session.editable)
-        if self._canvas is not None:
-            self._canvas.select(chosen.hex, self.panel.corners_in_view, at)
+        if self.canvas is not None:
+            self.canvas.select(chosen.hex, self.panel.corners_in_view, at)
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))

@@ -26,7 +26,6 @@ class FeatureLook(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
-        self._canvas: Canvas | None = None
         self._seen = Seen()
         self.panel = ColourPanel()
         self.panel.scale_changed.connect(lambda scale: view.change(scale=scale))
@@ -85,7 +84,6 @@ class FeatureLook(Feature):
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take the 3D view."""
-        self._canvas = canvas
         canvas.colour_bar.apart_clicked.connect(self._isolate)
 
     def refresh(self) -> None:
@@ -94,20 +92,20 @@ class FeatureLook(Feature):
         self.panel.setEnabled(session.document.is_open)
         self.panel.set_scale(self._view.look.scale)
         self.panel.set_drawn(self._view.look.neutral, self._view.look.shading)
-        if self._canvas is None or not session.document.is_open:
+        if self.canvas is None or not session.document.is_open:
             return
         now, movement, look = session.document.now, self._movement, self._drawable
         if self._seen.another("frame", now, movement, look):
             live = session.smoothing.phase is Phase.RUNNING and session.smoothing.following
-            self._canvas.draw(Frame(now.mesh, now.figures, movement, look), live)
+            self.canvas.draw(Frame(now.mesh, now.figures, movement, look), live)
         if self._seen.another("handles", look.clip, self._view.handles, self._view.plane_at):
-            self._canvas.show_handles(self._view.handles, self._view.plane_at)
+            self.canvas.show_handles(self._view.handles, self._view.plane_at)
         if self._seen.another("phase", session.smoothing.phase) and session.smoothing.phase is Phase.PAUSED:
-            self._canvas.rest()
-        if self._canvas.isHidden():
-            self._canvas.show()
-            self._canvas.interactor.setFocus()  # keys turn the mesh, and Tab hides all panels
-        self.panel.set_ends(self._canvas.colouring.low, self._canvas.colouring.high)
+            self.canvas.rest()
+        if self.canvas.isHidden():
+            self.canvas.show()
+            self.canvas.interactor.setFocus()  # keys turn the mesh, and Tab hides all panels
+        self.panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from hexmend.movement import MOVEMENTS, Movement
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.movement.movement_panel import MovementPanel
 from hexmend_app.state.kinds import of_kind
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
 
 
 class FeatureMovement(Feature):
@@ -24,7 +20,6 @@ class FeatureMovement(Feature):
         self._document, view = self.session.document, self.session.view
         self._view = view
         self._metric = view.look.scale.metric  # that was shown before a movement
-        self._canvas: Canvas | None = None
         self._seen = Seen()
         panel = self.panel = MovementPanel()
         panel.traces_changed.connect(lambda traces: view.change(traces=traces))
@@ -45,10 +40,6 @@ class FeatureMovement(Feature):
             ),
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view, which counts the arrows."""
-        self._canvas = canvas
-
     def refresh(self) -> None:
         """Say how far the mesh has moved."""
         self.panel.setEnabled(self._document.is_open)
@@ -63,8 +54,9 @@ class FeatureMovement(Feature):
         moved = self._movement
         if self._seen.another("counts", moved):
             self.panel.set_counts(moved.counts, moved.before.name, self._document.now.summary.free_nodes)
-        if self._canvas is not None:
-            self.panel.set_arrows(*self._canvas.viewport.arrows)
+        if self.canvas is not None:
+            layer = self.canvas.viewport.arrow_layer
+            self.panel.set_arrows(layer.drawn, layer.moved)
 
     @property
     def _movement(self) -> Movement:

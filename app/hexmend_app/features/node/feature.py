@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QTimer
@@ -14,9 +13,6 @@ from hexmend_app.feature import Action, Feature, Host, Panel, Place
 from hexmend_app.features.node.panel import NodePanel
 from hexmend_app.features.node.reasons import why_no_step, why_no_sweep, worst_free_node
 from hexmend_app.state.look import Isolation
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
 
 #: Milliseconds after which it is said that an answer takes its time.
 _PATIENCE = 200
@@ -35,7 +31,6 @@ class FeatureNode(Feature):
         session = self.session
         self._document, self._selection = session.document, session.selection
         self._explainer, self._stepping, self._view = session.explainer, session.stepping, session.view
-        self._canvas: Canvas | None = None
         self._asked: tuple | None = None
         self._shown: NodeStep | None = None
         self._isolation: Isolation | None = None
@@ -110,10 +105,6 @@ class FeatureNode(Feature):
             ),
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view."""
-        self._canvas = canvas
-
     # What is shown
 
     def refresh(self) -> None:
@@ -178,8 +169,8 @@ class FeatureNode(Feature):
     def _draw(self, step: NodeStep | None) -> None:
         if step is not self._shown:
             self._shown = step
-            if self._canvas is not None and self._document.is_open:
-                self._canvas.show_node_step(step)
+            if self.canvas is not None and self._document.is_open:
+                self.canvas.show_node_step(step)
 
     def _list_nodes(self) -> None:
         chosen = self._selection

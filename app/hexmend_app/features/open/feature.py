@@ -73,8 +73,8 @@ class FeatureOpen(Feature):
         return (Panel(id="welcome", title="Welcome", widget=self.welcome, place=Place.EMPTY),)
 
     def refresh(self) -> None:
-        """Leave the view's place to the view once there is one."""
-        self.welcome.setVisible(not self._document.is_open or self.host.canvas is None)
+        """Leave the view's place to the mesh that is open, or about to be."""
+        self.welcome.setVisible(not (self._document.is_open or self._opener.busy))
 
     def open(self, path: str | Path) -> None:
         """Open a mesh, after what is unsaved was kept or given up."""

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.questions import Answer, ask_target, ask_unsaved
 from hexmend_app.widgets.wording import counted
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
 
 
 class FeatureSave(Feature):
@@ -23,7 +19,6 @@ class FeatureSave(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._canvas: Canvas | None = None
 
     def actions(self) -> Sequence[Action]:
         """Save, and the picture."""
@@ -50,14 +45,10 @@ class FeatureSave(Feature):
                 help="Save the view as a picture, at any size.",
                 tool="Picture",
                 handle=self.ask_picture,
-                enabled=lambda: self._canvas is not None,
+                enabled=lambda: self.canvas is not None,
                 in_view=True,
             ),
         )
-
-    def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view."""
-        self._canvas = canvas
 
     def may_leave(self) -> bool:
         """Whether what is unsaved was saved or may be lost."""
@@ -91,7 +82,7 @@ class FeatureSave(Feature):
 
     def ask_picture(self) -> None:
         """Ask how large the picture is to be and where it goes, and write it."""
-        size = self._canvas.size() * self.host.window.devicePixelRatioF()
+        size = self.canvas.size() * self.host.window.devicePixelRatioF()
         dialog = PictureDialog(size, f"{self.host.stem}.png", self.host.window)
         if dialog.exec():
             self.picture(dialog.path(), dialog.picture_size(), dialog.transparent())
@@ -100,6 +91,6 @@ class FeatureSave(Feature):
         """Write the view as PNG of `size` pixels; whether it was."""
         return self.host.said(
             "The picture was not saved",
-            lambda: self._canvas.save_picture(Path(path), size, transparent),
+            lambda: self.canvas.save_picture(Path(path), size, transparent),
             f"Picture of {size[0]} × {size[1]} pixels saved to {path}",
         )

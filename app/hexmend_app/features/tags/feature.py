@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
-
-if TYPE_CHECKING:
-    from hexmend_app.canvas.canvas import Canvas
 
 
 class FeatureTags(Feature):
@@ -22,7 +18,6 @@ class FeatureTags(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session, commands = self.session, self.session.commands
-        self._canvas: Canvas | None = None
         self._seen = Seen()
         panel = self.panel = TagPanel()
         panel.toggle_requested.connect(self._toggle)
@@ -63,10 +58,6 @@ class FeatureTags(Feature):
             ),
         )
 
-    def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view, which knows what is shown."""
-        self._canvas = canvas
-
     def refresh(self) -> None:
         """Show the tags as they are now."""
         self.panel.setEnabled(self.session.document.is_open)
@@ -91,5 +82,5 @@ class FeatureTags(Feature):
         self.session.commands.tag(name, [chosen], on=chosen not in members)
 
     def _all_shown(self) -> np.ndarray:
-        shown = None if self._canvas is None else self._canvas.viewport.left()
+        shown = None if self.canvas is None else self.canvas.viewport.left()
         return np.arange(self.session.document.now.mesh.n_hexes) if shown is None else np.flatnonzero(shown)

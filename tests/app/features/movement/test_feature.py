@@ -114,7 +114,8 @@ def test_movements_are_offered_among_the_colours(window, record, qtbot):
 def test_arrows_are_drawn_counted_and_made_longer(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
-    assert window.canvas.viewport.arrows == (free, free)
+    layer = window.canvas.viewport.arrow_layer
+    assert (layer.drawn, layer.moved) == (free, free)
     assert said(panel, "Arrows that are drawn") == f"{free:,} arrows, of true length."
     press(panel.arrows, "sight")
     assert said(panel, "Arrows that are drawn") == "Of the nodes in sight none has moved."
@@ -122,7 +123,7 @@ def test_arrows_are_drawn_counted_and_made_longer(window, record, panel):
     window.session.view.set_handles(False)
     window.refresh()
     before = pixels(window)
-    assert 0 < window.canvas.viewport.arrows[0] < free
+    assert 0 < layer.drawn < free
     panel.factor.lineEdit().selectAll()
     QTest.keyClicks(panel.factor.lineEdit(), "4")
     QTest.keyClick(panel.factor, Qt.Key.Key_Return)
@@ -182,7 +183,8 @@ def test_another_mesh_can_be_opened_while_a_movement_is_shown(window, record, pa
     io.write(tmp_path / "other.vtu", gallery.make("cube", size=64, scramble=0.3))
     open_and_wait(qtbot, window, tmp_path / "other.vtu")
     window.refresh()
-    assert window.canvas.viewport.arrows == (0, 0)
+    layer = window.canvas.viewport.arrow_layer
+    assert (layer.drawn, layer.moved) == (0, 0)
     assert not window.canvas.viewport.colours.values.any()
     assert said(panel, "Nodes").startswith("0 of ")
 
