@@ -34,9 +34,9 @@ CLOSED: list[Window] = []
 
 @pytest.fixture(scope="session")
 def qapp(qapp):
-    """The application in the program's own look."""
+    """The application in the program's own look, with garbage collected as there."""
     apply_style(qapp, dark=False)
-    return qapp
+    return application()
 
 
 @pytest.fixture(autouse=True)

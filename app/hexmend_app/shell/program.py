@@ -19,6 +19,7 @@ from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
 from hexmend_app.resources import demo_mesh, resource
+from hexmend_app.state.garbage import Garbage
 from hexmend_app.widgets.theming import wear
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ log = logging.getLogger(__name__)
 
 
 def application() -> QApplication:
-    """The one QApplication, dressed."""
+    """The one QApplication, dressed; from now on it alone collects garbage."""
     app = QApplication.instance() or QApplication(sys.argv[:1])
     QCoreApplication.setOrganizationName("Hexmend")
     QCoreApplication.setApplicationName("Hexmend")
@@ -36,6 +37,8 @@ def application() -> QApplication:
     app.setDesktopFileName("hexmend")
     app.setWindowIcon(QIcon(str(resource("icon.svg"))))
     wear()
+    if app.findChild(Garbage) is None:
+        Garbage(app)
     return app
 
 

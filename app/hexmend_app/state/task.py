@@ -8,8 +8,6 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
 
-from hexmend_app.state.standing_back import stand_back
-
 #: Tasks that have begun and whose owners have neither heard of their end nor waited for it. It keeps them alive, so
 #: that none is taken down by the thread that it runs in.
 _BEGUN: set[Task] = set()
@@ -106,6 +104,8 @@ class Task(QObject):
     def _run(self) -> None:
         try:
             if self._yields:
+                from hexmend_app.state.standing_back import stand_back  # with the kernels, which a first task loads
+
                 stand_back()
             self.result = self._work(self)
         except BaseException as error:  # whatever it is, the window has to say it

@@ -18,11 +18,13 @@ class Info:
         parser.add_argument("--json", action="store_true", help="print JSON for other programs")
 
     def run(self, args: argparse.Namespace) -> int:
+        collecting = gc.isenabled()
         gc.disable()  # most of the time goes into loading what stays to the end: it holds no garbage worth looking for
         try:
             return self._run(args)
         finally:
-            gc.enable()
+            if collecting:
+                gc.enable()
 
     def _run(self, args: argparse.Namespace) -> int:
         from hexmend.io import doctor, read
