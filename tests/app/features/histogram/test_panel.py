@@ -1,6 +1,6 @@
 """The histogram under the mouse."""
 
-from itertools import pairwise
+from itertools import cycle, pairwise
 
 import numpy as np
 import pytest
@@ -498,10 +498,11 @@ def test_the_tooltip_over_the_plot_counts_all_that_is_drawn(histogram, data, qtb
     turn()
     viewport = histogram.plot.plot.viewport()
 
+    way = cycle((0.3, 0.705))  # a tooltip comes as the mouse moves, and of moves in haste not with each
+
     def told():
-        for x in (0.3, 0.705):  # a tooltip comes as the mouse moves
-            QTest.mouseMove(viewport, place(histogram, x))
-            turn()
+        QTest.mouseMove(viewport, place(histogram, next(way)))
+        turn()
         return QToolTip.text() == histogram.describe_at(0.705)
 
     qtbot.waitUntil(told, timeout=PATIENCE)
