@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -18,6 +19,10 @@ os.environ.setdefault("QT_API", "pyside6")
 os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
 if sys.platform == "linux":
     os.environ["QT_QPA_PLATFORM"] = "xcb"  # 3D needs a screen: pytest-xvfb makes one, and Wayland's is left alone
+
+# A shell lets what it runs in the background ignore Ctrl-C, and so would the programs that tests start and end by it.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Machines are shared: no example has a deadline.
 # CI draws the same examples every time, so that a change is judged by what it changed.
