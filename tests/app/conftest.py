@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from contextlib import contextmanager
 
 import pytest
@@ -26,10 +27,6 @@ def pytest_collection_modifyitems(items):
 
 #: The window that tests share, once there is one.
 SHARED: list[Window] = []
-
-#: Windows of tests that are over. Garbage, they would take along what VTK draws with at whatever moment Python collects
-#: it, and crash there.
-CLOSED: list[Window] = []
 
 
 @pytest.fixture(scope="session")
@@ -162,10 +159,11 @@ def made(qtbot, path):
 def close(window):
     """Close a window for good."""
     window.close()
-    CLOSED.append(window)
     # PySide would take what is made later at the same place in memory for the window's QWindow.
     shiboken6.invalidate(window.windowHandle())
     window.deleteLater()  # with 50 MB that Qt and Mesa have kept for it
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     window.canvas.interactor.forget_context()  # nor for the surface that was drawn on, which is gone too
+    del window
+    gc.collect()  # the one before it, with what VTK drew with: here and now, where nothing is drawn
     assert [task.name for task in running()] == []
