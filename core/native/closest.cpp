@@ -114,9 +114,8 @@ void improve(Closest &best, Points points, const Piece &piece, std::int32_t numb
 
 }  // namespace
 
-Closest Pieces::closest(const Point &x, std::int32_t root, std::int32_t near) const {
+Closest Pieces::closest(const Point &x, std::int32_t root) const {
     Closest best;
-    if (near >= 0) improve(best, points, pieces[near], near, x);
     std::pair<std::int32_t, double> waiting[DEEPEST];
     int size = 0;
     waiting[size++] = {root, square_to(boxes[root], x)};
@@ -158,7 +157,7 @@ void closest(Points points, std::span<const Piece> pieces, std::span<const Box> 
     Pieces all{points, pieces, boxes, links};
     parallel_chunks(x.size(), POINTS_A_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            Closest found = all.closest(x[i], roots[i], piece[i]);
+            Closest found = all.closest(x[i], roots[i]);
             piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
         }
     });

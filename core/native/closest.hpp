@@ -30,8 +30,8 @@ struct Pieces {
     std::span<const Box> boxes;
     std::span<const Link> links;
 
-    // The point closest to x in the tree that begins at `root`; `near`, if it is one, is a piece to begin with.
-    Closest closest(const Point &x, std::int32_t root, std::int32_t near = -1) const;
+    // The point closest to x in the tree that begins at `root`; no piece where x is not finite.
+    Closest closest(const Point &x, std::int32_t root) const;
 };
 
 // The order of pieces in trees, the boxes and links of all trees, and where each begins. Tree t is made of the pieces

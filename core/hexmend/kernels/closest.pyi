@@ -22,6 +22,6 @@ def closest(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), orde
     """
     The point closest to each of x (j, 3) in the tree of its root (j,); pieces are ordered as `trees` says.
 
-    Writes the piece (j,) int32, the place on it (j, 3), and the weights of the piece's corners there (j, 3).
-    Where piece holds a number from 0 on, the search begins there and is faster the nearer that is; -1: nowhere.
+    Writes the piece (j,) int32, -1 where x is not finite, the place on it (j, 3), and the weights of the piece's
+    corners there (j, 3).
     """

@@ -79,7 +79,7 @@ def boundary_of(
         where its angles sum up to less than so many times `degrees`; 0 leaves every one.
     sharp : (e, 2) int, optional
         Edges that are features whatever their angle. Where none are given: those that the mesh's file marks (Medit's
-        Ridges and RequiredEdges).
+        Ridges and RequiredEdges, and where references of Quadrilaterals change).
     corners : (c,) int, optional
         Nodes that are kept. Where none are given: those that the file marks (Medit's Corners) and the pinned ones.
 

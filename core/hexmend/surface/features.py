@@ -90,9 +90,12 @@ def turns(points: np.ndarray, segments: np.ndarray, between: np.ndarray) -> np.n
 
 
 def given_edges(mesh: Mesh) -> np.ndarray:
-    """Edges that the mesh's file marks as ridges or required, (e, 2) int."""
+    """Edges that the mesh's file marks as ridges or required, and those between sides of two references, (e, 2) int."""
     found = [np.empty((0, 2), dtype=np.int32)]
     for cells in mesh.cells:
+        if cells.kind == "quad" and "medit:ref" in cells.data:
+            edges, side = Edges(cells.nodes, mesh.n_nodes), np.asarray(cells.data["medit:ref"])
+            found.append(edges.nodes[side[edges.neighbours[:, 0]] != side[edges.neighbours[:, 1]]])
         for flag in ("medit:ridge", "medit:required"):
             if cells.kind == "line" and flag in cells.data:
                 found.append(cells.nodes[np.asarray(cells.data[flag]) != 0])

@@ -18,7 +18,7 @@ class Closest:
     ----------
     places : (k, 3) float64
     pieces : (k,) int32
-        The piece that each lies on; as `near` of the next search it makes that faster.
+        The piece that each lies on.
     weights : (k, 3) float64
         Of the piece's corners at each place.
     """
@@ -54,15 +54,13 @@ class Trees:
         within, self.boxes, self.links, self.roots = closest.trees(points, pieces, start)
         self.points, self.pieces, self.order = points, np.ascontiguousarray(pieces[within]), order[within]
 
-    def closest(self, x: np.ndarray, group: np.ndarray, near: np.ndarray | None = None) -> Closest:
+    def closest(self, x: np.ndarray, group: np.ndarray) -> Closest:
         """The point closest to each of x in a group.
 
         Parameters
         ----------
         x : (k, 3) float64
         group : (k,) int
-        near : (k,) int32, optional
-            Pieces of these groups to begin with, -1 for none.
 
         Raises
         ------
@@ -70,8 +68,7 @@ class Trees:
             For a point that is infinite or next to it.
         """
         x = np.ascontiguousarray(x, dtype=np.float64)
-        piece = np.full(len(x), -1, dtype=np.int32) if near is None else np.array(near, dtype=np.int32)
-        places, weights = np.empty_like(x), np.empty_like(x)
+        piece, places, weights = np.empty(len(x), dtype=np.int32), np.empty_like(x), np.empty_like(x)
         roots = self.roots[group]
         closest.closest(self.points, self.pieces, self.boxes, self.links, x, roots, piece, places, weights)
         if len(piece) and piece.min() < 0:

@@ -12,12 +12,12 @@ void bind_closest(nb::module_ &m) {
           "Trees over pieces: tree t is made of pieces[start[t]:start[t + 1]], one at least; start (t + 1,) int32.\n\n"
           "Returns the order (k,) int32 that the pieces are to be put in, boxes (b, 6) float64 and links (b, 2) int32\n"
           "of all trees, and the box that is the root of each, (t,) int32.");
-    m.def(
-        "closest", &closest, "points"_a, "pieces"_a, "boxes"_a, "links"_a, "x"_a, "roots"_a, "piece"_a, "places"_a,
-        "weights"_a, Unlocked(),
-        "The point closest to each of x (j, 3) in the tree of its root (j,); pieces are ordered as `trees` says.\n\n"
-        "Writes the piece (j,) int32, the place on it (j, 3), and the weights of the piece's corners there (j, 3).\n"
-        "Where piece holds a number from 0 on, the search begins there and is faster the nearer that is; -1: nowhere.");
+    m.def("closest", &closest, "points"_a, "pieces"_a, "boxes"_a, "links"_a, "x"_a, "roots"_a, "piece"_a, "places"_a,
+          "weights"_a, Unlocked(),
+          "The point closest to each of x (j, 3) in the tree of its root (j,); pieces are ordered as `trees` says.\n\n"
+          "Writes the piece (j,) int32, -1 where x is not finite, the place on it (j, 3), and the weights of the "
+          "piece's\n"
+          "corners there (j, 3).");
 }
 
 }  // namespace hexmend
