@@ -20,7 +20,7 @@ CORE = [
     {"topology"},
     {"mesh"},
     {"quality", "structure"},
-    {"energy", "gallery", "movement"},
+    {"energy", "gallery", "movement", "surface"},
     {"optimise"},
     {"smoothers"},
     {"recipe"},

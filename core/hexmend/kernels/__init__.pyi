@@ -2,6 +2,7 @@
 
 from hexmend.kernels import assembly as assembly
 from hexmend.kernels import binning as binning
+from hexmend.kernels import closest as closest
 from hexmend.kernels import conjugate_gradients as conjugate_gradients
 from hexmend.kernels import corner_values as corner_values
 from hexmend.kernels import couplings as couplings

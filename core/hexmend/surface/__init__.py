@@ -1,0 +1,20 @@
+"""The surface of a mesh: corners, curves and patches of its boundary, closest points, and how two boundaries differ."""
+
+from hexmend.surface.boundary import Boundary, Kind, boundary_of, classify
+from hexmend.surface.change import Skin, SurfaceChange, distances, surface_change
+from hexmend.surface.surface import Surface
+from hexmend.surface.trees import Closest, Trees
+
+__all__ = [
+    "Boundary",
+    "Closest",
+    "Kind",
+    "Skin",
+    "Surface",
+    "SurfaceChange",
+    "Trees",
+    "boundary_of",
+    "classify",
+    "distances",
+    "surface_change",
+]
