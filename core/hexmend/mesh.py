@@ -148,6 +148,17 @@ class Mesh:
         copy._set(points=_frozen(points))
         return copy
 
+    def with_fixed(self, fixed: np.ndarray) -> Mesh:
+        """The same mesh of which other nodes are fixed, whatever its boundary and pins say; all else is shared.
+
+        Parameters
+        ----------
+        fixed : (n,) bool
+        """
+        copy = self._copy()
+        copy._set(fixed=_frozen(np.array(fixed, dtype=bool)))
+        return copy
+
     def replace(self, **changes: object) -> Mesh:
         """A copy with other pins, data, sets or name (not points or hexes); all else is shared."""
         if "points" in changes or "hexes" in changes:

@@ -31,6 +31,12 @@ class Rows:
     def __len__(self) -> int:
         return self.start.size - 1
 
+    def of(self, rows: np.ndarray) -> np.ndarray:
+        """The items of several rows, one row after another."""
+        count = self.start[rows + 1] - self.start[rows]
+        before = np.cumsum(count) - count
+        return self.items[np.arange(count.sum()) + np.repeat(self.start[rows] - before, count)]
+
 
 class Topology:
     """Incidences of a hexahedral mesh.

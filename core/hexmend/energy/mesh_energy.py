@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import as_points
+from hexmend.arrays import as_points, dot
 from hexmend.energy.assembled import Assembled
 from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import energies
@@ -102,6 +102,10 @@ class MeshEnergy:
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
         """Second derivative of `value` by the free nodes, at points x (n, 3)."""
         return Hessian(self, x, delta)
+
+    def descending(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
+        """The slope of `value` along a step (k, 3) of the free nodes, `gradient` (k, 3) being its derivative at x."""
+        return dot(step, gradient)
 
     def _gathered(self) -> np.ndarray:
         """What the shares of the hexes come to at each free node, (k, 3)."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.arrays import dot, norm
+from hexmend.arrays import norm
 from hexmend.energy import MeshEnergy, energies
 from hexmend.kernels.reach import shorten
 from hexmend.optimise.direction import Direction, Found, steepest_descent
@@ -84,9 +84,10 @@ def descend(
         ring = energy.mesh.topology.rings
         shorten(found.p, x, ring.start, ring.items, energy.nodes, reach)
         restrain(energy, x, delta, found.p)
-    if not dot(found.p, gradient) < 0:
+    slope = energy.descending(x, delta, found.p, gradient)
+    if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
-    slope = dot(found.p, gradient)
+        slope = energy.descending(x, delta, found.p, gradient)
     alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
     return Descent(energy.moved(x, found.p, alpha), value, slope, length, found, alpha, cuts)
 

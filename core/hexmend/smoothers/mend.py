@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.energy import MeshEnergy, energies
+from hexmend.energy import MeshEnergy, SlidingEnergy, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
@@ -15,9 +15,11 @@ from hexmend.optimise import Outcome, Step
 from hexmend.optimise.descent import Descent, descend
 from hexmend.optimise.direction import TruncatedNewton
 from hexmend.optimise.line_search import BackLineSearch
+from hexmend.optimise.raising import Limit, Raising
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, corner_determinants, measure
 from hexmend.smoothers.smoother import Smoother, Steps, method
+from hexmend.surface import Sliding
 
 #: Newton steps on one delta; the energy is not worth minimising before delta is what it is to be.
 STEPS = 3
@@ -53,6 +55,17 @@ class Mend(Smoother):
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     optimises = True
 
+    goal: str = parameter(
+        "shape",
+        choices=("shape", "scaled-jacobian"),
+        help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
+    )
+    boundary: str = parameter(
+        "fixed", choices=("fixed", "slide"), help="Whether nodes of the boundary stay, or slide on the surface (5.2.1)."
+    )
+    feature_angle: float = parameter(
+        40.0, low=1, high=180, unit="degrees", help="Along edges at which the boundary turns by more nodes only slide."
+    )
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
     )
@@ -75,26 +88,37 @@ class Mend(Smoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
+        given, sliding = mesh.points, None
+        if self.boundary == "slide":
+            sliding = Sliding(mesh, self.feature_angle)
+            mesh = sliding.mesh
         locked = _locked_corners(mesh)
-        energy = MeshEnergy(mesh, self.p, locked)
-        points, left_out = yield from self._untangled(mesh, energy, locked)
-        return (yield from self._optimum(mesh, energy, points, left_out))
+        energy = MeshEnergy(mesh, self.p, locked) if sliding is None else SlidingEnergy(sliding, self.p, locked)
+        alone = mesh.free if sliding is None else mesh.free & (sliding.boundary.kind == 0)
+        points, left_out = yield from self._untangled(mesh, energy, locked, alone)
+        points, outcome = yield from self._optimum(mesh, energy, points, left_out, alone)
+        if self.goal != "shape":
+            outcome = yield from _raised(mesh, sliding, given, points)
+        return outcome
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Inverted hexes first, then whether a guarded figure is lower than at the start, then whether the objective of
         the sound hexes, with the highest p that was asked for, is higher; of equals the last is kept.
         """
-        fallen = now.q.min() < start.q.min() or now.scaled_jacobian.min() < start.scaled_jacobian.min()
+        fallen = now.q.min() < start.q.min(), now.scaled_jacobian.min() < start.scaled_jacobian.min()
+        harmed = any(fallen) if self.guard else all(fallen)
+        if self.goal != "shape":
+            return now.n_inverted, harmed, -now.scaled_jacobian.min()
         p = max(self.p, self.highest_p)
         with np.errstate(over="ignore"):  # beside the barrier
             before, after = (np.power(figures.eta[~figures.inverted], p).sum() for figures in (start, now))
-        return now.n_inverted, self.guard and fallen, after > before
+        return now.n_inverted, harmed, after > before
 
     def _direction(self) -> TruncatedNewton:
         return TruncatedNewton(iterations=self.solver_iterations)
 
     def _untangled(
-        self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray
+        self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray, alone: np.ndarray
     ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
         points, x, e = mesh.points, energy.scaled(mesh.points), self.softness
@@ -117,7 +141,7 @@ class Mend(Smoother):
                 if not tangled:
                     break
             if tangled:
-                x = _swept(mesh, x, figures.inverted, locked, delta, self.p, sweeps)
+                x = _swept(mesh, x, figures.inverted, alone, locked, delta, self.p, sweeps)
                 points = energy.placed(x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True, figures=figures)
@@ -130,7 +154,9 @@ class Mend(Smoother):
             yield Step(points, decision=words, more=True)
         return points, _inverted_corners(points, mesh.hexes) | locked
 
-    def _optimum(self, mesh: Mesh, energy: MeshEnergy, points: np.ndarray, left_out: np.ndarray) -> Steps:
+    def _optimum(
+        self, mesh: Mesh, energy: MeshEnergy, points: np.ndarray, left_out: np.ndarray, alone: np.ndarray
+    ) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Behind the barrier to the optimum, then, where it is asked for, with higher and higher p."""
         p = self.p
         while True:
@@ -141,32 +167,34 @@ class Mend(Smoother):
             while True:
                 poor = None if whole else energies(x, mesh.hexes, 0.0, left_out) > POOR
                 if poor is not None and poor.any():
-                    x = _swept(mesh, x, poor, left_out, 0.0, p, POOR_SWEEPS)
+                    x = _swept(mesh, x, poor, alone, left_out, 0.0, p, POOR_SWEEPS)
                 taken = descend(energy, x, 0.0, find, SEARCH, REACH)
                 if taken is None or (taken.alpha == 0 and taken.slope < 0):
                     break
                 move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))
                 x, points, whole = taken.x, energy.placed(taken.x), taken.cuts == 0
-                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises)
+                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises or self.goal != "shape")
                 if rises and move < SETTLED:
                     break
             if not rises:
-                return _end(taken)
+                return points, _end(taken)
             p = min(2 * p, self.highest_p)
 
 
 def _swept(
-    mesh: Mesh, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, p: float, sweeps: int
-) -> np.ndarray:
+    mesh: Mesh, x: np.ndarray, around: np.ndarray, alone: np.ndarray, left_out: np.ndarray, delta: float, p: float,
+    sweeps: int,
+) -> np.ndarray:  # fmt: skip
     """Sweeps of local Newton steps over the nodes of some hexes and of their neighbours.
 
-    Nodes at hexes of which corners are left out stay: a local energy would count these corners.
+    Those nodes are moved that may be `alone`, (n,) bool: the others slide. Nodes
+    at hexes of which corners are left out stay: a local energy would count these corners.
     """
     near = np.zeros(mesh.n_nodes, dtype=bool)
     near[mesh.hexes[around]] = True
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
     near[mesh.hexes[left_out != 0]] = False
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & mesh.free)
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & alone)
     swept = x.copy()
     for _ in range(sweeps):
         local.sweep(
@@ -174,6 +202,31 @@ def _swept(
             local.MODIFIED_NEWTON, delta, p, 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
     return swept
+
+
+def _raised(mesh: Mesh, sliding: Sliding | None, *places: np.ndarray) -> Steps:
+    """Raise the least scaled Jacobian from the best of some places."""
+    raising = max((Raising(mesh, points, sliding) for points in places), key=lambda one: one.least)
+    yield Step(raising.points, {"least": raising.least}, more=True)
+    steps = raising.steps()
+    while True:
+        try:
+            step = next(steps)
+        except StopIteration as end:
+            yield Step(raising.points, {"least": raising.least}, decision=_what_limits(end.value), more=True)
+            return Outcome.NO_IMPROVEMENT
+        yield Step(step.points, {"least": step.least, "corners": step.corners, "radius": step.radius}, more=True)
+
+
+def _what_limits(limit: Limit) -> str:
+    count = len(limit.hexes)
+    if not count:
+        return ""
+    hexes = ", ".join(f"{number:,}" for number in dict.fromkeys(limit.hexes[:8].tolist()))
+    return (
+        f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}: {count} of them hold each "
+        f"other there, in the hexes {hexes}."
+    )
 
 
 def _end(taken: Descent | None) -> Outcome:

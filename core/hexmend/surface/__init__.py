@@ -2,6 +2,7 @@
 
 from hexmend.surface.boundary import Boundary, Kind, boundary_of, classify
 from hexmend.surface.change import Skin, SurfaceChange, distances, surface_change
+from hexmend.surface.sliding import Sliding
 from hexmend.surface.surface import Surface
 from hexmend.surface.trees import Closest, Trees
 
@@ -10,6 +11,7 @@ __all__ = [
     "Closest",
     "Kind",
     "Skin",
+    "Sliding",
     "Surface",
     "SurfaceChange",
     "Trees",

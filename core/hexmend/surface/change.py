@@ -103,8 +103,11 @@ class Skin:
 
     def distances(self, x: np.ndarray) -> np.ndarray:
         """How far each of x (k, 3) is from the surface, (k,), in the mesh's unit."""
-        found = self._trees.closest(x, np.zeros(len(x), dtype=np.int64))
-        return np.linalg.norm(found.places - x, axis=1)
+        return np.linalg.norm(self.closest(x) - x, axis=1)
+
+    def closest(self, x: np.ndarray) -> np.ndarray:
+        """The places of the surface that are closest to x (k, 3), (k, 3)."""
+        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64)).places
 
     def volume(self) -> float:
         """What the surface encloses, if it is closed."""

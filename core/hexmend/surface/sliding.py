@@ -1,0 +1,133 @@
+"""The nodes of a mesh that slide on its boundary: which they are, where they may go, and how they are put back."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.surface.boundary import Kind, boundary_of
+from hexmend.surface.change import Skin
+from hexmend.surface.features import DEGREES
+from hexmend.surface.surface import Surface
+from hexmend.surface.trees import Closest
+
+#: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
+#: is the tangent, at its edges the mean of those around.
+_INNER = 1e-3
+
+
+class Sliding:
+    """A mesh whose boundary nodes slide: those of curves along them, those of patches on them; corners stay.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Its boundary, as it is now, is what nodes slide on.
+    degrees : float
+        Dihedral angle beyond which an edge is a feature; see `boundary_of`.
+
+    room : float
+        How far, in the mesh's unit, the middles of the boundary's edges and faces may leave the surface: nodes are on
+        it, but what lies between them cuts off its bends.
+
+    Attributes
+    ----------
+    boundary : Boundary
+    surface : Surface
+    mesh : Mesh
+        The same, of whose nodes only corners, pinned ones and those that no hex uses are fixed.
+    nodes : (k,) int64
+        Those that slide, ascending.
+    """
+
+    def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
+        self.room, self._points = room, mesh.points
+        self.boundary = boundary_of(mesh, degrees)
+        self.surface = Surface(mesh.points, self.boundary)
+        slides = self.boundary.kind >= Kind.CURVE
+        fixed = mesh.fixed & ~slides
+        self.mesh = mesh.with_fixed(fixed)
+        self.nodes = np.flatnonzero(slides)
+        self._group = self.surface.group_of(self.nodes)
+        self._number = np.full(mesh.n_nodes, -1, dtype=np.int64)
+        self._number[self.nodes] = np.arange(self.nodes.size)
+
+    def slides(self, nodes: np.ndarray) -> np.ndarray:
+        """Which of some nodes slide, bool."""
+        return self._number[nodes] >= 0
+
+    def put_back(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
+        """The closest places of sliding nodes on their own curves and patches, (k, 3).
+
+        Parameters
+        ----------
+        x : (k, 3) float64
+            Where they have been moved to, in the mesh's unit of length.
+        nodes : (k,) int, optional
+            Which they are; all that slide, if None.
+        """
+        return self._closest(x, nodes).places
+
+    def bases(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
+        """Directions in which sliding nodes may move, the columns of (k, 3, 3): 0 beyond the node's degrees of freedom.
+
+        Parameters
+        ----------
+        x : (k, 3) float64
+            Where they are, on the surface.
+        nodes : (k,) int, optional
+            Which they are; all that slide, if None.
+        """
+        of, found = self.nodes if nodes is None else nodes, self._closest(x, nodes)
+        weights = found.weights.copy()
+        weights[self.boundary.kind[of] == Kind.CURVE, 2] = 1.0  # a segment has two
+        inner = weights.min(axis=1, keepdims=True) > _INNER
+        along = np.where(inner, self.surface.directions(found, smooth=False), self.surface.directions(found))
+        bases = np.zeros((len(of), 3, 3))
+        curve = self.boundary.kind[of] == Kind.CURVE
+        bases[curve, :, 0] = along[curve]
+        bases[~curve, :, :2] = _across(along[~curve])
+        return bases
+
+    @cached_property
+    def skin(self) -> Skin:
+        """The surface as a whole."""
+        return Skin(self._points, self.boundary.faces)
+
+    @cached_property
+    def middles(self) -> np.ndarray:
+        """Nodes whose means are the middles of the boundary's edges and faces, (s, 4) int: an edge's nodes twice."""
+        return np.concatenate([np.tile(self.skin.edges.nodes, 2), self.boundary.faces, np.tile(self.nodes[:, None], 4)])
+
+    def middles_at(self, nodes: np.ndarray) -> np.ndarray:
+        """Which of `middles` move with some nodes, (k,) int64."""
+        moved = np.zeros(self.mesh.n_nodes, dtype=bool)
+        moved[nodes] = True
+        return np.flatnonzero(moved[self.middles].any(axis=1))
+
+    def off(self, points: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """How far some of `middles` are from the surface, (k,), and the unit vectors that lead away from it, (k, 3)."""
+        x = points[self.middles[which]].mean(axis=1)
+        away = x - self.skin.closest(x)
+        far = np.linalg.norm(away, axis=1)
+        return far, away / np.maximum(far, np.finfo(float).tiny)[:, None]
+
+    def beyond(self, points: np.ndarray) -> np.ndarray:
+        """The nodes at which the boundary has left its room, (k,) int."""
+        if not np.isfinite(self.room):
+            return np.empty(0, dtype=np.int64)
+        far, _ = self.off(points, np.arange(len(self.middles)))
+        return np.unique(self.middles[far > self.room])
+
+    def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
+        return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
+
+
+def _across(normals: np.ndarray) -> np.ndarray:
+    """Two unit vectors at right angles to each other and to each normal, the columns of (k, 3, 2); 0 where it is 0."""
+    least = np.abs(normals).argmin(axis=1)
+    one = np.cross(normals, np.eye(3)[least])
+    one /= np.maximum(np.linalg.norm(one, axis=1, keepdims=True), np.finfo(float).tiny)
+    return np.stack([one, np.cross(normals, one)], axis=-1)
