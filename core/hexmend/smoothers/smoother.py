@@ -41,9 +41,19 @@ class Smoother(Parametrised, ABC):
         Yielded arrays are never changed afterwards; rows of fixed nodes stay as they are to the last bit.
         """
 
-    def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...] | None:
-        """What an iterate is kept for, the lower the better; None for a method whose last iterate is its result."""
-        return None
+    def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
+        """What an iterate is kept for, the lower the better; of equals the last is kept.
+
+        Inverted hexes come first. Then the least q(H) counts; of an optimiser only whether it is lower than at the
+        start, as its iterates get better by the objective, not by the least q(H).
+
+        Parameters
+        ----------
+        start, now : ElementQuality
+            As the stage began, and of the iterate.
+        """
+        least = float(now.q.min())
+        return now.n_inverted, least < start.q.min() if self.optimises else -least
 
     @classmethod
     def to_json(cls) -> dict[str, Any]:

@@ -41,7 +41,11 @@ class Row:
     mesh : Mesh or None
         The smoothed mesh; None where the method failed, as is what follows from it.
     after : Summary or None
+    worse : tuple of str
+        What is worse than before, as in `Result`.
     iterations : int
+    kept : int
+        Number of the iteration that is the result.
     seconds, setup_seconds : float
     stages : tuple of StageResult
         As in `Result`; of one method alone none.
@@ -53,7 +57,9 @@ class Row:
     message: str
     mesh: Mesh | None = field(default=None, repr=False)
     after: Summary | None = None
+    worse: tuple[str, ...] = ()
     iterations: int = 0
+    kept: int = 0
     seconds: float = 0.0
     setup_seconds: float = 0.0
     stages: tuple[StageResult, ...] = ()
@@ -78,7 +84,9 @@ class Row:
             "outcome": self.outcome,
             "message": self.message,
             **figures,
+            "worse": list(self.worse),
             "iterations": self.iterations,
+            "kept": self.kept,
             "seconds": self.seconds,
             "setup_seconds": self.setup_seconds,
             "seconds_per_iteration": self.seconds_per_iteration,
@@ -124,7 +132,9 @@ def _row(name: str, result: Result) -> Row:
         message=result.message,
         mesh=result.mesh,
         after=result.after,
+        worse=result.worse,
         iterations=result.iterations,
+        kept=result.kept,
         seconds=result.seconds,
         setup_seconds=result.setup_seconds,
         stages=result.stages if result.method == Recipe.name else (),
