@@ -70,7 +70,7 @@ def undo_harm(now: Situation) -> Suggestion | None:
 
 def go_on(now: Situation) -> Suggestion | None:
     """An optimiser that was cut short while it still gained."""
-    if not now.cut_short or not now.smoother.optimises or (now.loose.size and not _is_mend(now)) or not _goes_on(now):
+    if not now.cut_short or not now.smoother.optimises or (now.loose.size and not _is_mend(now)) or not now.improving:
         return None
     limit, stop = now.result.outcome, now.stop
     if limit is Outcome.MAX_ITERATIONS:
@@ -109,7 +109,7 @@ def tighten(now: Situation) -> Suggestion | None:
     usual = Stop().tolerance
     if now.result.outcome is not Outcome.CONVERGED or not now.smoother.optimises or now.loose.size:
         return None
-    if now.stop.tolerance <= usual or not _goes_on(now):
+    if now.stop.tolerance <= usual or not now.improving:
         return None
     return Suggestion(
         "Tighter tolerance",
@@ -194,11 +194,6 @@ RULES: tuple[Rule, ...] = (
 
 def _is_mend(now: Situation) -> bool:
     return isinstance(now.smoother, Mend)
-
-
-def _goes_on(now: Situation) -> bool:
-    """Whether it still gained, and what it would gain by going on would be kept."""
-    return now.improving and (_is_mend(now) or not now.worst_falls)
 
 
 def _sound_below(now: Situation, quality: float) -> bool:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -75,7 +73,8 @@ class Situation:
     @cached_property
     def improving(self) -> bool:
         """Whether the last quarter of the last method's iterations still gained."""
-        then, now = self._last_quarter
+        rows, iterations = self.result.history, self.result.stages[-1].iterations
+        then, now = rows[-1 - min(iterations, max(1, iterations // 4))], rows[-1]
         if self.result.kept <= then["iteration"]:
             return False
         if self.aim == "energy":  # of which the history does not tell; a line search lowers it with every move
@@ -85,18 +84,6 @@ class Situation:
         if now["objective"] is not None and then["objective"] is not None:
             return now["objective"] < (1 - _FALLING) * then["objective"]
         return now["q_mean"] > then["q_mean"] + _RISING
-
-    @property
-    def worst_falls(self) -> bool:
-        """Whether the least quality fell over the last quarter, so that most methods would not keep what comes next."""
-        then, now = self._last_quarter
-        return now["q_min"] < then["q_min"]
-
-    @property
-    def _last_quarter(self) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-        """The rows of the history between which the last quarter of the last method's iterations lies."""
-        rows, iterations = self.result.history, self.result.stages[-1].iterations
-        return rows[-1 - min(iterations, max(1, iterations // 4))], rows[-1]
 
     @cached_property
     def worst_can_move(self) -> bool:

@@ -18,6 +18,10 @@ from hexmend.registry import Registry
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
 
 
+#: The least fall of q(H) that four decimals tell: near its optimum an optimiser goes up and down by less.
+_TOLD = 0.5e-4
+
+
 @dataclass(frozen=True)
 class Smoother(Parametrised, ABC):
     """A method that moves the free nodes of a mesh.
@@ -45,7 +49,7 @@ class Smoother(Parametrised, ABC):
         """What an iterate is kept for, the lower the better; of equals the last is kept.
 
         Inverted hexes come first. Then the least q(H) counts; of an optimiser only whether it is lower than at the
-        start, as its iterates get better by the objective, not by the least q(H).
+        start, in the digits of tables, as its iterates get better by the objective, not by the least q(H).
 
         Parameters
         ----------
@@ -53,7 +57,7 @@ class Smoother(Parametrised, ABC):
             As the stage began, and of the iterate.
         """
         least = float(now.q.min())
-        return now.n_inverted, least < start.q.min() if self.optimises else -least
+        return now.n_inverted, least < start.q.min() - _TOLD if self.optimises else -least
 
     @classmethod
     def to_json(cls) -> dict[str, Any]:

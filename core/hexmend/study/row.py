@@ -41,14 +41,14 @@ class Row:
     mesh : Mesh or None
         The smoothed mesh; None where the method failed, as is what follows from it.
     after : Summary or None
-    worse : tuple of str
-        What is worse than before, as in `Result`.
     iterations : int
-    kept : int
-        Number of the iteration that is the result.
     seconds, setup_seconds : float
     stages : tuple of StageResult
         As in `Result`; of one method alone none.
+    worse : tuple of str
+        What is worse than before, as in `Result`.
+    kept : int
+        Number of the iteration that is the result.
     """
 
     method: str
@@ -57,12 +57,12 @@ class Row:
     message: str
     mesh: Mesh | None = field(default=None, repr=False)
     after: Summary | None = None
-    worse: tuple[str, ...] = ()
     iterations: int = 0
-    kept: int = 0
     seconds: float = 0.0
     setup_seconds: float = 0.0
     stages: tuple[StageResult, ...] = ()
+    worse: tuple[str, ...] = ()
+    kept: int = 0
 
     @property
     def seconds_per_iteration(self) -> float | None:
