@@ -12,7 +12,7 @@ import numpy as np
 
 from hexmend.mesh import Mesh
 from hexmend.optimise.stop import Stop
-from hexmend.quality import ElementQuality, Summary, objective
+from hexmend.quality import ElementQuality, Summary, objective, worse
 
 
 class Outcome(Enum):
@@ -155,6 +155,8 @@ class Result:
     message : str
         The outcome with its figures, in sentences.
     iterations : int
+    kept : int
+        Number of the iteration that is the result.
     seconds : float
         In the smoother, without its set-up, without reading and writing.
     setup_seconds : float
@@ -174,7 +176,13 @@ class Result:
     outcome: Outcome
     message: str
     iterations: int
+    kept: int
     seconds: float
     setup_seconds: float
     history: tuple[dict[str, float | int | None], ...]
     stages: tuple[StageResult, ...]
+
+    @property
+    def worse(self) -> tuple[str, ...]:
+        """What is worse than before: names of `hexmend.quality.JUDGED`."""
+        return worse(self.before, self.after)

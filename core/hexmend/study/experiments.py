@@ -79,10 +79,10 @@ class Experiments:
     quick_seconds: Mapping[str, float] = field(default_factory=dict)
 
     def stop(self, method: str, quick: bool) -> Stop:
-        """The limits of a run."""
+        """The limits of a run; what the thesis tells of a method is its last iterate."""
         limit = self.iterations.get(method, Stop().max_iterations)
         seconds = self.quick_seconds.get(method, self.seconds["quick"]) if quick else self.seconds["full"]
-        return Stop(max_iterations=limit, max_seconds=seconds)
+        return Stop(max_iterations=limit, max_seconds=seconds, keep_last=True)
 
 
 def load(source: Path | Traversable | None = None) -> Experiments:

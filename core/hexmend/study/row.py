@@ -45,6 +45,10 @@ class Row:
     seconds, setup_seconds : float
     stages : tuple of StageResult
         As in `Result`; of one method alone none.
+    worse : tuple of str
+        What is worse than before, as in `Result`.
+    kept : int
+        Number of the iteration that is the result.
     """
 
     method: str
@@ -57,6 +61,8 @@ class Row:
     seconds: float = 0.0
     setup_seconds: float = 0.0
     stages: tuple[StageResult, ...] = ()
+    worse: tuple[str, ...] = ()
+    kept: int = 0
 
     @property
     def seconds_per_iteration(self) -> float | None:
@@ -78,7 +84,9 @@ class Row:
             "outcome": self.outcome,
             "message": self.message,
             **figures,
+            "worse": list(self.worse),
             "iterations": self.iterations,
+            "kept": self.kept,
             "seconds": self.seconds,
             "setup_seconds": self.setup_seconds,
             "seconds_per_iteration": self.seconds_per_iteration,
@@ -124,7 +132,9 @@ def _row(name: str, result: Result) -> Row:
         message=result.message,
         mesh=result.mesh,
         after=result.after,
+        worse=result.worse,
         iterations=result.iterations,
+        kept=result.kept,
         seconds=result.seconds,
         setup_seconds=result.setup_seconds,
         stages=result.stages if result.method == Recipe.name else (),
