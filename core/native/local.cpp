@@ -38,10 +38,11 @@ struct Record {
 
 }  // namespace
 
-void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-           int direction, double delta, double p, double first, double shrink, double c1, int cuts) {
+std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
+                   int direction, double delta, double p, double first, double shrink, double c1, int cuts) {
     LocalStep how{direction, delta, p, first, shrink, c1, cuts};
-    (delta != 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, hexes, start, corners, groups, nodes, how);
+    return (delta != 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, hexes, start, corners, groups, nodes,
+                                                                         how);
 }
 
 std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Points points, Hexes hexes, Indices star,
