@@ -27,7 +27,7 @@ struct Record {
     Point place{};
     Made<double, 3> trials;
 
-    void tries(double alpha, double value, double bound) {
+    void tries(int, double alpha, double value, double bound) {
         for (double number : {alpha, value, bound}) trials.values.push_back(number);
     }
     void stays(Verdict why, const Chosen &how = {}) { verdict = why, chosen = how; }

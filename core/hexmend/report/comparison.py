@@ -20,6 +20,16 @@ _ENDED = {
     "nothing-free": "nothing free",
 }
 
+
+def ended(outcome: str) -> str:
+    """Why a run ended, in a word or two.
+
+    >>> ended("max-seconds")
+    'time limit'
+    """
+    return _ENDED.get(outcome, outcome)
+
+
 #: The lines of the table: those of the thesis, and what tells how far they can be believed.
 LINES: tuple[Figure, ...] = (
     *(FIGURES[key] for key in ("inverted", "q_min", "q_mean", "q_std", "q_max", "q_norm", "objective")),
@@ -39,7 +49,7 @@ LINES: tuple[Figure, ...] = (
         micro,
         -1,
     ),
-    Figure("outcome", "ended", "Why the run ended.", lambda key: _ENDED.get(key, key)),
+    Figure("outcome", "ended", "Why the run ended.", ended),
 )
 
 #: The thesis's widest table has this many columns of figures; a wider one is turned on its side.

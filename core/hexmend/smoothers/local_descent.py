@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
@@ -29,13 +31,14 @@ class LocalDescent(LocalOptimiser):
 
     def steps(self, mesh: Mesh) -> Steps:
         corners, visits = mesh.topology.node_corners, Visits(mesh, self.order)
+        derivatives = int(np.diff(corners.start)[mesh.free].sum())  # each visit asks the hexes at its node
         points, sweep = mesh.points, 0
         visits.groups(points, sweep)
         yield Step(points)
         while True:
             delta, groups = self.delta_at(mesh, points), visits.groups(points, sweep)
             points = points.copy()
-            trials = local.sweep(
+            energies = local.sweep(
                 points,
                 mesh.hexes,
                 corners.start,
@@ -50,5 +53,5 @@ class LocalDescent(LocalOptimiser):
                 self.c1,
                 self.max_cuts,
             )
-            yield Step(points, {"delta": delta, "trials": trials})
+            yield Step(points, {"delta": delta, "energies": energies, "derivatives": derivatives})
             sweep += 1
