@@ -14,7 +14,7 @@ namespace hexmend {
 // Most unknowns of a system that is decomposed; the residual that conjugate gradients leave of another, relative to the
 // gradient; and what a pivot, or a curvature, has to exceed to count as positive, relative to the largest entry.
 constexpr int EXACT = 600;
-constexpr double RESIDUAL = 1e-3, POSITIVE = 1e-12;
+constexpr double RESIDUAL = 0.03, POSITIVE = 1e-12;
 
 class PatchSystem {
   public:
