@@ -28,8 +28,8 @@ def middle_ground(tried: Sequence[Tried]) -> Claim:
         faster.append(all(quick_point.seconds < point.seconds for _, point in extremes))
         others = ", ".join(f"{name} {point.seconds:.2g} s" for name, point in extremes)
         told.append(
-            f"{one.outlook.mesh}, {one.initial.hexes:,} hexes: {_told(few)} {few_point.iteration} sweeps in place of "
-            f"{single.iteration} and {few_point.evaluations:.3g} evaluations a hex in place of "
+            f"{one.outlook.mesh}, {one.initial.hexes:,} hexes: {_told(few)} takes {few_point.iteration} sweeps in "
+            f"place of {single.iteration} and {few_point.evaluations:.3g} evaluations a hex in place of "
             f"{single.evaluations:.3g}; the quickest, {_told(quick)}, {quick_point.seconds:.2g} s, {others}"
         )
     if not faster:
