@@ -19,6 +19,7 @@ CORE = [
     {"kernels"},
     {"topology"},
     {"mesh"},
+    {"patches"},
     {"quality", "structure"},
     {"gallery", "movement", "surface"},
     {"energy"},

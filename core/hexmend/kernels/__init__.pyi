@@ -14,6 +14,7 @@ from hexmend.kernels import getme as getme
 from hexmend.kernels import hexahedron as hexahedron
 from hexmend.kernels import incidence as incidence
 from hexmend.kernels import laplacian as laplacian
+from hexmend.kernels import large_patches as large_patches
 from hexmend.kernels import local as local
 from hexmend.kernels import metrics as metrics
 from hexmend.kernels import objective as objective
@@ -27,6 +28,7 @@ from hexmend.kernels import sides as sides
 from hexmend.kernels import skin as skin
 from hexmend.kernels import structure as structure
 from hexmend.kernels import symmetric as symmetric
+from hexmend.kernels import visiting as visiting
 from hexmend.kernels import worst_first as worst_first
 
 BUILD: str

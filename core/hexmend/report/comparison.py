@@ -21,6 +21,16 @@ _ENDED = {
     "nothing-free": "nothing free",
 }
 
+
+def ended(outcome: str) -> str:
+    """Why a run ended, in a word or two.
+
+    >>> ended("max-seconds")
+    'time limit'
+    """
+    return _ENDED.get(outcome, outcome)
+
+
 #: The lines of the table: those of the thesis, and what tells how far they can be believed.
 LINES: tuple[Figure, ...] = (
     *(
@@ -43,7 +53,7 @@ LINES: tuple[Figure, ...] = (
         micro,
         -1,
     ),
-    Figure("outcome", "ended", "Why the run ended.", lambda key: _ENDED.get(key, key)),
+    Figure("outcome", "ended", "Why the run ended.", ended),
 )
 
 #: The thesis's widest table has this many columns of figures; a wider one is turned on its side.

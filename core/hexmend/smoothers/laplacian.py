@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from hexmend.kernels import laplacian as kernels
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
+from hexmend.smoothers.order import ORDERS
 from hexmend.smoothers.smoother import Smoother, Steps, method
 
 
@@ -28,13 +27,18 @@ class Laplacian(Smoother):
         choices=("in-place", "simultaneous"),
         help="Whether a node sees where the nodes before it went (Algorithm 3.1), or all move at once.",
     )
+    order: str = parameter(
+        "natural",
+        choices=tuple(ORDERS),
+        help="In what order nodes are updated in place, 5.2.6: natural is by number, inward from the fixed ones.",
+    )
 
     def steps(self, mesh: Mesh) -> Steps:
-        ring = mesh.topology.rings
-        nodes = np.flatnonzero(mesh.free).astype(np.int32)
-        points = mesh.points
+        ring, sequence = mesh.topology.rings, ORDERS[self.order](mesh)
+        points, sweep = mesh.points, 0
         yield Step(points)
         while True:
+            nodes = sequence(points, sweep)
             moved = points.copy()
             if self.update == "in-place":
                 kernels.in_place(moved, ring.start, ring.items, nodes)
@@ -42,3 +46,4 @@ class Laplacian(Smoother):
                 kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
             points = moved
             yield Step(points)
+            sweep += 1
