@@ -190,8 +190,8 @@ def test_control_c_during_a_kernel_is_a_keyboard_interrupt():
     interrupted = """
 import signal, threading
 for delay in (0.01, 0.013, 0.021, 0.034, 0.05):
-    threading.Timer(delay, os.kill, (os.getpid(), signal.SIGINT)).start()
     try:
+        threading.Timer(delay, os.kill, (os.getpid(), signal.SIGINT)).start()
         while True:
             call()
     except KeyboardInterrupt:

@@ -11,7 +11,7 @@ from hexmend.surface.edges import Edges, chains, components
 DEGREES = 40.0
 #: A chain that ends in the middle of a patch is a roughness of it where its angles sum up to less than so many times
 #: the least of a feature: fewer than so many edges that just reach that. So is a small loop all by itself.
-WHISKER = 15.0
+WHISKER = 10.0
 #: A face whose area is a smaller share of that of a square with its perimeter has no normal to speak of.
 _THIN = 1e-6
 

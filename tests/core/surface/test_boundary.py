@@ -136,10 +136,10 @@ def test_a_short_groove_in_a_patch_is_a_roughness():
 
 
 def test_a_long_groove_ends_in_corners():
-    mesh, groove = dented(7)
+    mesh, groove = dented(9)
     boundary = boundary_of(mesh)
     check(mesh, boundary)
-    assert boundary.kind[groove].tolist() == [Kind.CORNER, *6 * [Kind.CURVE], Kind.CORNER]
+    assert boundary.kind[groove].tolist() == [Kind.CORNER, *8 * [Kind.CURVE], Kind.CORNER]
 
 
 def test_given_edges_and_corners_are_taken_and_pinned_nodes_are_corners():
