@@ -47,6 +47,9 @@ class MeshEnergy:
     (0.0, (8, 3))
     """
 
+    #: Whether it has bends, those of a surface of triangles, at which Newton's method is slow.
+    faceted = False
+
     def __init__(self, mesh: Mesh, p: float = 2.0, left_out: np.ndarray | None = None):
         self.mesh = mesh
         self.p = p
@@ -106,6 +109,10 @@ class MeshEnergy:
     def descending(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
         """The slope of `value` along a step (k, 3) of the free nodes, `gradient` (k, 3) being its derivative at x."""
         return dot(step, gradient)
+
+    def strayed(self, x: np.ndarray) -> np.ndarray:
+        """Which nodes are where they may not be whatever their energy, (n,) bool; x (n, 3)."""
+        return np.zeros(len(x), dtype=bool)
 
     def _gathered(self) -> np.ndarray:
         """What the shares of the hexes come to at each free node, (k, 3)."""

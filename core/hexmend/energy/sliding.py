@@ -28,6 +28,8 @@ class SlidingEnergy(MeshEnergy):
         See `MeshEnergy`.
     """
 
+    faceted = True
+
     def __init__(self, sliding: Sliding, p: float = 2.0, left_out: np.ndarray | None = None):
         super().__init__(sliding.mesh, p, left_out)
         self.sliding = sliding
@@ -56,6 +58,11 @@ class SlidingEnergy(MeshEnergy):
         inside = np.ones(len(step), dtype=bool)
         inside[rows] = False
         return float((step[inside] * gradient[inside]).sum() + slopes[slopes < 0].sum())
+
+    def strayed(self, x: np.ndarray) -> np.ndarray:
+        strayed = super().strayed(x)
+        strayed[self.sliding.beyond(x * self.unit)] = True
+        return strayed
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         gradient = super().gradient(x, delta)

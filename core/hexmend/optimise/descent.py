@@ -97,15 +97,16 @@ WORSE, MORE, HALVINGS = 2.0, 1.0, 8
 
 
 def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
-    """Halve the steps of the nodes of hexes that would be spoilt, again and again: the rest need not wait for them."""
+    """Halve the steps of nodes that stray or whose hexes would be spoilt, again and again: the rest need not wait."""
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
     limit = WORSE * energies(x, hexes, delta, energy.left_out) + MORE
     for _ in range(HALVINGS):
-        spoilt = ~(energies(energy.moved(x, share[energy.nodes, None] * step), hexes, delta, energy.left_out) <= limit)
-        if not spoilt.any():
-            break
-        halved = np.zeros(share.size, dtype=bool)
+        there = energy.moved(x, share[energy.nodes, None] * step)
+        spoilt = ~(energies(there, hexes, delta, energy.left_out) <= limit)
+        halved = energy.strayed(there)
         halved[hexes[spoilt]] = True
+        if not halved.any():
+            break
         share[halved] *= 0.5
     step *= share[energy.nodes, None]
 

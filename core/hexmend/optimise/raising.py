@@ -19,6 +19,7 @@ from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh import Mesh
 from hexmend.optimise.corners import gradients, scaled_jacobians
 from hexmend.surface import Sliding
+from hexmend.surface.sliding import CLOSE
 
 #: Radius of the trust region at first and at most, in lengths of the shortest edge at each node, and where it ends.
 FIRST, LARGEST, SMALLEST = 0.1, 0.3, 1e-6
@@ -95,38 +96,43 @@ class Raising:
     ----------
     points : (n, 3) float64
     values : (m, 8)
-        Of each corner; +inf of those that no free node is at.
+        Of each corner.
+    settled : (m, 8) bool
+        Corners that are not to be raised any more, but not to fall either.
+    lifted : (n,) bool
+        Nodes of the boundary that need not stay on the surface, as long as they stay in the room around it.
     """
 
-    def __init__(self, mesh: Mesh, points: np.ndarray, sliding: Sliding | None = None, lifts: bool = False):
-        self.mesh, self.sliding, self.points, self.lifts = mesh, sliding, points, lifts
+    def __init__(self, mesh: Mesh, points: np.ndarray, sliding: Sliding | None = None):
+        self.mesh, self.sliding, self.points = mesh, sliding, points
         self._held = ~mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
         self.values = scaled_jacobians(points, mesh.hexes)
-        self.values[self._held] = np.inf
-        self._radius, self._most = FIRST, FEW
-        self._multipliers: tuple[np.ndarray, np.ndarray] = np.empty(0, np.int64), np.empty(0)
+        self.settled = np.zeros(self.values.shape, dtype=bool)
+        self.lifted = np.zeros(mesh.n_nodes, dtype=bool)
+        self._floor = np.full(self.values.shape, -np.inf)
+        self._looked: tuple[np.ndarray, tuple[np.ndarray, ...]] | None = None
+        self._begin()
 
     @property
     def least(self) -> float:
-        """The least scaled Jacobian of a corner that can be moved; +inf where there is none."""
-        return float(self.values.min(initial=np.inf))
+        """The least scaled Jacobian of the corners that are raised; +inf where there is none."""
+        return float(self._raised().min(initial=np.inf))
 
-    def steps(self) -> Generator[Raised, None, Limit]:
-        """Steps that raise the least, until none does any more."""
+    def steps(self, aim: float = np.inf) -> Generator[Raised, None, Limit]:
+        """Steps that raise the least, until none does any more, or it has reached `aim`."""
+        self._begin()
         gains = [np.inf] * LATELY
-        while self._radius > SMALLEST and np.isfinite(self.least):
-            least, radius = self.least, self._radius
+        while self._radius > SMALLEST and self.least < aim:
+            values, least, radius = self._raised().ravel(), self.least, self._radius
             band = float(np.clip(BAND * radius, NARROWEST, WIDEST))
-            low = np.flatnonzero(self.values < least + band)
+            low = np.flatnonzero(values < least + band)
             whole = low.size <= self._most
             if not whole:
-                low = low[np.argpartition(self.values.ravel()[low], self._most)[: self._most]]
-            promised, points, near = self._step(low, band)
-            gain = 0.0
-            if promised > NOTHING:
-                gain = self._take(points, near, least, promised)
+                low = low[np.argpartition(values[low], self._most)[: self._most]]
+            promised, points, moved = self._step(low, band)
+            gain = self._take(points, moved, least, promised) if promised > NOTHING else 0.0
             if gain > 0:
-                yield Raised(self.points, self.least, near.size, radius)
+                yield Raised(self.points, self.least, low.size, radius)
             gains.append(gain)
             if promised <= NOTHING or sum(gains[-LATELY:]) < LITTLE:
                 if whole or self._most >= MANY:
@@ -134,6 +140,37 @@ class Raising:
                 self._most, self._radius = 2 * self._most, max(self._radius, NARROWEST)
                 gains.append(np.inf)
         return self._limit()
+
+    def settle(self, limit: Limit) -> None:
+        """Let the corners that hold each other be: those that are left can be raised further."""
+        at = limit.hexes, limit.corners
+        self.settled[at] = True
+        self._floor[at] = np.minimum(self.values[at], limit.least)
+
+    def lift(self, limit: Limit) -> bool:
+        """Let sliding nodes of the corners that hold each other leave the surface; whether there is one more."""
+        if self.sliding is None or not self.sliding.room > 0:
+            return False
+        nodes = np.unique(self.mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]])
+        nodes = nodes[self.sliding.slides(nodes) & ~self.lifted[nodes]]
+        self.lifted[nodes] = True
+        if not nodes.size and limit.least < 0:
+            nodes = np.unique(self.mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]])
+            nodes = nodes[self.sliding.yields[nodes] & ~self.mesh.free[nodes]]
+            fixed = self.mesh.fixed.copy()
+            fixed[nodes] = False
+            self.lifted[nodes] = True
+            self.mesh = self.mesh.with_fixed(fixed)
+            self._held = ~self.mesh.free[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+        return nodes.size > 0
+
+    def _begin(self) -> None:
+        self._radius, self._most = FIRST, FEW
+        self._multipliers: tuple[np.ndarray, np.ndarray] = np.empty(0, np.int64), np.empty(0)
+
+    def _raised(self) -> np.ndarray:
+        """The values, +inf of corners that cannot be moved or are settled, (m, 8)."""
+        return np.where(self._held | self.settled, np.inf, self.values)
 
     def _step(self, low: np.ndarray, band: float) -> tuple[float, np.ndarray, np.ndarray]:
         """Solve the linear program of the nodes at corners `low`.
@@ -147,13 +184,16 @@ class Raising:
         nodes = nodes[self.mesh.free[nodes]]
         around = np.unique(self.mesh.topology.node_corners.of(nodes) // 8)
         near = (8 * around[:, None] + np.arange(8)).ravel()
-        near = near[self.values.ravel()[near] < least + band + FALL * radius]
+        above = self.values.ravel()[near] - np.where(self.settled.ravel()[near], self._floor.ravel()[near], least)
+        near = near[(above < band + FALL * radius) & ~self._held.ravel()[near]]
         ends = _nodes(hexes, near)
         values, derivatives, lengths = gradients(self.points, ends)
         size = np.full(self.mesh.n_nodes, np.inf)
         for end, length in ((0, lengths.min(axis=1)), (1, lengths[:, 0]), (2, lengths[:, 1]), (3, lengths[:, 2])):
             np.minimum.at(size, ends[:, end], length)
-        models = _Models(ends, values - least, derivatives, np.ones(near.size))
+        settled = self.settled.ravel()[near]
+        above = np.maximum(values - np.where(settled, self._floor.ravel()[near], least), 0.0)
+        models = _Models(ends, above, derivatives, 1.0 - settled)
         if self.sliding is not None and np.isfinite(self.sliding.room):
             models = models.and_those(self._room(nodes, size))
         ways = self._ways(nodes, size)
@@ -163,10 +203,16 @@ class Raising:
         self._multipliers = near, -solved.ineqlin.marginals[: near.size]
         points = self.points.copy()
         np.add.at(points, nodes[ways.of], solved.x[:-1, None] * ways.aims)
-        if self.sliding is not None and not self.lifts:
-            slide = nodes[self.sliding.slides(nodes)]
+        slide = nodes[self._slides(nodes)]
+        if slide.size:
             points[slide] = self.sliding.put_back(points[slide], slide)
         return float(solved.x[-1]), points, nodes
+
+    def _slides(self, nodes: np.ndarray) -> np.ndarray:
+        """Which of some nodes are put back on the surface wherever they are moved to, bool."""
+        if self.sliding is None:
+            return np.zeros(nodes.size, dtype=bool)
+        return self.sliding.slides(nodes) & ~self.lifted[nodes]
 
     def _room(self, nodes: np.ndarray, size: np.ndarray) -> _Models:
         """What keeps the boundary at nodes in its room."""
@@ -177,8 +223,26 @@ class Raising:
         reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
         near = far + reach > sliding.room
         ends, far, away = ends[near], far[near], away[near]
-        slopes = np.repeat(-away[:, None] / 4, 4, axis=1)
-        return _Models(ends, np.maximum(sliding.room - far, 0.0), slopes, np.zeros(len(far)))
+        models = _bounds(ends, sliding.room - far, np.repeat(-away[:, None] / 4, 4, axis=1))
+        if self._far() > CLOSE * sliding.room:
+            far, away, ends, weights = self._behind()
+            moved = np.zeros(self.mesh.n_nodes, dtype=bool)
+            moved[nodes] = True
+            reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
+            near = moved[ends].any(axis=1) & (far + reach > sliding.room)
+            slopes = weights[near, :, None] * away[near, None, :]
+            models = models.and_those(_bounds(ends[near], sliding.room - far[near], slopes))
+        return models
+
+    def _far(self) -> float:
+        """How far the boundary has left the surface."""
+        return float(self.sliding.off(self.points, np.arange(len(self.sliding.middles)))[0].max(initial=0.0))
+
+    def _behind(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """See `Sliding.behind`; of a place that has been looked from before it is known."""
+        if self._looked is None or self._looked[0] is not self.points:
+            self._looked = self.points, self.sliding.behind(self.points)
+        return self._looked[1]
 
     def _leaves(self, points: np.ndarray, nodes: np.ndarray) -> bool:
         """Whether the boundary at nodes has left its room, further than it was."""
@@ -186,14 +250,21 @@ class Raising:
             return False
         which = self.sliding.middles_at(nodes)
         before, after = (self.sliding.off(x, which)[0] for x in (self.points, points))
-        return bool((after > np.maximum(before, self.sliding.room)).any())
+        room = self.sliding.room
+        if (after > np.maximum(before, room)).any():
+            return True
+        if max(after.max(initial=0.0), self._far()) <= CLOSE * room:
+            return False
+        seen = self.sliding.behind(points)
+        if (seen[0] > np.maximum(self._behind()[0], room)).any():
+            return True
+        self._looked = points, seen
+        return False
 
     def _ways(self, nodes: np.ndarray, size: np.ndarray) -> _Ways:
         """Ways of nodes: both senses of each axis; of those that slide on a patch eight around, on a curve two."""
         axes = np.concatenate([np.eye(3), -np.eye(3)])
-        slides = np.zeros(nodes.size, dtype=bool)
-        if self.sliding is not None and not self.lifts:
-            slides = self.sliding.slides(nodes)
+        slides = self._slides(nodes)
         inside = np.flatnonzero(~slides)
         of, aims = np.repeat(inside, 6), np.tile(axes, (inside.size, 1))
         leads = aims
@@ -222,23 +293,21 @@ class Raising:
     def _take(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
         """Move to `points` if that brings enough, and fit the trust region; returns what was gained."""
         hexes = np.unique(self.mesh.topology.node_corners.of(moved) // 8)
-        values = scaled_jacobians(points, self.mesh.hexes[hexes])
-        values[self._held[hexes]] = np.inf
-        before = self.values[hexes]
-        self.values[hexes] = values
+        before, self.values[hexes] = self.values[hexes], scaled_jacobians(points, self.mesh.hexes[hexes])
         gain = self.least - least
+        fallen = self.settled[hexes] & (self.values[hexes] < self._floor[hexes] - NOTHING)
+        if fallen.any() or (gain > BRINGS * promised and self._leaves(points, moved)):
+            gain = -np.inf
         share = gain / promised
-        if share > BRINGS and self._leaves(points, moved):
-            share = -np.inf
-        if share > BRINGS:
-            self.points = points
-        else:
-            self.values[hexes], gain = before, 0.0
         if share > GOOD:
             self._radius = min(GROW * self._radius, LARGEST)
         elif share < POOR:
             self._radius *= SHRINK
-        return gain
+        if share > BRINGS:
+            self.points = points
+            return gain
+        self.values[hexes] = before
+        return 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -285,6 +354,11 @@ class _Models:
         """These, and others behind them."""
         pairs = ((getattr(one, field.name) for one in (self, other)) for field in dataclasses.fields(self))
         return _Models(*(np.concatenate(list(pair)) for pair in pairs))
+
+
+def _bounds(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> _Models:
+    """Models of what is not to fall below its bound."""
+    return _Models(ends, np.maximum(above, 0.0), slopes, np.zeros(len(above)))
 
 
 def _program(nodes: np.ndarray, ways: _Ways, models: _Models, radius: float) -> tuple[Any, ...]:

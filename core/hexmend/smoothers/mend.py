@@ -41,6 +41,13 @@ SETTLED = 1e-3
 #: and the whole mesh steps again only where two deltas in a row have mended nothing.
 FEW, MANY_SWEEPS = 0.003, 50
 
+#: On a faceted surface the last steps go from edge to edge: it is enough where so many gain no more than such a share.
+LATELY, SLOW = 5, 2e-3
+
+#: Least scaled Jacobian from which on a hex is sound enough for the energy's barrier, and below which one is so bad
+#: that nodes of the boundary leave the surface for it.
+SOUND, AIM = 0.02, 0.2
+
 SEARCH = BackLineSearch(shrink=0.5)
 
 
@@ -66,6 +73,9 @@ class Mend(Smoother):
     feature_angle: float = parameter(
         40.0, low=1, high=180, unit="degrees", help="Along edges at which the boundary turns by more nodes only slide."
     )
+    surface_tolerance: float = parameter(
+        0.1, low=0, high=10, unit="mean edge length", help="How far the sliding boundary may leave where it was."
+    )
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
     )
@@ -88,18 +98,29 @@ class Mend(Smoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
-        given, sliding = mesh.points, None
+        more = self.goal != "shape" or self.boundary == "slide"
+        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), more)
+        places, sliding = [mesh.points, points], None
         if self.boundary == "slide":
-            sliding = Sliding(mesh, self.feature_angle)
-            mesh = sliding.mesh
-        locked = _locked_corners(mesh)
-        energy = MeshEnergy(mesh, self.p, locked) if sliding is None else SlidingEnergy(sliding, self.p, locked)
-        alone = mesh.free if sliding is None else mesh.free & (sliding.boundary.kind == 0)
-        points, left_out = yield from self._untangled(mesh, energy, locked, alone)
-        points, outcome = yield from self._optimum(mesh, energy, points, left_out, alone)
+            sliding = Sliding(mesh, self.feature_angle, self.surface_tolerance * mesh.mean_edge_length)
+            freed = yield from raise_least(Raising(sliding.mesh, points, sliding), SOUND)
+            points, outcome = yield from self._shaped(
+                sliding.mesh.with_points(freed), SlidingEnergy(sliding, self.p), self.goal != "shape"
+            )
+            places += [freed, points]
         if self.goal != "shape":
-            outcome = yield from _raised(mesh, sliding, given, points)
+            at = mesh if sliding is None else sliding.mesh
+            best = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.least)
+            yield from raise_least(best, lifts=AIM, told=True)
+            outcome = Outcome.NO_IMPROVEMENT
         return outcome
+
+    def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
+        """Untangle, then go to the optimum of shape; `more` where that is not the end."""
+        locked = _locked_corners(mesh)
+        energy = energy.but(self.p, locked)
+        points, left_out = yield from self._untangled(mesh, energy, locked)
+        return (yield from self._optimum(mesh, energy, points, left_out, more))
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Inverted hexes first, then whether a guarded figure is lower than at the start, then whether the objective of
@@ -118,7 +139,7 @@ class Mend(Smoother):
         return TruncatedNewton(iterations=self.solver_iterations)
 
     def _untangled(
-        self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray, alone: np.ndarray
+        self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray
     ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
         points, x, e = mesh.points, energy.scaled(mesh.points), self.softness
@@ -141,7 +162,7 @@ class Mend(Smoother):
                 if not tangled:
                     break
             if tangled:
-                x = _swept(mesh, x, figures.inverted, alone, locked, delta, self.p, sweeps)
+                x = _swept(energy, x, figures.inverted, locked, delta, self.p, sweeps)
                 points = energy.placed(x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True, figures=figures)
@@ -155,7 +176,7 @@ class Mend(Smoother):
         return points, _inverted_corners(points, mesh.hexes) | locked
 
     def _optimum(
-        self, mesh: Mesh, energy: MeshEnergy, points: np.ndarray, left_out: np.ndarray, alone: np.ndarray
+        self, mesh: Mesh, energy: MeshEnergy, points: np.ndarray, left_out: np.ndarray, more: bool
     ) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Behind the barrier to the optimum, then, where it is asked for, with higher and higher p."""
         p = self.p
@@ -164,16 +185,20 @@ class Mend(Smoother):
             find = self._direction()
             x, rises = energy.scaled(points), p < self.highest_p
             whole = False  # whether the last step was taken whole: then no hex is in the way
+            values: list[float] = []
             while True:
                 poor = None if whole else energies(x, mesh.hexes, 0.0, left_out) > POOR
                 if poor is not None and poor.any():
-                    x = _swept(mesh, x, poor, alone, left_out, 0.0, p, POOR_SWEEPS)
+                    x = _swept(energy, x, poor, left_out, 0.0, p, POOR_SWEEPS)
                 taken = descend(energy, x, 0.0, find, SEARCH, REACH)
                 if taken is None or (taken.alpha == 0 and taken.slope < 0):
                     break
+                values.append(taken.value)
+                if energy.faceted and len(values) > LATELY and values[-LATELY] - values[-1] < SLOW * values[-1]:
+                    return points, Outcome.NO_IMPROVEMENT
                 move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))
                 x, points, whole = taken.x, energy.placed(taken.x), taken.cuts == 0
-                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises or self.goal != "shape")
+                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises or more)
                 if rises and move < SETTLED:
                     break
             if not rises:
@@ -182,19 +207,18 @@ class Mend(Smoother):
 
 
 def _swept(
-    mesh: Mesh, x: np.ndarray, around: np.ndarray, alone: np.ndarray, left_out: np.ndarray, delta: float, p: float,
-    sweeps: int,
-) -> np.ndarray:  # fmt: skip
-    """Sweeps of local Newton steps over the nodes of some hexes and of their neighbours.
+    energy: MeshEnergy, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, p: float, sweeps: int
+) -> np.ndarray:
+    """Sweeps of local Newton steps over the nodes of some hexes and of their neighbours, those that slide left out.
 
-    Those nodes are moved that may be `alone`, (n,) bool: the others slide. Nodes
-    at hexes of which corners are left out stay: a local energy would count these corners.
+    Nodes at hexes of which corners are left out stay: a local energy would count these corners.
     """
+    mesh = energy.mesh
     near = np.zeros(mesh.n_nodes, dtype=bool)
     near[mesh.hexes[around]] = True
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
     near[mesh.hexes[left_out != 0]] = False
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & alone)
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
     swept = x.copy()
     for _ in range(sweeps):
         local.sweep(
@@ -204,18 +228,44 @@ def _swept(
     return swept
 
 
-def _raised(mesh: Mesh, sliding: Sliding | None, *places: np.ndarray) -> Steps:
-    """Raise the least scaled Jacobian from the best of some places."""
-    raising = max((Raising(mesh, points, sliding) for points in places), key=lambda one: one.least)
-    yield Step(raising.points, {"least": raising.least}, more=True)
-    steps = raising.steps()
+def raise_least(
+    raising: Raising, aim: float = np.inf, lifts: float = 0.0, told: bool = False
+) -> Generator[Step, None, np.ndarray]:
+    """Raise the least scaled Jacobian; returns the points.
+
+    Where corners hold each other below `aim`, what is above them is raised further. Below `lifts`, nodes of the
+    boundary leave the surface for that.
+
+    Parameters
+    ----------
+    raising : Raising
+    aim, lifts : float
+    told : bool
+        Whether what limits it is a decision of the run.
+    """
+    first = None
+    if told:
+        yield Step(raising.points, {"least": raising.least}, more=True)
     while True:
-        try:
-            step = next(steps)
-        except StopIteration as end:
-            yield Step(raising.points, {"least": raising.least}, decision=_what_limits(end.value), more=True)
-            return Outcome.NO_IMPROVEMENT
-        yield Step(step.points, {"least": step.least, "corners": step.corners, "radius": step.radius}, more=True)
+        steps = raising.steps(aim)
+        while True:
+            try:
+                step = next(steps)
+            except StopIteration as end:
+                limit = end.value
+                break
+            yield Step(step.points, {"least": step.least, "corners": step.corners, "radius": step.radius}, more=True)
+        if not limit.hexes.size or limit.least >= aim:
+            break
+        if limit.least < max(lifts, 0.0) and raising.lift(limit):
+            continue
+        first = first or limit
+        if limit.least >= lifts:
+            break
+        raising.settle(limit)
+    if told:
+        yield Step(raising.points, {"least": raising.least}, decision=_what_limits(first or limit), more=True)
+    return raising.points
 
 
 def _what_limits(limit: Limit) -> str:
@@ -223,10 +273,8 @@ def _what_limits(limit: Limit) -> str:
     if not count:
         return ""
     hexes = ", ".join(f"{number:,}" for number in dict.fromkeys(limit.hexes[:8].tolist()))
-    return (
-        f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}: {count} of them hold each "
-        f"other there, in the hexes {hexes}."
-    )
+    who = f"{count} of them hold each other there, in the hexes" if count > 1 else "it can go no further, in hex"
+    return f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}: {who} {hexes}."
 
 
 def _end(taken: Descent | None) -> Outcome:

@@ -105,6 +105,27 @@ class Skin:
         """How far each of x (k, 3) is from the surface, (k,), in the mesh's unit."""
         return np.linalg.norm(self.closest(x) - x, axis=1)
 
+    def closest_on(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The places of the surface that are closest to x (k, 3), by the nodes that make them.
+
+        Returns
+        -------
+        places : (k, 3)
+        nodes : (k, 4) or (k, 3)
+            Those of the face that each is on.
+        weights : (k, 4) or (k, 3)
+            Of these nodes there.
+        """
+        found = self._trees.closest(x, np.zeros(len(x), dtype=np.int64))
+        pieces, width = self._trees.pieces[found.pieces], self.faces.shape[1]
+        if width == 3:
+            return found.places, pieces, found.weights
+        nodes = self.faces[pieces[:, 2] - len(self.points)]
+        weights = np.repeat(found.weights[:, 2:] / width, width, axis=1)
+        for end in range(2):
+            weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
+        return found.places, nodes, weights
+
     def closest(self, x: np.ndarray) -> np.ndarray:
         """The places of the surface that are closest to x (k, 3), (k, 3)."""
         return self._trees.closest(x, np.zeros(len(x), dtype=np.int64)).places

@@ -9,13 +9,15 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.surface.boundary import Kind, boundary_of
 from hexmend.surface.change import Skin
-from hexmend.surface.features import DEGREES
+from hexmend.surface.features import DEGREES, given_corners
 from hexmend.surface.surface import Surface
 from hexmend.surface.trees import Closest
 
 #: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
 #: is the tangent, at its edges the mean of those around.
 _INNER = 1e-3
+#: The share of its room that a boundary has to have used before what it has left behind is looked for.
+CLOSE = 0.3
 
 
 class Sliding:
@@ -50,6 +52,8 @@ class Sliding:
         fixed = mesh.fixed & ~slides
         self.mesh = mesh.with_fixed(fixed)
         self.nodes = np.flatnonzero(slides)
+        self.yields = self.boundary.kind == Kind.CORNER
+        self.yields[given_corners(mesh)] = False
         self._group = self.surface.group_of(self.nodes)
         self._number = np.full(mesh.n_nodes, -1, dtype=np.int64)
         self._number[self.nodes] = np.arange(self.nodes.size)
@@ -99,7 +103,7 @@ class Sliding:
     @cached_property
     def middles(self) -> np.ndarray:
         """Nodes whose means are the middles of the boundary's edges and faces, (s, 4) int: an edge's nodes twice."""
-        return np.concatenate([np.tile(self.skin.edges.nodes, 2), self.boundary.faces, np.tile(self.nodes[:, None], 4)])
+        return np.concatenate([np.tile(self.skin.edges.nodes, 2), self.boundary.faces, np.tile(self.skin.nodes[:, None], 4)])
 
     def middles_at(self, nodes: np.ndarray) -> np.ndarray:
         """Which of `middles` move with some nodes, (k,) int64."""
@@ -114,12 +118,36 @@ class Sliding:
         far = np.linalg.norm(away, axis=1)
         return far, away / np.maximum(far, np.finfo(float).tiny)[:, None]
 
+    def behind(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """How far the surface's nodes and middles are from the boundary as it is now.
+
+        Returns
+        -------
+        far : (s,)
+        away : (s, 3)
+            Unit vectors from the boundary to them.
+        nodes, weights : (s, 4)
+            What makes the closest places of the boundary.
+        """
+        x = self._samples
+        places, nodes, weights = self.skin.with_points(points).closest_on(x)
+        far = np.linalg.norm(x - places, axis=1)
+        return far, (x - places) / np.maximum(far, np.finfo(float).tiny)[:, None], nodes, weights
+
+    @cached_property
+    def _samples(self) -> np.ndarray:
+        return self.skin.samples()
+
     def beyond(self, points: np.ndarray) -> np.ndarray:
         """The nodes at which the boundary has left its room, (k,) int."""
         if not np.isfinite(self.room):
             return np.empty(0, dtype=np.int64)
         far, _ = self.off(points, np.arange(len(self.middles)))
-        return np.unique(self.middles[far > self.room])
+        beyond = self.middles[far > self.room].ravel()
+        if far.max(initial=0.0) > CLOSE * self.room:
+            far, _, nodes, _ = self.behind(points)
+            beyond = np.concatenate([beyond, nodes[far > self.room].ravel()])
+        return np.unique(beyond)
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
         return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
