@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES
 
 #: Hexes whose corners are worked out at a time.
 _HEXES = 50_000
@@ -36,7 +36,7 @@ def of_corners(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
     return _parts(points, corners)[0]
 
 
-def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Scaled Jacobians of corners (k, 4) with their derivatives by the four nodes.
 
     Returns
@@ -45,8 +45,6 @@ def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.n
     derivatives : (k, 4, 3)
         With s = (u, v x w)/(|u| |v| |w|), ds/du = (v x w)/(|u| |v| |w|) - s u/|u|^2, and so on round; of the apex minus
         their sum. 0 where an edge has no length.
-    lengths : (k, 3)
-        Of the edges.
     """
     values, edges, lengths, across = _parts(points, corners)
     size = lengths.prod(axis=1)[:, None, None]
@@ -54,7 +52,17 @@ def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.n
     by_edge = across / np.where(sound, size, 1.0)
     by_edge -= values[:, None, None] * edges / np.where(sound, np.square(lengths)[:, :, None], 1.0)
     by_edge *= sound
-    return values, np.concatenate([-by_edge.sum(axis=1, keepdims=True), by_edge], axis=1), lengths
+    return values, np.concatenate([-by_edge.sum(axis=1, keepdims=True), by_edge], axis=1)
+
+
+def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Length of the shortest edge of some hexes at each node, (n,); +inf at nodes of none of them."""
+    size = np.full(len(points), np.inf)
+    ends = hexes[:, EDGES].reshape(-1, 2)
+    lengths = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
+    for side in ends.T:
+        np.minimum.at(size, side, lengths)
+    return size
 
 
 def _parts(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

@@ -9,7 +9,7 @@ say which corners hold each other: no direction raises one without lowering anot
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Generator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +17,8 @@ import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh import Mesh
-from hexmend.optimise.corners import gradients, scaled_jacobians
+from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
+from hexmend.optimise.iteration import Step
 from hexmend.surface import Sliding
 from hexmend.surface.sliding import CLOSE
 
@@ -36,6 +37,8 @@ FEW, MANY = 300, 1_200
 NOTHING, LITTLE, LATELY = 1e-6, 2e-5, 10
 #: What a multiplier counts from on, the sum of all being 1.
 HOLDS = 1e-3
+#: By how many radii, in mean edge lengths, a boundary that has strayed is brought nearer at a time; what is enough.
+NEARER, EXACT = 0.2, 1e-6
 #: Ways around a place of a patch, in its basis.
 _AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
 #: Share of the gain that may be given away so that nodes stay which need not move.
@@ -61,6 +64,10 @@ class Raised:
     least: float
     corners: int
     radius: float
+
+    def step(self) -> Step:
+        """As a smoother yields it."""
+        return Step(self.points, {"least": self.least, "corners": self.corners, "radius": self.radius}, more=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +117,7 @@ class Raising:
         self.settled = np.zeros(self.values.shape, dtype=bool)
         self.lifted = np.zeros(mesh.n_nodes, dtype=bool)
         self._floor = np.full(self.values.shape, -np.inf)
+        self.room = np.inf if sliding is None else sliding.room
         self._looked: tuple[np.ndarray, tuple[np.ndarray, ...]] | None = None
         self._begin()
 
@@ -118,8 +126,8 @@ class Raising:
         """The least scaled Jacobian of the corners that are raised; +inf where there is none."""
         return float(self._raised().min(initial=np.inf))
 
-    def steps(self, aim: float = np.inf) -> Generator[Raised, None, Limit]:
-        """Steps that raise the least, until none does any more, or it has reached `aim`."""
+    def steps(self, aim: float = np.inf) -> Iterator[Raised | Limit]:
+        """Steps that raise the least, until none does any more, or it has reached `aim`; at last what limits it."""
         self._begin()
         gains = [np.inf] * LATELY
         while self._radius > SMALLEST and self.least < aim:
@@ -139,7 +147,37 @@ class Raising:
                     break
                 self._most, self._radius = 2 * self._most, max(self._radius, NARROWEST)
                 gains.append(np.inf)
-        return self._limit()
+        yield self._limit()
+
+    def into(self, room: float) -> Iterator[Raised]:
+        """Steps that bring the boundary nearer to the surface until it is in its room; the least falls as it must."""
+        self._begin()
+        while self._radius > SMALLEST and (far := self.furthest()) > room * (1 + EXACT):
+            radius = self._radius
+            self.room, least = max(room, far - NEARER * radius * self.mesh.mean_edge_length), self.least
+            low = np.flatnonzero(self._raised().ravel() < least + NARROWEST)[: self._most]
+            _, points, moved = self._step(low, NARROWEST, self._strayed())
+            old, self.points = self.points, points
+            if self.furthest() > far - BRINGS * (far - self.room):
+                self.points = old
+                self._radius *= SHRINK
+                continue
+            hexes = np.unique(self.mesh.topology.node_corners.of(moved) // 8)
+            self.values[hexes] = scaled_jacobians(points, self.mesh.hexes[hexes])
+            self._radius = min(GROW * self._radius, LARGEST)
+            yield Raised(points, self.least, low.size, radius)
+        self.room = room
+
+    def furthest(self) -> float:
+        """The largest distance of the boundary and the surface, both ways."""
+        return 0.0 if self.sliding is None else max(self._far(), float(self._behind()[0].max(initial=0.0)))
+
+    def _strayed(self) -> np.ndarray:
+        """Free nodes where the boundary is out of its room."""
+        far, _ = self.sliding.off(self.points, np.arange(len(self.sliding.middles)))
+        behind, _, nodes, _ = self._behind()
+        found = np.unique(np.concatenate([self.sliding.middles[far > self.room], nodes[behind > self.room]]))
+        return found[self.mesh.free[found]]
 
     def settle(self, limit: Limit) -> None:
         """Let the corners that hold each other be: those that are left can be raised further."""
@@ -149,7 +187,7 @@ class Raising:
 
     def lift(self, limit: Limit) -> bool:
         """Let sliding nodes of the corners that hold each other leave the surface; whether there is one more."""
-        if self.sliding is None or not self.sliding.room > 0:
+        if self.sliding is None or not self.room > 0:
             return False
         nodes = np.unique(self.mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]])
         nodes = nodes[self.sliding.slides(nodes) & ~self.lifted[nodes]]
@@ -172,8 +210,10 @@ class Raising:
         """The values, +inf of corners that cannot be moved or are settled, (m, 8)."""
         return np.where(self._held | self.settled, np.inf, self.values)
 
-    def _step(self, low: np.ndarray, band: float) -> tuple[float, np.ndarray, np.ndarray]:
-        """Solve the linear program of the nodes at corners `low`.
+    def _step(
+        self, low: np.ndarray, band: float, strayed: np.ndarray | None = None
+    ) -> tuple[float, np.ndarray, np.ndarray]:
+        """Solve the linear program of the nodes at corners `low`; of those too that have strayed, the least may fall.
 
         Returns the gain that it promises, all points with these nodes moved and put back, and which these are.
         """
@@ -182,22 +222,25 @@ class Raising:
         hexes, radius, least = self.mesh.hexes, self._radius, self.least
         nodes = np.unique(_nodes(hexes, low))
         nodes = nodes[self.mesh.free[nodes]]
+        if strayed is not None:
+            nodes = np.union1d(nodes, strayed)
         around = np.unique(self.mesh.topology.node_corners.of(nodes) // 8)
         near = (8 * around[:, None] + np.arange(8)).ravel()
         above = self.values.ravel()[near] - np.where(self.settled.ravel()[near], self._floor.ravel()[near], least)
         near = near[(above < band + FALL * radius) & ~self._held.ravel()[near]]
         ends = _nodes(hexes, near)
-        values, derivatives, lengths = gradients(self.points, ends)
-        size = np.full(self.mesh.n_nodes, np.inf)
-        for end, length in ((0, lengths.min(axis=1)), (1, lengths[:, 0]), (2, lengths[:, 1]), (3, lengths[:, 2])):
-            np.minimum.at(size, ends[:, end], length)
+        values, derivatives = gradients(self.points, ends)
+        size = shortest_edges(self.points, hexes[around])
         settled = self.settled.ravel()[near]
         above = np.maximum(values - np.where(settled, self._floor.ravel()[near], least), 0.0)
         models = _Models(ends, above, derivatives, 1.0 - settled)
-        if self.sliding is not None and np.isfinite(self.sliding.room):
-            models = models.and_those(self._room(nodes, size))
+        if self.sliding is not None and np.isfinite(self.room):
+            room = self._room(nodes, size)
+            if strayed is None:
+                np.maximum(room.above, 0.0, out=room.above)
+            models = models.and_those(room)
         ways = self._ways(nodes, size)
-        solved = linprog(*_program(nodes, ways, models, radius), method="highs")
+        solved = linprog(*_program(nodes, ways, models, radius, strayed is not None), method="highs")
         if solved.status != 0:
             return 0.0, self.points, nodes
         self._multipliers = near, -solved.ineqlin.marginals[: near.size]
@@ -221,17 +264,17 @@ class Raising:
         far, away = sliding.off(self.points, which)
         ends = sliding.middles[which]
         reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
-        near = far + reach > sliding.room
+        near = far + reach > self.room
         ends, far, away = ends[near], far[near], away[near]
-        models = _bounds(ends, sliding.room - far, np.repeat(-away[:, None] / 4, 4, axis=1))
-        if self._far() > CLOSE * sliding.room:
+        models = _bounds(ends, self.room - far, np.repeat(-away[:, None] / 4, 4, axis=1))
+        if self._far() > CLOSE * self.room:
             far, away, ends, weights = self._behind()
             moved = np.zeros(self.mesh.n_nodes, dtype=bool)
             moved[nodes] = True
             reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
-            near = moved[ends].any(axis=1) & (far + reach > sliding.room)
+            near = moved[ends].any(axis=1) & (far + reach > self.room)
             slopes = weights[near, :, None] * away[near, None, :]
-            models = models.and_those(_bounds(ends[near], sliding.room - far[near], slopes))
+            models = models.and_those(_bounds(ends[near], self.room - far[near], slopes))
         return models
 
     def _far(self) -> float:
@@ -246,11 +289,11 @@ class Raising:
 
     def _leaves(self, points: np.ndarray, nodes: np.ndarray) -> bool:
         """Whether the boundary at nodes has left its room, further than it was."""
-        if self.sliding is None or not np.isfinite(self.sliding.room):
+        if self.sliding is None or not np.isfinite(self.room):
             return False
         which = self.sliding.middles_at(nodes)
         before, after = (self.sliding.off(x, which)[0] for x in (self.points, points))
-        room = self.sliding.room
+        room = self.room
         if (after > np.maximum(before, room)).any():
             return True
         if max(after.max(initial=0.0), self._far()) <= CLOSE * room:
@@ -358,10 +401,10 @@ class _Models:
 
 def _bounds(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> _Models:
     """Models of what is not to fall below its bound."""
-    return _Models(ends, np.maximum(above, 0.0), slopes, np.zeros(len(above)))
+    return _Models(ends, above, slopes, np.zeros(len(above)))
 
 
-def _program(nodes: np.ndarray, ways: _Ways, models: _Models, radius: float) -> tuple[Any, ...]:
+def _program(nodes: np.ndarray, ways: _Ways, models: _Models, radius: float, falls: bool) -> tuple[Any, ...]:
     """The linear program of a step, as `scipy.optimize.linprog` takes it: costs, matrix, limits, bounds.
 
     Unknowns are how far nodes (k,) go each of their ways, up to a radius, and what the least rises by. Those nodes stay
@@ -387,7 +430,7 @@ def _program(nodes: np.ndarray, ways: _Ways, models: _Models, radius: float) -> 
     cost[-1] = -1.0
     bounds = np.zeros((unknowns, 2))
     bounds[:, 1] = radius
-    bounds[-1, 1] = 2.0
+    bounds[-1] = -2.0 if falls else 0.0, 2.0
     return cost, coo_array((entries, at), shape=(rows, unknowns)).tocsr(), models.above, None, None, bounds
 
 

@@ -47,6 +47,11 @@ LATELY, SLOW = 5, 2e-3
 #: Least scaled Jacobian from which on a hex is sound enough for the energy's barrier, and below which one is so bad
 #: that nodes of the boundary leave the surface for it.
 SOUND, AIM = 0.02, 0.2
+#: What share of its room the boundary may use where that is enough; how far it may go at first where it is not, in
+#: mean edge lengths, until the least is so many times `AIM`.
+SPARED, WIDE, ENOUGH = 1 / 3, 1.5, 1.2
+#: How many groups of corners that hold each other below `AIM` are left behind; and while nodes leave the surface.
+CLUSTERS, MANY_CLUSTERS = 5, 30
 
 SEARCH = BackLineSearch(shrink=0.5)
 
@@ -74,7 +79,7 @@ class Mend(Smoother):
         40.0, low=1, high=180, unit="degrees", help="Along edges at which the boundary turns by more nodes only slide."
     )
     surface_tolerance: float = parameter(
-        0.1, low=0, high=10, unit="mean edge length", help="How far the sliding boundary may leave where it was."
+        0.3, low=0, high=10, unit="mean edge length", help="How far the sliding boundary may leave where it was."
     )
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
@@ -98,22 +103,36 @@ class Mend(Smoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
-        more = self.goal != "shape" or self.boundary == "slide"
-        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), more)
+        slides, raises = self.boundary == "slide", self.goal != "shape"
+        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), slides or raises)
         places, sliding = [mesh.points, points], None
-        if self.boundary == "slide":
-            sliding = Sliding(mesh, self.feature_angle, self.surface_tolerance * mesh.mean_edge_length)
-            freed = yield from raise_least(Raising(sliding.mesh, points, sliding), SOUND)
-            points, outcome = yield from self._shaped(
-                sliding.mesh.with_points(freed), SlidingEnergy(sliding, self.p), self.goal != "shape"
-            )
-            places += [freed, points]
-        if self.goal != "shape":
+        if slides:
+            room = self.surface_tolerance * mesh.mean_edge_length
+            sliding = Sliding(mesh, self.feature_angle, SPARED * room)
+            freeing = Raising(sliding.mesh, points, sliding)
+            yield from raise_least(freeing, SOUND, clusters=1)
+            energy = SlidingEnergy(sliding, self.p)
+            points, outcome = yield from self._shaped(sliding.mesh.with_points(freeing.points), energy, True)
+            places += [freeing.points, points]
+        if raises or slides:
             at = mesh if sliding is None else sliding.mesh
             best = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.least)
-            yield from raise_least(best, lifts=AIM, told=True)
             outcome = Outcome.NO_IMPROVEMENT
+            if raises or best.least < SOUND:
+                yield from raise_least(best, np.inf if raises else SOUND, clusters=CLUSTERS, told=raises)
+            if slides and best.least < (AIM if raises else SOUND):
+                yield from self._lifted(sliding, places[1], room)
         return outcome
+
+    def _lifted(self, sliding: Sliding, points: np.ndarray, room: float) -> Generator[Step, None, None]:
+        """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room."""
+        raising = Raising(sliding.mesh, points, sliding)
+        raising.room = WIDE * sliding.mesh.mean_edge_length
+        yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS)
+        for step in raising.into(room):
+            yield step.step()
+        if raising.furthest() <= room * (1 + 1e-5):
+            yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS, told=True)
 
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Untangle, then go to the optimum of shape; `more` where that is not the end."""
@@ -229,43 +248,41 @@ def _swept(
 
 
 def raise_least(
-    raising: Raising, aim: float = np.inf, lifts: float = 0.0, told: bool = False
-) -> Generator[Step, None, np.ndarray]:
-    """Raise the least scaled Jacobian; returns the points.
+    raising: Raising, aim: float = np.inf, lifts: float = -np.inf, clusters: int = 1, told: bool = False
+) -> Generator[Step, None, None]:
+    """Raise the least scaled Jacobian.
 
-    Where corners hold each other below `aim`, what is above them is raised further. Below `lifts`, nodes of the
+    Where corners hold each other below `aim`, those that are above them are raised further. Below `lifts`, nodes of the
     boundary leave the surface for that.
 
     Parameters
     ----------
     raising : Raising
     aim, lifts : float
+    clusters : int
+        How many groups of corners that hold each other are left behind, at most.
     told : bool
         Whether what limits it is a decision of the run.
     """
     first = None
-    if told:
-        yield Step(raising.points, {"least": raising.least}, more=True)
-    while True:
-        steps = raising.steps(aim)
-        while True:
-            try:
-                step = next(steps)
-            except StopIteration as end:
-                limit = end.value
-                break
-            yield Step(step.points, {"least": step.least, "corners": step.corners, "radius": step.radius}, more=True)
+    yield Step(raising.points, {"least": raising.least}, more=True)
+    while clusters:
+        limit = None
+        for step in raising.steps(aim):
+            limit = step if isinstance(step, Limit) else limit
+            if limit is None:
+                yield step.step()
         if not limit.hexes.size or limit.least >= aim:
             break
-        if limit.least < max(lifts, 0.0) and raising.lift(limit):
+        if limit.least < lifts and raising.lift(limit):
             continue
         first = first or limit
-        if limit.least >= lifts:
+        if limit.least >= AIM:
             break
         raising.settle(limit)
+        clusters -= 1
     if told:
         yield Step(raising.points, {"least": raising.least}, decision=_what_limits(first or limit), more=True)
-    return raising.points
 
 
 def _what_limits(limit: Limit) -> str:
