@@ -43,8 +43,20 @@ class Info:
             print(to_json(answer))
             return 0
         from hexmend.cli.tables import print_spreads, print_summaries
+        from hexmend.figures import count
 
         print_summaries(args.mesh, [""], [summary])
+        if summary.locked_inverted:
+            from hexmend.quality import locked
+            from hexmend.surface import freed_by_sliding
+
+            which = locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
+            freed = int(freed_by_sliding(mesh, which).sum())
+            print(
+                f"Of {count(summary.locked_inverted)} locked, a boundary that slides (--boundary slide) can free "
+                f"{count(freed)}; {count(summary.locked_inverted - freed)} are held by corners, flat faces or straight "
+                "edges of it."
+            )
         if args.metrics:
             print_spreads(metrics)
         for finding in doctor.examine(mesh):

@@ -18,7 +18,8 @@ from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.raising import Limit, Raising
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, corner_determinants, measure
-from hexmend.smoothers.smoother import Smoother, Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import Steps, method
 from hexmend.surface import Sliding
 
 #: Newton steps on one delta; the energy is not worth minimising before delta is what it is to be.
@@ -53,7 +54,7 @@ SEARCH = BackLineSearch(shrink=0.5)
 
 @method
 @dataclass(frozen=True)
-class Mend(Smoother):
+class Mend(SlidingSmoother):
     """Every free node at once by truncated Newton steps, on a barrier that hardens until no hex is inverted."""
 
     name = "mend"
@@ -66,12 +67,6 @@ class Mend(Smoother):
         "shape",
         choices=("shape", "scaled-jacobian"),
         help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
-    )
-    boundary: str = parameter(
-        "fixed", choices=("fixed", "slide"), help="Whether nodes of the boundary stay, or slide on the surface (5.2.1)."
-    )
-    feature_angle: float = parameter(
-        40.0, low=1, high=180, unit="degrees", help="Along edges at which the boundary turns by more nodes only slide."
     )
     surface_tolerance: float = parameter(
         0.1, low=0, high=10, unit="mean edge length", help="How far the sliding boundary may leave where it was."
@@ -98,10 +93,10 @@ class Mend(Smoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
-        more = self.goal != "shape" or self.boundary == "slide"
+        more = self.goal != "shape" or self.slides
         points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), more)
         places, sliding = [mesh.points, points], None
-        if self.boundary == "slide":
+        if self.slides:
             sliding = Sliding(mesh, self.feature_angle, self.surface_tolerance * mesh.mean_edge_length)
             freed = yield from raise_least(Raising(sliding.mesh, points, sliding), SOUND)
             points, outcome = yield from self._shaped(

@@ -12,6 +12,7 @@ from hexmend.surface.change import Skin
 from hexmend.surface.features import DEGREES, given_corners
 from hexmend.surface.surface import Surface
 from hexmend.surface.trees import Closest
+from hexmend.topology import Rows
 
 #: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
 #: is the tangent, at its edges the mean of those around.
@@ -26,7 +27,7 @@ class Sliding:
     Parameters
     ----------
     mesh : Mesh
-        Its boundary, as it is now, is what nodes slide on.
+        Its `surface` is what nodes of its boundary slide on.
     degrees : float
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
 
@@ -45,9 +46,9 @@ class Sliding:
     """
 
     def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
-        self.room, self._points = room, mesh.points
-        self.boundary = boundary_of(mesh, degrees)
-        self.surface = Surface(mesh.points, self.boundary)
+        self.room, self._points = room, mesh.surface
+        self.boundary = boundary_of(mesh.with_points(mesh.surface), degrees)
+        self.surface = Surface(mesh.surface, self.boundary)
         slides = self.boundary.kind >= Kind.CURVE
         fixed = mesh.fixed & ~slides
         self.mesh = mesh.with_fixed(fixed)
@@ -94,6 +95,31 @@ class Sliding:
         bases[curve, :, 0] = along[curve]
         bases[~curve, :, :2] = _across(along[~curve])
         return bases
+
+    def tangents(self, points: np.ndarray) -> np.ndarray:
+        """The directions of `bases` for all that slide, nodes being at points (n, 3): one after the other, (k, 6)."""
+        return np.ascontiguousarray(self.bases(points[self.nodes])[:, :, :2].transpose(0, 2, 1)).reshape(-1, 6)
+
+    @cached_property
+    def ground(self) -> tuple[np.ndarray, ...]:
+        """What `hexmend.kernels.sliding` takes: slots, roots, vertices, pieces, boxes, links."""
+        trees = self.surface.trees
+        slots = self._number.astype(np.int32)
+        return slots, trees.roots[self._group], trees.points, trees.pieces, trees.boxes, trees.links
+
+    @cached_property
+    def rings(self) -> Rows:
+        """Edge neighbours of each node, of those that slide only the ones on their own curve or patch, and its ends."""
+        kind, whole = self.boundary.kind, self.mesh.topology.rings
+        node = np.repeat(np.arange(self.mesh.n_nodes), np.diff(whole.start))
+        ways = [np.stack([node, whole.items], axis=1)[self._number[node] < 0]]
+        for of, along in (Kind.CURVE, self.boundary.segments), (Kind.PATCH, self.skin.edges.nodes):
+            both = np.concatenate([along, along[:, ::-1]])
+            ways.append(both[kind[both[:, 0]] == of])
+        ways = np.concatenate(ways)
+        ways = ways[np.lexsort((ways[:, 1], ways[:, 0]))]
+        start = np.searchsorted(ways[:, 0], np.arange(self.mesh.n_nodes + 1))
+        return Rows(start.astype(np.int32), np.ascontiguousarray(ways[:, 1], dtype=np.int32))
 
     @cached_property
     def skin(self) -> Skin:
