@@ -52,10 +52,10 @@ class Info:
 
             which = locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
             freed = int(freed_by_sliding(mesh, which).sum())
+            left = summary.locked_inverted - freed
             print(
-                f"Of {count(summary.locked_inverted)} locked, a boundary that slides (--boundary slide) can free "
-                f"{count(freed)}; {count(summary.locked_inverted - freed)} are held by corners, flat faces or straight "
-                "edges of it."
+                f"Locked: {count(freed)} can be freed where the boundary slides (--boundary slide), "
+                f"{count(left)} cannot."
             )
         if args.metrics:
             print_spreads(metrics)
