@@ -6,8 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.hexahedron import FACES
 from hexmend.mesh import Mesh
-from hexmend.surface.boundary import Kind, boundary_of
+from hexmend.quality import corner_determinants
+from hexmend.surface.boundary import Boundary, Kind, boundary_of
 from hexmend.surface.change import Skin
 from hexmend.surface.features import DEGREES, given_corners
 from hexmend.surface.surface import Surface
@@ -47,7 +49,12 @@ class Sliding:
 
     def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
         self.room, self._points = room, mesh.surface
-        self.boundary = boundary_of(mesh.with_points(mesh.surface), degrees)
+        original = mesh.with_points(mesh.surface)
+        self.boundary = boundary_of(original, degrees)
+        bends = kept_bends(original, self.boundary)
+        if bends.size:
+            kept = np.concatenate([given_corners(mesh), bends])
+            self.boundary = boundary_of(original, degrees, corners=kept)
         self.surface = Surface(mesh.surface, self.boundary)
         slides = self.boundary.kind >= Kind.CURVE
         fixed = mesh.fixed & ~slides
@@ -177,6 +184,27 @@ class Sliding:
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
         return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
+
+
+def kept_bends(mesh: Mesh, boundary: Boundary) -> np.ndarray:
+    """Nodes of curves that had better not slide, (k,) int: of a face with both edges at the node on the curve.
+
+    The bend of the curve at such a node is all that holds the hex's corner open: on one straight segment with its
+    neighbours it would be flat for good, sigma being 0 and its derivative along the curve too. Where the corner is
+    inverted as it is, the node may as well slide.
+    """
+    hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
+    ahead = _keys(boundary.faces, np.roll(boundary.faces, -1, axis=1), mesh.n_nodes)
+    on_curve = np.isin(ahead, _keys(*boundary.segments.T, mesh.n_nodes))
+    at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.kind[boundary.faces] == Kind.CURVE)
+    face, place = np.nonzero(at)
+    sigma = corner_determinants(mesh.points, mesh.hexes, hexes[face])
+    corner = FACES[sides[face], place]
+    return np.unique(boundary.faces[face, place][sigma[np.arange(face.size), corner] > 0])
+
+
+def _keys(one: np.ndarray, other: np.ndarray, n: int) -> np.ndarray:
+    return np.minimum(one, other).astype(np.int64) * n + np.maximum(one, other)
 
 
 def _across(normals: np.ndarray) -> np.ndarray:
