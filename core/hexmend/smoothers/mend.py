@@ -186,7 +186,7 @@ class Mend(SlidingSmoother):
                 if poor is not None and poor.any():
                     x = _swept(energy, x, poor, left_out, 0.0, p, POOR_SWEEPS)
                 taken = descend(energy, x, 0.0, find, SEARCH, REACH)
-                if taken is None or (taken.alpha == 0 and taken.slope < 0):
+                if taken is None or (taken.alpha == 0 and (taken.slope < 0 or more)):
                     break
                 values.append(taken.value)
                 if energy.faceted and len(values) > LATELY and values[-LATELY] - values[-1] < SLOW * values[-1]:

@@ -136,7 +136,9 @@ class Sliding:
     @cached_property
     def middles(self) -> np.ndarray:
         """Nodes whose means are the middles of the boundary's edges and faces, (s, 4) int: an edge's nodes twice."""
-        return np.concatenate([np.tile(self.skin.edges.nodes, 2), self.boundary.faces, np.tile(self.skin.nodes[:, None], 4)])
+        return np.concatenate(
+            [np.tile(self.skin.edges.nodes, 2), self.boundary.faces, np.tile(self.skin.nodes[:, None], 4)]
+        )
 
     def middles_at(self, nodes: np.ndarray) -> np.ndarray:
         """Which of `middles` move with some nodes, (k,) int64."""
