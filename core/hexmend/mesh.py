@@ -142,10 +142,20 @@ class Mesh:
             raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
         check_finite(points)
         copy = self._copy()
-        for known in ("fixed", "free"):
-            if known in self.__dict__:
-                object.__setattr__(copy, known, self.__dict__[known])
+        copy._set(**{known: self.__dict__[known] for known in ("fixed", "free", "_surface") if known in self.__dict__})
         copy._set(points=_frozen(points))
+        return copy
+
+    @property
+    def surface(self) -> np.ndarray:
+        """Places of nodes, (n, 3), at which the boundary is the surface that it slides on; see `keeping_surface`."""
+        return self.__dict__.get("_surface", self.points)
+
+    def keeping_surface(self) -> Mesh:
+        """The same mesh, whose boundary slides on the surface of now wherever `with_points` puts its nodes."""
+        copy = self._copy()
+        copy._set(**{known: self.__dict__[known] for known in ("fixed", "free") if known in self.__dict__})
+        copy._set(_surface=self.surface)
         return copy
 
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
@@ -156,7 +166,7 @@ class Mesh:
         fixed : (n,) bool
         """
         copy = self._copy()
-        copy._set(fixed=_frozen(np.array(fixed, dtype=bool)))
+        copy._set(fixed=_frozen(np.array(fixed, dtype=bool)), _surface=self.surface)
         return copy
 
     def replace(self, **changes: object) -> Mesh:

@@ -144,7 +144,7 @@ def test_locked_hexes_are_named_and_nothing_vain_is_suggested():
     assert advice.locked.tolist() == [mesh.topology.node_corners.items[0] // 8]
     assert advice.loose.size == 0
     assert "1 of 300 hexes is inverted. It is locked: fixed nodes alone hold it in inversion" in advice.left
-    assert "Correct the boundary" in advice.left
+    assert "Let it slide (boundary = slide)" in advice.left
     assert advice.suggestions == ()
 
 
@@ -194,3 +194,10 @@ def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(met
     assert advice.nothing == ""
     finished = advise(smooth(make("cube", size=27), "mend"))
     assert (finished.suggestions, finished.nothing) == ((), "Nothing is known that would better this mesh.")
+
+
+def test_a_locked_hex_that_sliding_has_not_freed_is_not_told_to_slide():
+    result = smooth(with_locked_corner(grid(1)), METHODS["local-nr"](boundary="slide"))
+    left = advise(result).left
+    assert "sliding has not freed these" in left
+    assert "Correct the boundary" in left

@@ -109,7 +109,13 @@ def _locked(now: Situation) -> str:
     many, one = now.locked.size, now.locked.size == 1
     every = many == now.result.after.inverted
     which = ("It is" if one else "All of them are") if every else f"{many:,} of them {'is' if one else 'are'}"
-    said = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion, and no method moves these."
+    said = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion"
+    if now.result.surface is None:
+        said += ", and no method moves these unless the boundary slides."
+        remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
+    else:
+        said += " where the boundary is fixed, and sliding has not freed these."
+        remedy = " Correct the boundary where the mesh was made."
     if not now.pins_of(now.locked).size:
-        said += " Correct the boundary where the mesh was made."
+        said += remedy
     return said

@@ -121,8 +121,9 @@ class SlidingHessian(Hessian):
         at, row, column = energy.touched
         blocks = of_slot[row] @ matrix.off[at].reshape(-1, 3, 3) @ of_slot[column]
         matrix.off[at] = blocks.reshape(-1, 9)
-        own = full(matrix.diagonal[slots])
-        size = np.trace(own, axis1=1, axis2=2)[:, None, None] / 3
-        own = along @ own @ along + np.maximum(size, 1) * (np.eye(3, dtype=dtype) - along)
+        own = along @ full(matrix.diagonal[slots]) @ along
+        size = np.abs(np.trace(own, axis1=1, axis2=2) / np.maximum(np.trace(along, axis1=1, axis2=2), 1))
+        size = np.where(size > 0, size, 1)[:, None, None]  # neither the least nor the greatest eigenvalue
+        own += size * (np.eye(3, dtype=dtype) - along)
         matrix.diagonal[slots] = own.reshape(-1, 9)[:, [0, 1, 2, 4, 5, 8]]
         return matrix

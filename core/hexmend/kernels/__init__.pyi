@@ -26,6 +26,7 @@ from hexmend.kernels import reach as reach
 from hexmend.kernels import shape as shape
 from hexmend.kernels import sides as sides
 from hexmend.kernels import skin as skin
+from hexmend.kernels import sliding as sliding
 from hexmend.kernels import structure as structure
 from hexmend.kernels import symmetric as symmetric
 from hexmend.kernels import visiting as visiting

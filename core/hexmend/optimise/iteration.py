@@ -13,6 +13,7 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.optimise.stop import Stop
 from hexmend.quality import ElementQuality, Summary, objective, worse
+from hexmend.surface import SurfaceChange
 
 
 class Outcome(Enum):
@@ -166,6 +167,8 @@ class Result:
     stages : tuple of StageResult
         What each method did: of a run of one method one, else the stages of a recipe as they were run, or the methods
         of a run whose method was changed on the way.
+    surface : SurfaceChange or None
+        How far the boundary has left where it was; None where no method let it slide.
     """
 
     mesh: Mesh
@@ -181,6 +184,7 @@ class Result:
     setup_seconds: float
     history: tuple[dict[str, float | int | None], ...]
     stages: tuple[StageResult, ...]
+    surface: SurfaceChange | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:

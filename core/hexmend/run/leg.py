@@ -69,10 +69,10 @@ class Leg:
         self._best_rank = self._rank(self._best)
         self._consider(start)
         began = perf_counter()
-        self._steps = self.smoother.steps(mesh.with_points(start.points))
+        self._steps = self.smoother.steps(mesh.keeping_surface().with_points(start.points))
         next(self._steps)
         self.setup_seconds = perf_counter() - began
-        if not mesh.free.any():
+        if not mesh.free.any() and not self.smoother.movable(mesh).any():
             self.end(Outcome.NOTHING_FREE)
         else:
             self._end_at_a_limit()

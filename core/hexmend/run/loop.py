@@ -13,6 +13,8 @@ from hexmend.recipe import Recipe, Stage
 from hexmend.run.leg import Leg
 from hexmend.run.words import changes, iterations, kept
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.surface import SurfaceChange, surface_change
+from hexmend.surface.features import DEGREES
 
 
 class Run(Iterator[Iteration]):
@@ -181,8 +183,9 @@ class Run(Iterator[Iteration]):
         """The record of the run as far as it went."""
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._legs) > 1
+        mesh = self.mesh.with_points(self.reached.points)
         return Result(
-            mesh=self.mesh.with_points(self.reached.points),
+            mesh=mesh,
             before=before,
             after=after,
             method=Recipe.name if several else self.smoother.name,
@@ -195,7 +198,13 @@ class Run(Iterator[Iteration]):
             setup_seconds=self.setup_seconds,
             history=tuple(self.history),
             stages=tuple(leg.result() for leg in self._legs),
+            surface=self._surface_change(mesh),
         )
+
+    def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
+        """Of the boundary as given to that of a mesh, where a method let it slide."""
+        angles = [leg.smoother.values().get("feature_angle", DEGREES) for leg in self._legs if leg.smoother.slides]
+        return surface_change(self.mesh, mesh, angles[0]) if angles else None
 
     def _summaries(self) -> tuple[Summary, Summary]:
         """Of the mesh as given and of what was reached."""

@@ -5,17 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hexmend.kernels import laplacian as kernels
+from hexmend.kernels import sliding as on_surface
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
 from hexmend.smoothers.order import ORDERS
-from hexmend.smoothers.smoother import Smoother, Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import Steps, method
 
 
 @method
 @dataclass(frozen=True)
-class Laplacian(Smoother):
-    """Each node goes to the mean of its edge neighbours."""
+class Laplacian(SlidingSmoother):
+    """Each node goes to the mean of its edge neighbours; one that slides, of those on its own curve or patch."""
 
     name = "laplacian"
     title = "Laplacian"
@@ -34,16 +36,23 @@ class Laplacian(Smoother):
     )
 
     def steps(self, mesh: Mesh) -> Steps:
-        ring, sequence = mesh.topology.rings, ORDERS[self.order](mesh)
+        sliding, ring = self.sliding(mesh), mesh.topology.rings
+        if sliding is not None:
+            mesh, ring = sliding.mesh, sliding.rings
+        sequence = ORDERS[self.order](mesh)
         points, sweep = mesh.points, 0
         yield Step(points)
         while True:
             nodes = sequence(points, sweep)
             moved = points.copy()
-            if self.update == "in-place":
+            if self.update == "simultaneous":
+                kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
+                if sliding is not None:
+                    moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
+            elif sliding is None:
                 kernels.in_place(moved, ring.start, ring.items, nodes)
             else:
-                kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
+                on_surface.laplacian(moved, ring.start, ring.items, nodes, *sliding.ground)
             points = moved
             yield Step(points)
             sweep += 1

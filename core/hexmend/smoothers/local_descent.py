@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from hexmend.kernels import local
+from hexmend.kernels import sliding as on_surface
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
@@ -30,6 +31,8 @@ class LocalDescent(LocalOptimiser):
     )
 
     def steps(self, mesh: Mesh) -> Steps:
+        sliding = self.sliding(mesh)
+        mesh = mesh if sliding is None else sliding.mesh
         corners, visits = mesh.topology.node_corners, Visits(mesh, self.order)
         derivatives = int(np.diff(corners.start)[mesh.free].sum())  # each visit asks the hexes at its node
         points, sweep = mesh.points, 0
@@ -38,20 +41,13 @@ class LocalDescent(LocalOptimiser):
         while True:
             delta, groups = self.delta_at(mesh, points), visits.groups(points, sweep)
             points = points.copy()
-            energies = local.sweep(
-                points,
-                mesh.hexes,
-                corners.start,
-                corners.items,
-                groups.start,
-                groups.items,
-                self.direction,
-                delta,
-                self.p,
-                self.first_step,
-                self.shrink,
-                self.c1,
-                self.max_cuts,
-            )
+            sweep_of = (
+                points, mesh.hexes, corners.start, corners.items, groups.start, groups.items, self.direction,
+                delta, self.p, self.first_step, self.shrink, self.c1, self.max_cuts,
+            )  # fmt: skip
+            if sliding is None:
+                energies = local.sweep(*sweep_of)
+            else:
+                energies = on_surface.local(*sweep_of, sliding.tangents(points), *sliding.ground)
             yield Step(points, {"delta": delta, "energies": energies, "derivatives": derivatives})
             sweep += 1

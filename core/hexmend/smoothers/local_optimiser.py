@@ -10,11 +10,11 @@ from hexmend.energy import POLICIES
 from hexmend.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import measure
-from hexmend.smoothers.smoother import Smoother
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
 
 
 @dataclass(frozen=True)
-class LocalOptimiser(Smoother):
+class LocalOptimiser(SlidingSmoother):
     """Line-searched steps for the energy of one patch after another, each scaled to unit mean edge length."""
 
     optimises = True

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend.kernels import large_patches
+import numpy as np
+
+from hexmend.kernels import large_patches, local
+from hexmend.kernels import sliding as on_surface
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
@@ -16,7 +19,10 @@ from hexmend.smoothers.smoother import Steps, method
 @method
 @dataclass(frozen=True)
 class LocalPatch(LocalOptimiser):
-    """One Newton step per patch of connected free nodes, with the rest of the mesh fixed, sweep after sweep."""
+    """One Newton step per patch of connected free nodes, with the rest of the mesh fixed, sweep after sweep.
+
+    Nodes that slide are in no patch: after each sweep they step one by one.
+    """
 
     name = "local-patch"
     title = "Local Newton, large patches"
@@ -31,7 +37,10 @@ class LocalPatch(LocalOptimiser):
     )
 
     def steps(self, mesh: Mesh) -> Steps:
-        patches = grown(mesh, self.patch, self.overlap)
+        sliding, patches = self.sliding(mesh), grown(mesh, self.patch, self.overlap)
+        if sliding is not None:
+            corners, alone = mesh.topology.node_corners, mesh.topology.colouring(~sliding.mesh.fixed & mesh.fixed)
+            derived = int(np.diff(corners.start)[sliding.nodes].sum())
         points = mesh.points
         yield Step(points)
         while True:
@@ -53,4 +62,11 @@ class LocalPatch(LocalOptimiser):
                 self.c1,
                 self.max_cuts,
             )
+            if sliding is not None:
+                energies += on_surface.local(
+                    points, mesh.hexes, corners.start, corners.items, alone.start, alone.items, local.NEWTON,
+                    delta, self.p, self.first_step, self.shrink, self.c1, self.max_cuts,
+                    sliding.tangents(points), *sliding.ground,
+                )  # fmt: skip
+                derivatives += derived
             yield Step(points, {"delta": delta, "energies": energies, "derivatives": derivatives})

@@ -18,7 +18,8 @@ from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.raising import Limit, Raising
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, corner_determinants, measure
-from hexmend.smoothers.smoother import Smoother, Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import Steps, method
 from hexmend.surface import Sliding
 
 #: Newton steps on one delta; the energy is not worth minimising before delta is what it is to be.
@@ -58,7 +59,7 @@ SEARCH = BackLineSearch(shrink=0.5)
 
 @method
 @dataclass(frozen=True)
-class Mend(Smoother):
+class Mend(SlidingSmoother):
     """Every free node at once by truncated Newton steps, on a barrier that hardens until no hex is inverted."""
 
     name = "mend"
@@ -71,12 +72,6 @@ class Mend(Smoother):
         "shape",
         choices=("shape", "scaled-jacobian"),
         help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
-    )
-    boundary: str = parameter(
-        "fixed", choices=("fixed", "slide"), help="Whether nodes of the boundary stay, or slide on the surface (5.2.1)."
-    )
-    feature_angle: float = parameter(
-        40.0, low=1, high=180, unit="degrees", help="Along edges at which the boundary turns by more nodes only slide."
     )
     surface_tolerance: float = parameter(
         0.3, low=0, high=10, unit="mean edge length", help="How far the sliding boundary may leave where it was."
@@ -103,7 +98,7 @@ class Mend(Smoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
-        slides, raises = self.boundary == "slide", self.goal != "shape"
+        slides, raises = self.slides, self.goal != "shape"
         points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), slides or raises)
         places, sliding = [mesh.points, points], None
         if slides:
@@ -210,7 +205,7 @@ class Mend(Smoother):
                 if poor is not None and poor.any():
                     x = _swept(energy, x, poor, left_out, 0.0, p, POOR_SWEEPS)
                 taken = descend(energy, x, 0.0, find, SEARCH, REACH)
-                if taken is None or (taken.alpha == 0 and taken.slope < 0):
+                if taken is None or (taken.alpha == 0 and (taken.slope < 0 or more)):
                     break
                 values.append(taken.value)
                 if energy.faceted and len(values) > LATELY and values[-LATELY] - values[-1] < SLOW * values[-1]:

@@ -8,6 +8,8 @@ from collections.abc import Generator
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias, TypeVar
 
+import numpy as np
+
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import Parametrised, declared
@@ -24,7 +26,7 @@ _TOLD = 0.5e-4
 
 @dataclass(frozen=True)
 class Smoother(Parametrised, ABC):
-    """A method that moves the free nodes of a mesh.
+    """A method that moves nodes of a mesh: the free ones, and, if it is told to, those of the boundary along it.
 
     A smoother is a frozen dataclass of declared parameters with one method, `steps`. It owns no clock, no limit, no
     record and no window: `hexmend.run` does.
@@ -37,12 +39,22 @@ class Smoother(Parametrised, ABC):
     #: Whether it goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
 
+    @property
+    def slides(self) -> bool:
+        """Whether nodes of the boundary slide on the surface."""
+        return False
+
+    def movable(self, mesh: Mesh) -> np.ndarray:
+        """True for each node that the method may move, (n,) bool: the free ones, and those that slide."""
+        return mesh.free
+
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:
         """Yield the initial points once what the method prepares is ready, then the points after each step.
 
         The generator goes on until nobody asks for more, or returns the outcome where the method has no further step.
-        Yielded arrays are never changed afterwards; rows of fixed nodes stay as they are to the last bit.
+        Yielded arrays are never changed afterwards; rows of nodes that it may not move stay as they are to the
+        last bit.
         """
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:

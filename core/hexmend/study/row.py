@@ -15,6 +15,7 @@ from hexmend.quality import Summary, measure, summarise
 from hexmend.recipe import Recipe
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
+from hexmend.surface import SurfaceChange
 
 log = logging.getLogger(__name__)
 
@@ -49,6 +50,8 @@ class Row:
         What is worse than before, as in `Result`.
     kept : int
         Number of the iteration that is the result.
+    surface : SurfaceChange or None
+        As in `Result`.
     """
 
     method: str
@@ -63,6 +66,7 @@ class Row:
     stages: tuple[StageResult, ...] = ()
     worse: tuple[str, ...] = ()
     kept: int = 0
+    surface: SurfaceChange | None = None
 
     @property
     def seconds_per_iteration(self) -> float | None:
@@ -92,6 +96,7 @@ class Row:
             "seconds_per_iteration": self.seconds_per_iteration,
             "seconds_per_iteration_and_node": self.seconds_per_iteration_and_node,
             "distribution": distribution(self.mesh) if self.mesh else None,
+            **({"surface": self.surface.to_dict()} if self.surface else {}),
         } | ({"stages": [stage.to_dict() for stage in self.stages]} if self.stages else {})
 
 
@@ -135,6 +140,7 @@ def _row(name: str, result: Result) -> Row:
         worse=result.worse,
         iterations=result.iterations,
         kept=result.kept,
+        surface=result.surface,
         seconds=result.seconds,
         setup_seconds=result.setup_seconds,
         stages=result.stages if result.method == Recipe.name else (),

@@ -2,6 +2,7 @@
 
 from hexmend.surface.boundary import Boundary, Kind, boundary_of, classify
 from hexmend.surface.change import Skin, SurfaceChange, distances, surface_change
+from hexmend.surface.locked import freed_by_sliding
 from hexmend.surface.sliding import Sliding
 from hexmend.surface.surface import Surface
 from hexmend.surface.trees import Closest, Trees
@@ -18,5 +19,6 @@ __all__ = [
     "boundary_of",
     "classify",
     "distances",
+    "freed_by_sliding",
     "surface_change",
 ]

@@ -64,6 +64,16 @@ class SurfaceChange:
         """The largest distance in per cent of the diagonal."""
         return 100 * self.furthest / self.diagonal
 
+    @property
+    def words(self) -> str:
+        """What became of it, in a sentence."""
+        return (
+            f"The boundary slid: {self.moved:,} of its nodes moved; it is at most {self.max:.2g} mean edge lengths "
+            f"({self.max_percent_of_diagonal:.2g} % of the diagonal) from where it was, {self.mean:.2g} in the mean; "
+            f"its volume changed by {100 * self.volume_change:+.2g} %; {self.features_kept:,} of {self.features:,} "
+            "sharp edges are kept."
+        )
+
     def to_dict(self) -> dict[str, float | int]:
         """Figures by name, lengths in mean edge lengths."""
         names = ("max", "mean", "max_percent_of_diagonal", "volume_change", "moved")

@@ -6,12 +6,15 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.hexahedron import FACES
 from hexmend.mesh import Mesh
-from hexmend.surface.boundary import Kind, boundary_of
+from hexmend.quality import corner_determinants
+from hexmend.surface.boundary import Boundary, Kind, boundary_of
 from hexmend.surface.change import Skin
 from hexmend.surface.features import DEGREES, given_corners
 from hexmend.surface.surface import Surface
 from hexmend.surface.trees import Closest
+from hexmend.topology import Rows
 
 #: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
 #: is the tangent, at its edges the mean of those around.
@@ -26,7 +29,7 @@ class Sliding:
     Parameters
     ----------
     mesh : Mesh
-        Its boundary, as it is now, is what nodes slide on.
+        Its `surface` is what nodes of its boundary slide on.
     degrees : float
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
 
@@ -45,9 +48,14 @@ class Sliding:
     """
 
     def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
-        self.room, self._points = room, mesh.points
-        self.boundary = boundary_of(mesh, degrees)
-        self.surface = Surface(mesh.points, self.boundary)
+        self.room, self._points = room, mesh.surface
+        original = mesh.with_points(mesh.surface)
+        self.boundary = boundary_of(original, degrees)
+        bends = kept_bends(original, self.boundary)
+        if bends.size:
+            kept = np.concatenate([given_corners(mesh), bends])
+            self.boundary = boundary_of(original, degrees, corners=kept)
+        self.surface = Surface(mesh.surface, self.boundary)
         slides = self.boundary.kind >= Kind.CURVE
         fixed = mesh.fixed & ~slides
         self.mesh = mesh.with_fixed(fixed)
@@ -94,6 +102,31 @@ class Sliding:
         bases[curve, :, 0] = along[curve]
         bases[~curve, :, :2] = _across(along[~curve])
         return bases
+
+    def tangents(self, points: np.ndarray) -> np.ndarray:
+        """The directions of `bases` for all that slide, nodes being at points (n, 3): one after the other, (k, 6)."""
+        return np.ascontiguousarray(self.bases(points[self.nodes])[:, :, :2].transpose(0, 2, 1)).reshape(-1, 6)
+
+    @cached_property
+    def ground(self) -> tuple[np.ndarray, ...]:
+        """What `hexmend.kernels.sliding` takes: slots, roots, vertices, pieces, boxes, links."""
+        trees = self.surface.trees
+        slots = self._number.astype(np.int32)
+        return slots, trees.roots[self._group], trees.points, trees.pieces, trees.boxes, trees.links
+
+    @cached_property
+    def rings(self) -> Rows:
+        """Edge neighbours of each node, of those that slide only the ones on their own curve or patch, and its ends."""
+        kind, whole = self.boundary.kind, self.mesh.topology.rings
+        node = np.repeat(np.arange(self.mesh.n_nodes), np.diff(whole.start))
+        ways = [np.stack([node, whole.items], axis=1)[self._number[node] < 0]]
+        for of, along in (Kind.CURVE, self.boundary.segments), (Kind.PATCH, self.skin.edges.nodes):
+            both = np.concatenate([along, along[:, ::-1]])
+            ways.append(both[kind[both[:, 0]] == of])
+        ways = np.concatenate(ways)
+        ways = ways[np.lexsort((ways[:, 1], ways[:, 0]))]
+        start = np.searchsorted(ways[:, 0], np.arange(self.mesh.n_nodes + 1))
+        return Rows(start.astype(np.int32), np.ascontiguousarray(ways[:, 1], dtype=np.int32))
 
     @cached_property
     def skin(self) -> Skin:
@@ -152,6 +185,27 @@ class Sliding:
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
         return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
+
+
+def kept_bends(mesh: Mesh, boundary: Boundary) -> np.ndarray:
+    """Nodes of curves that had better not slide, (k,) int: of a face with both edges at the node on the curve.
+
+    The bend of the curve at such a node is all that holds the hex's corner open: on one straight segment with its
+    neighbours it would be flat for good, sigma being 0 and its derivative along the curve too. Where the corner is
+    inverted as it is, the node may as well slide.
+    """
+    hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
+    ahead = _keys(boundary.faces, np.roll(boundary.faces, -1, axis=1), mesh.n_nodes)
+    on_curve = np.isin(ahead, _keys(*boundary.segments.T, mesh.n_nodes))
+    at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.kind[boundary.faces] == Kind.CURVE)
+    face, place = np.nonzero(at)
+    sigma = corner_determinants(mesh.points, mesh.hexes, hexes[face])
+    corner = FACES[sides[face], place]
+    return np.unique(boundary.faces[face, place][sigma[np.arange(face.size), corner] > 0])
+
+
+def _keys(one: np.ndarray, other: np.ndarray, n: int) -> np.ndarray:
+    return np.minimum(one, other).astype(np.int64) * n + np.maximum(one, other)
 
 
 def _across(normals: np.ndarray) -> np.ndarray:

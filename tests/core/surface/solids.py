@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh import Mesh
+from hexmend.surface import Sliding
 from tests.core.grids import grid
 
 
@@ -33,3 +34,12 @@ def cylinder(around: int = 32, layers: int = 5) -> Mesh:
 def wavy(mesh: Mesh, height: float, seed: int = 0) -> Mesh:
     """Every node displaced at random by up to `height` in each direction."""
     return mesh.with_points(mesh.points + np.random.default_rng(seed).uniform(-height, height, mesh.points.shape))
+
+
+def slid(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
+    """Every node displaced at random by up to so many mean edge lengths, those of the boundary along it; corners stay."""
+    sliding = Sliding(mesh)
+    shift = np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape) * mesh.mean_edge_length
+    points = mesh.points + shift * sliding.mesh.free[:, None]
+    points[sliding.nodes] = sliding.put_back(points[sliding.nodes])
+    return mesh.with_points(points)
