@@ -33,8 +33,8 @@ BAND, NARROWEST, WIDEST = 4.0, 0.01, 0.1
 FALL = 8.0
 #: Of how many corners the nodes are moved at first, and how many there are at most; more as the fewer bring nothing.
 FEW, MANY = 300, 1_200
-#: A gain that is none: of a step's model, and of `LATELY` steps together.
-NOTHING, LITTLE, LATELY = 1e-6, 2e-5, 10
+#: A gain that is none of a step's model; that is none of `LATELY` steps together, and where the least is sound anyway.
+NOTHING, LATELY, LITTLE, SOUND, LITTLE_BEYOND = 1e-6, 10, 2e-5, 0.2, 1e-3
 #: What a multiplier counts from on, the sum of all being 1.
 HOLDS = 1e-3
 #: By how many radii, in mean edge lengths, a boundary that has strayed is brought nearer at a time; what is enough.
@@ -142,7 +142,7 @@ class Raising:
             if gain > 0:
                 yield Raised(self.points, self.least, low.size, radius)
             gains.append(gain)
-            if promised <= NOTHING or sum(gains[-LATELY:]) < LITTLE:
+            if promised <= NOTHING or sum(gains[-LATELY:]) < (LITTLE if least < SOUND else LITTLE_BEYOND):
                 if whole or self._most >= MANY:
                     break
                 self._most, self._radius = 2 * self._most, max(self._radius, NARROWEST)
