@@ -51,6 +51,8 @@ class Step:
         True while another stage is to come: however little this step moved, the run has not converged.
     figures : ElementQuality, optional
         `measure(points, hexes)`, where the method has needed it itself.
+    detour : bool
+        True where nodes are further than the method may leave them: such an iterate is no result.
     """
 
     points: np.ndarray
@@ -58,6 +60,7 @@ class Step:
     decision: str = ""
     more: bool = False
     figures: ElementQuality | None = None
+    detour: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -65,9 +65,10 @@ class Raised:
     corners: int
     radius: float
 
-    def step(self) -> Step:
-        """As a smoother yields it."""
-        return Step(self.points, {"least": self.least, "corners": self.corners, "radius": self.radius}, more=True)
+    def step(self, detour: bool = False) -> Step:
+        """As a smoother yields it; see `Step.detour`."""
+        notes = {"least": self.least, "corners": self.corners, "radius": self.radius}
+        return Step(self.points, notes, more=True, detour=detour)
 
 
 @dataclass(frozen=True, eq=False)

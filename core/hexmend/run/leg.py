@@ -107,7 +107,8 @@ class Leg:
         notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
         now = self.last = self.at = Iteration(self.last.number + 1, points, figures, seconds, move, notes)
         self.decision = step.decision
-        self._consider(now)
+        if not step.detour:
+            self._consider(now)
         if move < self.stage.stop.tolerance and not step.more and not self._falling(before, now):  # Algorithm A.1
             self.end(Outcome.CONVERGED)
         else:

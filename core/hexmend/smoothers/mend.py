@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -51,6 +52,8 @@ SOUND, AIM = 0.02, 0.2
 #: What share of its room the boundary may use where that is enough; how far it may go at first where it is not, in
 #: mean edge lengths, until the least is so many times `AIM`.
 SPARED, WIDE, ENOUGH = 1 / 3, 1.5, 1.2
+#: How many linear programs an iteration has.
+TOGETHER = 3
 #: How many groups of corners that hold each other below `AIM` are left behind; and while nodes leave the surface.
 CLUSTERS, MANY_CLUSTERS = 5, 30
 
@@ -123,9 +126,9 @@ class Mend(SlidingSmoother):
         """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room."""
         raising = Raising(sliding.mesh, points, sliding)
         raising.room = WIDE * sliding.mesh.mean_edge_length
-        yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS)
-        for step in raising.into(room):
-            yield step.step()
+        yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
+        for step in islice(raising.into(room), 0, None, TOGETHER):
+            yield step.step(detour=True)
         if raising.furthest() <= room * (1 + 1e-5):
             yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS, told=True)
 
@@ -243,7 +246,13 @@ def _swept(
 
 
 def raise_least(
-    raising: Raising, aim: float = np.inf, lifts: float = -np.inf, clusters: int = 1, told: bool = False
+    raising: Raising,
+    aim: float = np.inf,
+    lifts: float = -np.inf,
+    clusters: int = 1,
+    *,
+    told: bool = False,
+    detour: bool = False,
 ) -> Generator[Step, None, None]:
     """Raise the least scaled Jacobian.
 
@@ -258,15 +267,16 @@ def raise_least(
         How many groups of corners that hold each other are left behind, at most.
     told : bool
         Whether what limits it is a decision of the run.
+    detour : bool
+        See `Step.detour`.
     """
     first = None
-    yield Step(raising.points, {"least": raising.least}, more=True)
+    yield Step(raising.points, {"least": raising.least}, more=True, detour=detour)
     while clusters:
-        limit = None
-        for step in raising.steps(aim):
-            limit = step if isinstance(step, Limit) else limit
-            if limit is None:
-                yield step.step()
+        for number, step in enumerate(raising.steps(aim)):
+            limit = step if isinstance(step, Limit) else None
+            if limit is None and number % TOGETHER == 0:
+                yield step.step(detour)
         if not limit.hexes.size or limit.least >= aim:
             break
         if limit.least < lifts and raising.lift(limit):
