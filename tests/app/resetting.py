@@ -98,7 +98,7 @@ class Resetting:
 
     def _put_back(self):
         for widget, setting in list(self._inputs.items()):
-            if _setting(widget) != setting:
+            if shiboken6.isValid(widget) and _setting(widget) != setting:
                 _set(widget, setting)
         for view in self.window.findChildren(QAbstractItemView):
             if view.selectionModel() is not None:
