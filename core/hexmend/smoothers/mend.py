@@ -51,7 +51,7 @@ LATELY, SLOW = 5, 2e-3
 SOUND, AIM = 0.02, 0.2
 #: What share of its room the boundary may use where that is enough; how far it may go at first where it is not, in
 #: mean edge lengths, until the least is so many times `AIM`.
-SPARED, WIDE, ENOUGH = 1 / 3, 1.5, 1.2
+SPARED, WIDE, ENOUGH, NEAR_ENOUGH = 1 / 3, 1.5, 1.2, 1e-5
 #: How many linear programs an iteration has.
 TOGETHER = 3
 #: How many groups of corners that hold each other below `AIM` are left behind; and while nodes leave the surface.
@@ -67,7 +67,7 @@ class Mend(SlidingSmoother):
 
     name = "mend"
     title = "Mend"
-    help = "Untangles whatever its fixed nodes allow, then goes to the optimum. Never ends worse than it began."
+    help = "Untangles whatever its fixed nodes allow, then goes to the optimum, of shape or of the worst corner."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     optimises = True
 
@@ -77,7 +77,11 @@ class Mend(SlidingSmoother):
         help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
     )
     surface_tolerance: float = parameter(
-        0.3, low=0, high=10, unit="mean edge length", help="How far the sliding boundary may leave where it was."
+        0.3,
+        low=0,
+        high=10,
+        unit="mean edge length",
+        help="How far the boundary may leave where it was; 0: nodes slide, without a limit.",
     )
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
@@ -106,7 +110,7 @@ class Mend(SlidingSmoother):
         places, sliding = [mesh.points, points], None
         if slides:
             room = self.surface_tolerance * mesh.mean_edge_length
-            sliding = Sliding(mesh, self.feature_angle, SPARED * room)
+            sliding = Sliding(mesh, self.feature_angle, SPARED * room if room else np.inf)
             freeing = Raising(sliding.mesh, points, sliding)
             yield from raise_least(freeing, SOUND, clusters=1)
             energy = SlidingEnergy(sliding, self.p)
@@ -114,23 +118,15 @@ class Mend(SlidingSmoother):
             places += [freeing.points, points]
         if raises or slides:
             at = mesh if sliding is None else sliding.mesh
-            best = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.least)
-            outcome = Outcome.NO_IMPROVEMENT
-            if raises or best.least < SOUND:
-                yield from raise_least(best, np.inf if raises else SOUND, clusters=CLUSTERS, told=raises)
-            if slides and best.least < (AIM if raises else SOUND):
-                yield from self._lifted(sliding, places[1], room)
+            raising = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.least)
+            if raises or raising.least < SOUND:
+                outcome = Outcome.NO_IMPROVEMENT
+                limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
+                if slides and room and raising.least < (AIM if raises else SOUND):
+                    raising, limit = yield from _lifted(Raising(at, places[1], sliding), room, raising, limit)
+                if raises:
+                    yield Step(raising.points, {"least": raising.least}, _what_limits(limit), more=True)
         return outcome
-
-    def _lifted(self, sliding: Sliding, points: np.ndarray, room: float) -> Generator[Step, None, None]:
-        """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room."""
-        raising = Raising(sliding.mesh, points, sliding)
-        raising.room = WIDE * sliding.mesh.mean_edge_length
-        yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
-        for step in islice(raising.into(room), 0, None, TOGETHER):
-            yield step.step(detour=True)
-        if raising.furthest() <= room * (1 + 1e-5):
-            yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS, told=True)
 
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Untangle, then go to the optimum of shape; `more` where that is not the end."""
@@ -250,10 +246,8 @@ def raise_least(
     aim: float = np.inf,
     lifts: float = -np.inf,
     clusters: int = 1,
-    *,
-    told: bool = False,
     detour: bool = False,
-) -> Generator[Step, None, None]:
+) -> Generator[Step, None, Limit]:
     """Raise the least scaled Jacobian.
 
     Where corners hold each other below `aim`, those that are above them are raised further. Below `lifts`, nodes of the
@@ -265,14 +259,17 @@ def raise_least(
     aim, lifts : float
     clusters : int
         How many groups of corners that hold each other are left behind, at most.
-    told : bool
-        Whether what limits it is a decision of the run.
     detour : bool
         See `Step.detour`.
+
+    Returns
+    -------
+    Limit
+        What held the least at first.
     """
     first = None
     yield Step(raising.points, {"least": raising.least}, more=True, detour=detour)
-    while clusters:
+    while True:
         for number, step in enumerate(raising.steps(aim)):
             limit = step if isinstance(step, Limit) else None
             if limit is None and number % TOGETHER == 0:
@@ -282,12 +279,28 @@ def raise_least(
         if limit.least < lifts and raising.lift(limit):
             continue
         first = first or limit
-        if limit.least >= AIM:
+        clusters -= 1
+        if limit.least >= AIM or not clusters:
             break
         raising.settle(limit)
-        clusters -= 1
-    if told:
-        yield Step(raising.points, {"least": raising.least}, decision=_what_limits(first or limit), more=True)
+    return first or limit
+
+
+def _lifted(
+    raising: Raising, room: float, other: Raising, limit: Limit
+) -> Generator[Step, None, tuple[Raising, Limit]]:
+    """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room.
+
+    Returns what is better, that or the other, with its limit.
+    """
+    raising.room = WIDE * raising.mesh.mean_edge_length
+    yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
+    for step in islice(raising.into(room), 0, None, TOGETHER):
+        yield step.step(detour=True)
+    if raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.least < other.least:
+        yield Step(other.points, {"least": other.least}, more=True)
+        return other, limit
+    return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
 
 
 def _what_limits(limit: Limit) -> str:
