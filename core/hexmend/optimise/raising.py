@@ -20,7 +20,6 @@ from hexmend.mesh import Mesh
 from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
 from hexmend.optimise.iteration import Step
 from hexmend.surface import Sliding
-from hexmend.surface.sliding import CLOSE
 
 #: Radius of the trust region at first and at most, in lengths of the shortest edge at each node, and where it ends.
 FIRST, LARGEST, SMALLEST = 0.1, 0.3, 1e-6
@@ -268,7 +267,7 @@ class Raising:
         near = far + reach > self.room
         ends, far, away = ends[near], far[near], away[near]
         models = _bounds(ends, self.room - far, np.repeat(-away[:, None] / 4, 4, axis=1))
-        if self._far() > CLOSE * self.room:
+        if sliding.leaves_behind(self.points, self.room - self._radius * float(size[nodes].max(initial=0.0))):
             far, away, ends, weights = self._behind()
             moved = np.zeros(self.mesh.n_nodes, dtype=bool)
             moved[nodes] = True
@@ -297,7 +296,7 @@ class Raising:
         room = self.room
         if (after > np.maximum(before, room)).any():
             return True
-        if max(after.max(initial=0.0), self._far()) <= CLOSE * room:
+        if not self.sliding.leaves_behind(points, room):
             return False
         seen = self.sliding.behind(points)
         if (seen[0] > np.maximum(self._behind()[0], room)).any():

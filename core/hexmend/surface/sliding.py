@@ -19,8 +19,6 @@ from hexmend.topology import Rows
 #: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
 #: is the tangent, at its edges the mean of those around.
 _INNER = 1e-3
-#: The share of its room that a boundary has to have used before what it has left behind is looked for.
-CLOSE = 0.3
 
 
 class Sliding:
@@ -168,6 +166,11 @@ class Sliding:
         far = np.linalg.norm(x - places, axis=1)
         return far, (x - places) / np.maximum(far, np.finfo(float).tiny)[:, None], nodes, weights
 
+    def leaves_behind(self, points: np.ndarray, room: float) -> bool:
+        """Whether the boundary may have left a place of the surface by more: not where each node is that near."""
+        nodes = self.skin.nodes
+        return bool((np.square(points[nodes] - self._points[nodes]).sum(axis=1) > max(room, 0.0) ** 2).any())
+
     @cached_property
     def _samples(self) -> np.ndarray:
         return self.skin.samples()
@@ -178,7 +181,7 @@ class Sliding:
             return np.empty(0, dtype=np.int64)
         far, _ = self.off(points, np.arange(len(self.middles)))
         beyond = self.middles[far > self.room].ravel()
-        if far.max(initial=0.0) > CLOSE * self.room:
+        if self.leaves_behind(points, self.room):
             far, _, nodes, _ = self.behind(points)
             beyond = np.concatenate([beyond, nodes[far > self.room].ravel()])
         return np.unique(beyond)
