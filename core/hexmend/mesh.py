@@ -10,8 +10,14 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.errors import MeshError
+from hexmend.hexahedron import EDGES
 from hexmend.kernels import elements
 from hexmend.topology import Topology
+
+#: By what factor the longest edges may raise the mean length of all.
+SPOILED = 4.0
+#: In how many hexes, about, it is looked for that.
+_LOOKED_AT = 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,8 +132,14 @@ class Mesh:
 
     @cached_property
     def mean_edge_length(self) -> float:
-        """Mean length of the hexes' edges, each counted once a hex."""
-        return elements.mean_edge_length(self.points, self.hexes)
+        """Mean length of the hexes' edges, each counted once a hex; the longest are left out where they spoil it.
+
+        That is where it is more than `SPOILED` times the mean of all but the longest tenth: one node far away makes
+        edges so long that in their mean all others would have no length.
+        """
+        mean = elements.mean_edge_length(self.points, self.hexes)
+        usual = _usual_edge_length(self.points, self.hexes)
+        return usual if mean > SPOILED * usual > 0 else mean
 
     def with_points(self, points: np.ndarray) -> Mesh:
         """The same mesh with its nodes elsewhere; connectivity, topology, sets and data are shared.
@@ -186,6 +198,15 @@ class Mesh:
         copy = object.__new__(Mesh)
         copy._set(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self)})
         return copy
+
+
+def _usual_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
+    """Mean length of the edges of hexes without the longest tenth; of many hexes some are looked at."""
+    ends = points[hexes[:: len(hexes) // _LOOKED_AT + 1]][:, EDGES]
+    with np.errstate(over="ignore"):
+        lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
+    kept = lengths.size - lengths.size // 10
+    return float(np.partition(lengths, kept - 1)[:kept].mean())
 
 
 def check_finite(points: np.ndarray) -> None:

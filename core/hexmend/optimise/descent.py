@@ -87,6 +87,8 @@ def descend(
     slope = energy.descending(x, delta, found.p, gradient)
     if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
+        if np.isfinite(reach):
+            restrain(energy, x, delta, found.p)
         slope = energy.descending(x, delta, found.p, gradient)
     alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
     return Descent(energy.moved(x, found.p, alpha), value, slope, length, found, alpha, cuts)
@@ -108,6 +110,8 @@ def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) 
         if not halved.any():
             break
         share[halved] *= 0.5
+    else:
+        share[energy.strayed(there)] = 0.0  # step by step they would go out of their room all the same
     step *= share[energy.nodes, None]
 
 

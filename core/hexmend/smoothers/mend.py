@@ -13,6 +13,7 @@ from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
+from hexmend.optimise.corners import shortest_edges
 from hexmend.optimise.descent import Descent, descend
 from hexmend.optimise.direction import TruncatedNewton
 from hexmend.optimise.line_search import BackLineSearch
@@ -33,6 +34,8 @@ LARGEST = 0.5
 PATIENCE = 14
 #: How far a step may take a node, in mean lengths of its edges.
 REACH = 1.5
+#: From how many mean edge lengths of its shortest edge on an inner node is far away: it begins amid its neighbours.
+FAR = 10.0
 #: Sweeps of local Newton steps (A.4) around the hexes that a step of all nodes has left inverted, and, at the optimum's
 #: side of the barrier, around those whose energy eta is higher than `POOR`: a few of them would cut the step of all.
 SWEEPS, POOR_SWEEPS, POOR = 10, 5, 3.0
@@ -155,8 +158,13 @@ class Mend(SlidingSmoother):
         self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray
     ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
-        points, x, e = mesh.points, energy.scaled(mesh.points), self.softness
+        points, e = mesh.points, self.softness
         figures = measure(points, mesh.hexes)
+        near = _brought_near(mesh, figures)
+        if near is not points:
+            points, figures = near, measure(near, mesh.hexes)
+            yield Step(points, more=True, figures=figures)
+        x = energy.scaled(points)
         tangled, worst = _tangled(points, mesh.hexes, locked, figures)
         least, idle = tangled, 0
         while tangled and idle < PATIENCE and e > LEAST:
@@ -217,6 +225,23 @@ class Mend(SlidingSmoother):
             if not rises:
                 return points, _end(taken)
             p = min(2 * p, self.highest_p)
+
+
+def _brought_near(mesh: Mesh, figures: ElementQuality) -> np.ndarray:
+    """The points of a mesh, those nodes of its inverted hexes amid their neighbours that are far from them all, (n, 3).
+
+    From far away such a node would draw the others after it for as long as delta is large.
+    """
+    size = shortest_edges(mesh.points, mesh.hexes[figures.inverted])
+    far = np.isfinite(size) & (size > FAR * mesh.mean_edge_length)
+    points = mesh.points
+    for node in np.flatnonzero(far & mesh.free & ~mesh.topology.boundary):
+        ring = mesh.topology.rings[node]
+        ring = ring[~far[ring]]
+        if ring.size:
+            points = points.copy() if points is mesh.points else points
+            points[node] = mesh.points[ring].mean(axis=0)
+    return points
 
 
 def _swept(

@@ -19,6 +19,8 @@ from hexmend.topology import Rows
 #: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
 #: is the tangent, at its edges the mean of those around.
 _INNER = 1e-3
+#: The least room, in mean edge lengths: what is on the surface is off it by rounding.
+_ROUNDING = 1e-9
 
 
 class Sliding:
@@ -46,7 +48,7 @@ class Sliding:
     """
 
     def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
-        self.room, self._points = room, mesh.surface
+        self.room, self._points = max(room, _ROUNDING * mesh.mean_edge_length), mesh.surface
         original = mesh.with_points(mesh.surface)
         self.boundary = boundary_of(original, degrees)
         bends = kept_bends(original, self.boundary)

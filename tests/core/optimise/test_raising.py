@@ -210,6 +210,7 @@ def test_nothing_is_lifted_off_a_surface_without_room():
     sliding = Sliding(mesh, room=0.0)
     raising = Raising(sliding.mesh, mesh.points, sliding)
     _, limit = raised(raising)
+    raising.room = 0.0
     assert not raising.lift(limit)
     assert not raising.lifted.any()
     fixed = Raising(mesh, mesh.points)
