@@ -7,6 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 
+class Worse(str):
+    """The text of a figure that is worse than it was; tables that have colours show it in red."""
+
+
 @dataclass(frozen=True)
 class Figure:
     """A figure; every table, form and chart that shows it takes its words from here.

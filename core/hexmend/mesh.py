@@ -10,8 +10,14 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.errors import MeshError
+from hexmend.hexahedron import EDGES
 from hexmend.kernels import elements
 from hexmend.topology import Topology
+
+#: By what factor the longest edges may raise the mean length of all.
+SPOILED = 4.0
+#: In how many hexes, about, it is looked for that.
+_LOOKED_AT = 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,8 +132,14 @@ class Mesh:
 
     @cached_property
     def mean_edge_length(self) -> float:
-        """Mean length of the hexes' edges, each counted once a hex."""
-        return elements.mean_edge_length(self.points, self.hexes)
+        """Mean length of the hexes' edges, each counted once a hex; the longest are left out where they spoil it.
+
+        That is where it is more than `SPOILED` times the mean of all but the longest tenth: one node far away makes
+        edges so long that in their mean all others would have no length.
+        """
+        mean = elements.mean_edge_length(self.points, self.hexes)
+        usual = _usual_edge_length(self.points, self.hexes)
+        return usual if mean > SPOILED * usual > 0 else mean
 
     def with_points(self, points: np.ndarray) -> Mesh:
         """The same mesh with its nodes elsewhere; connectivity, topology, sets and data are shared.
@@ -142,10 +154,31 @@ class Mesh:
             raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
         check_finite(points)
         copy = self._copy()
-        for known in ("fixed", "free"):
-            if known in self.__dict__:
-                object.__setattr__(copy, known, self.__dict__[known])
+        copy._set(**{known: self.__dict__[known] for known in ("fixed", "free", "_surface") if known in self.__dict__})
         copy._set(points=_frozen(points))
+        return copy
+
+    @property
+    def surface(self) -> np.ndarray:
+        """Places of nodes, (n, 3), at which the boundary is the surface that it slides on; see `keeping_surface`."""
+        return self.__dict__.get("_surface", self.points)
+
+    def keeping_surface(self) -> Mesh:
+        """The same mesh, whose boundary slides on the surface of now wherever `with_points` puts its nodes."""
+        copy = self._copy()
+        copy._set(**{known: self.__dict__[known] for known in ("fixed", "free") if known in self.__dict__})
+        copy._set(_surface=self.surface)
+        return copy
+
+    def with_fixed(self, fixed: np.ndarray) -> Mesh:
+        """The same mesh of which other nodes are fixed, whatever its boundary and pins say; all else is shared.
+
+        Parameters
+        ----------
+        fixed : (n,) bool
+        """
+        copy = self._copy()
+        copy._set(fixed=_frozen(np.array(fixed, dtype=bool)), _surface=self.surface)
         return copy
 
     def replace(self, **changes: object) -> Mesh:
@@ -165,6 +198,15 @@ class Mesh:
         copy = object.__new__(Mesh)
         copy._set(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self)})
         return copy
+
+
+def _usual_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
+    """Mean length of the edges of hexes without the longest tenth; of many hexes some are looked at."""
+    ends = points[hexes[:: len(hexes) // _LOOKED_AT + 1]][:, EDGES]
+    with np.errstate(over="ignore"):
+        lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
+    kept = lengths.size - lengths.size // 10
+    return float(np.partition(lengths, kept - 1)[:kept].mean())
 
 
 def check_finite(points: np.ndarray) -> None:

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.hexahedron import FACES
-from hexmend.kernels import incidence, structure
+from hexmend.kernels import incidence, structure, visiting
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,12 @@ class Rows:
 
     def __len__(self) -> int:
         return self.start.size - 1
+
+    def of(self, rows: np.ndarray) -> np.ndarray:
+        """The items of several rows, one row after another."""
+        count = self.start[rows + 1] - self.start[rows]
+        before = np.cumsum(count) - count
+        return self.items[np.arange(count.sum()) + np.repeat(self.start[rows] - before, count)]
 
 
 class Topology:
@@ -184,3 +190,29 @@ class Topology:
         colour = incidence.greedy_colours(rows.start, rows.items, chosen)
         count = int(colour.max(initial=-1)) + 1
         return Rows(*incidence.grouped(colour, count))
+
+    def wavefronts(self, sequence: np.ndarray) -> Rows:
+        """The nodes of a sequence in groups, so that no hex holds two nodes of one group, and that group after group
+        those that share a hex are in the order of the sequence.
+
+        Visiting the nodes of each group at the same time does what visiting the sequence one by one does.
+
+        Parameters
+        ----------
+        sequence : (k,) int32
+            Each node at most once.
+        """
+        rows = self.node_corners
+        return Rows(*visiting.wavefronts(rows.start, rows.items, sequence))
+
+    def levels(self, start: np.ndarray) -> np.ndarray:
+        """How many edges lie between each node and the nearest of some, breadth first, (n,) int32.
+
+        0 for these themselves. Nodes from which no way leads to them are in one last level.
+
+        Parameters
+        ----------
+        start : (n,) bool
+        """
+        rings = self.rings
+        return visiting.levels(rings.start, rings.items, start)

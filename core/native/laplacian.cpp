@@ -14,6 +14,12 @@ inline Point ring_mean(Points points, Indices ring_start, Indices ring, Node i) 
     return {sum[0] / count, sum[1] / count, sum[2] / count};
 }
 
+// Where node i goes: to the mean, put back if it slides.
+inline Point goal(Points points, Indices ring_start, Indices ring, Node i, const Ground *ground) {
+    Point mean = ring_mean(points, ring_start, ring, i);
+    return ground && ground->slides(i) ? ground->put_back(i, mean) : mean;
+}
+
 // What is asked of a hex; never inlined, so that a hex that did not move is what it was to the last bit.
 template <bool by_quality> __attribute__((noinline)) Quality<double> judged(Points points, const Hex &hex) {
     OneHex x(points, hex);
@@ -23,7 +29,7 @@ template <bool by_quality> __attribute__((noinline)) Quality<double> judged(Poin
 
 template <bool by_quality>
 std::int64_t guarded_sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
-                           Indices ring, Indices nodes) {
+                           Indices ring, Indices nodes, const Ground *ground) {
     // Hexes as they are now, once somebody has asked: a move that is kept has judged them already.
     std::vector<Quality<double>> now(hexes.size()), after(widest(start));
     std::vector<std::uint8_t> known(hexes.size());
@@ -37,7 +43,7 @@ std::int64_t guarded_sweep(std::span<Point> points, Hexes hexes, Indices start, 
             least = std::min(least, now[h].q);
         }
         Point before = points[i];
-        points[i] = ring_mean(points, ring_start, ring, i);
+        points[i] = goal(points, ring_start, ring, i, ground);
         bool harm = false;
         for (std::size_t s = 0; s < attached.size() && !harm; ++s) {
             int h = attached[s] / 8;
@@ -56,8 +62,12 @@ std::int64_t guarded_sweep(std::span<Point> points, Hexes hexes, Indices start, 
 
 }  // namespace
 
+void in_place_on(const Ground *ground, std::span<Point> points, Indices ring_start, Indices ring, Indices nodes) {
+    for (Node i : nodes) points[i] = goal(points, ring_start, ring, i, ground);
+}
+
 void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes) {
-    for (Node i : nodes) points[i] = ring_mean(points, ring_start, ring, i);
+    in_place_on(nullptr, points, ring_start, ring, nodes);
 }
 
 void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes, std::span<Point> moved) {
@@ -66,10 +76,15 @@ void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes
     });
 }
 
+std::int64_t guarded_on(const Ground *ground, std::span<Point> points, Hexes hexes, Indices start, Indices corners,
+                        Indices ring_start, Indices ring, Indices nodes, bool keep_least_quality) {
+    return (keep_least_quality ? guarded_sweep<true> : guarded_sweep<false>)(points, hexes, start, corners, ring_start,
+                                                                             ring, nodes, ground);
+}
+
 std::int64_t guarded(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
                      Indices ring, Indices nodes, bool keep_least_quality) {
-    return (keep_least_quality ? guarded_sweep<true> : guarded_sweep<false>)(points, hexes, start, corners, ring_start,
-                                                                             ring, nodes);
+    return guarded_on(nullptr, points, hexes, start, corners, ring_start, ring, nodes, keep_least_quality);
 }
 
 }  // namespace hexmend

@@ -27,7 +27,7 @@ struct Record {
     Point place{};
     Made<double, 3> trials;
 
-    void tries(double alpha, double value, double bound) {
+    void tries(int, double alpha, double value, double bound) {
         for (double number : {alpha, value, bound}) trials.values.push_back(number);
     }
     void stays(Verdict why, const Chosen &how = {}) { verdict = why, chosen = how; }
@@ -38,10 +38,11 @@ struct Record {
 
 }  // namespace
 
-void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-           int direction, double delta, double p, double first, double shrink, double c1, int cuts) {
+std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
+                   int direction, double delta, double p, double first, double shrink, double c1, int cuts) {
     LocalStep how{direction, delta, p, first, shrink, c1, cuts};
-    (delta != 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, hexes, start, corners, groups, nodes, how);
+    return (delta != 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, hexes, start, corners, groups, nodes,
+                                                                         how);
 }
 
 std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Points points, Hexes hexes, Indices star,

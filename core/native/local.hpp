@@ -19,8 +19,8 @@ struct LocalStep {
     int cuts;
 };
 
-void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-           int direction, double delta, double p, double first, double shrink, double c1, int cuts);
+std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
+                   int direction, double delta, double p, double first, double shrink, double c1, int cuts);
 
 std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> look(Points points, Hexes hexes, Indices star,
                                                                               double factor, double delta, double p);

@@ -8,11 +8,12 @@
 namespace nb = nanobind;
 
 #define HEXMEND_FAMILIES(family)                                                                                       \
-    family(assembly) family(binning) family(conjugate_gradients) family(corner_values) family(couplings)               \
-        family(decimals) family(element_step) family(elements) family(faces) family(getme) family(hexahedron)          \
-            family(incidence) family(laplacian) family(local) family(metrics) family(objective) family(occlusion)      \
-                family(ordering) family(plain) family(polygons) family(reach) family(shape) family(sides) family(skin) \
-                    family(structure) family(symmetric) family(worst_first)
+    family(assembly) family(binning) family(closest) family(conjugate_gradients) family(corner_values)                 \
+        family(couplings) family(decimals) family(element_step) family(elements) family(faces) family(getme)           \
+            family(hexahedron) family(incidence) family(laplacian) family(large_patches) family(local) family(metrics) \
+                family(objective) family(occlusion) family(ordering) family(plain) family(polygons) family(reach)      \
+                    family(shape) family(sides) family(skin) family(sliding) family(structure) family(symmetric)       \
+                        family(visiting) family(worst_first)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_ &);

@@ -46,6 +46,9 @@ template <class T> class Patch {
     // Room for as many hexes as meet at any node.
     explicit Patch(std::int64_t most) : blocks_((most + width<T> - 1) / width<T>) {}
 
+    // How many hexes there are.
+    int size() const { return size_; }
+
     // Take the hexes at a node, in lengths so that their mean edge is 1 (each edge counted once a hex), or multiplied
     // by `factor` if it is not 0. Returns the factor; 0 if the patch has no extent.
     double load(Points points, Hexes hexes, Star star, double factor = 0) {

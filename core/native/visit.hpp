@@ -1,6 +1,8 @@
 // What local methods do at one node: Algorithms A.2 to A.5 on its patch.
 #pragma once
 
+#include <atomic>
+
 #include "local.hpp"
 #include "patch.hpp"
 
@@ -56,7 +58,7 @@ inline double back_line_search(Patch<T> &patch, const Visit &at, const Chosen &c
     for (int cut = 0; cut <= how.cuts; ++cut, alpha *= how.shrink) {
         double trial = patch.template value_along<soft>(alpha, how.delta, how.p);
         double bound = at.value + how.c1 * alpha * chosen.slope;
-        hear.tries(alpha, trial, bound);
+        hear.tries(patch.size(), alpha, trial, bound);
         if (trial < bound) return alpha;
     }
     return 0;
@@ -101,11 +103,12 @@ inline void visit(Patch<T> (&patch)[nodes], Points points, Hexes hexes, const St
     }
 }
 
-// Moves the nodes that are visited.
+// Moves the nodes that are visited, and counts how often trial steps ask a hex for its energy.
 struct Mover {
     std::span<Point> points;
+    std::int64_t asked = 0;
 
-    void tries(double, double, double) {}
+    void tries(int hexes, double, double, double) { asked += hexes; }
     void stays(Verdict, const Chosen & = {}) {}
     void moves(std::int32_t node, const Point &place, const Chosen &, double) { points[node] = place; }
 };
@@ -123,10 +126,12 @@ constexpr std::int64_t NODES = 64;
 // Nodes that are visited together.
 constexpr int TOGETHER = 2;
 
+// Returns how often trial steps asked a hex for its energy.
 template <bool soft, class T>
-void sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-              const LocalStep &how) {
+std::int64_t sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
+                      Indices nodes, const LocalStep &how) {
     std::int64_t most = most_at(start, nodes);
+    std::atomic<std::int64_t> asked = 0;
     for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
         auto group = nodes.subspan(groups[g], groups[g + 1] - groups[g]);
         parallel_chunks(group.size(), NODES, [&](std::int64_t begin, std::int64_t end) {
@@ -134,13 +139,16 @@ void sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corne
             auto star = [&](std::int64_t k) {
                 return corners.subspan(start[group[k]], start[group[k] + 1] - start[group[k]]);
             };
+            Mover mover{points};
             std::int64_t k = begin;
             if constexpr (width<T> > 1)
                 for (; k + TOGETHER <= end; k += TOGETHER)
-                    visit<soft>(several, points, hexes, {star(k), star(k + 1)}, how, Mover{points});
-            for (; k < end; ++k) visit<soft>(alone, points, hexes, {star(k)}, how, Mover{points});
+                    visit<soft>(several, points, hexes, {star(k), star(k + 1)}, how, mover);
+            for (; k < end; ++k) visit<soft>(alone, points, hexes, {star(k)}, how, mover);
+            asked += mover.asked;
         });
     }
+    return asked;
 }
 
 }  // namespace hexmend

@@ -48,9 +48,9 @@ void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf) {
     }
 }
 
-std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, std::span<const bool> free,
-                   Indices candidates, std::span<double> q, std::span<bool> sound, double s, double rho, double penalty,
-                   double setback) {
+std::int64_t sweep_on(const Ground *ground, std::span<Point> points, Hexes hexes, Indices start, Indices corners,
+                      std::span<const bool> free, Indices candidates, std::span<double> q, std::span<bool> sound,
+                      double s, double rho, double penalty, double setback) {
     if (candidates.empty()) return 0;  // a queue of nothing has no first
     const std::size_t m = hexes.size();
     std::vector<double> key(q.begin(), q.end());
@@ -76,6 +76,7 @@ std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices 
             if (!free[i]) continue;
             moves.push_back({i, points[i]});
             points[i] = {y.at[c].x, y.at[c].y, y.at[c].z};
+            if (ground && ground->slides(i)) points[i] = ground->put_back(i, points[i]);
             for (auto r = start[i]; r < start[i + 1]; ++r) {
                 auto g = corners[r] / 8;
                 if (touched_in[g] == static_cast<std::int32_t>(step)) continue;
@@ -120,6 +121,12 @@ std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices 
     }
     undo(moves, 0, points);
     return taken_back;
+}
+
+std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, std::span<const bool> free,
+                   Indices candidates, std::span<double> q, std::span<bool> sound, double s, double rho, double penalty,
+                   double setback) {
+    return sweep_on(nullptr, points, hexes, start, corners, free, candidates, q, sound, s, rho, penalty, setback);
 }
 
 }  // namespace hexmend

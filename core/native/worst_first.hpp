@@ -5,7 +5,7 @@
 // on the way from its leaf to the root.
 #pragma once
 
-#include "rows.hpp"
+#include "ground.hpp"
 
 namespace hexmend {
 
@@ -16,5 +16,10 @@ void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf);
 std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, std::span<const bool> free,
                    Indices candidates, std::span<double> q, std::span<bool> sound, double s, double rho, double penalty,
                    double setback);
+
+// The same with nodes that slide among them.
+std::int64_t sweep_on(const Ground *ground, std::span<Point> points, Hexes hexes, Indices start, Indices corners,
+                      std::span<const bool> free, Indices candidates, std::span<double> q, std::span<bool> sound,
+                      double s, double rho, double penalty, double setback);
 
 }  // namespace hexmend

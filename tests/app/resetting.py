@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from weakref import WeakKeyDictionary
 
+import shiboken6
 from PySide6.QtCore import QPoint, QSettings
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
@@ -97,7 +98,7 @@ class Resetting:
 
     def _put_back(self):
         for widget, setting in list(self._inputs.items()):
-            if _setting(widget) != setting:
+            if shiboken6.isValid(widget) and _setting(widget) != setting:
                 _set(widget, setting)
         for view in self.window.findChildren(QAbstractItemView):
             if view.selectionModel() is not None:
@@ -117,7 +118,8 @@ def scroll_back(window):
     """Let everything be seen from its beginning."""
     QApplication.processEvents()
     for bar in window.findChildren(QScrollBar):
-        bar.setValue(bar.minimum())
+        if shiboken6.isValid(bar):  # what one of them moves may take others along
+            bar.setValue(bar.minimum())
 
 
 def settle(qtbot, window):

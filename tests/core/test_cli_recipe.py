@@ -62,8 +62,8 @@ def test_what_is_run_is_saved_and_does_the_same_again(mesh, tmp_path):
 
 
 @pytest.mark.parametrize(("words", "status", "said"), [
-    (["--recipe", "{recipe}", "--method", "mend"], 2, "leave out --method and --set"),
-    (["--recipe", "{recipe}", "--set", "p=3"], 2, "leave out --method and --set"),
+    (["--recipe", "{recipe}", "--method", "mend"], 2, "leave out --method, --set and --boundary"),
+    (["--recipe", "{recipe}", "--set", "p=3"], 2, "leave out --method, --set and --boundary"),
     (["--recipe", "missing.toml"], 3, "missing.toml: there is no such file"),
     (["--recipe", "{mesh}"], 3, "mesh.vtu: is not TOML"),
     (["--save-recipe", "{folder}/no/such.toml"], 3, "such.toml: cannot be written"),
@@ -78,7 +78,7 @@ def test_what_is_wrong_is_one_line_before_the_work(words, status, said, mesh, re
 
 def test_what_to_try_next_is_printed_where_hexes_are_still_inverted(tmp_path, capsys):
     io.write(tmp_path / "bridge.vtu", gallery.make("bridge-sharp", size=500, scramble=0.4))
-    status, _ = smoothed(tmp_path / "bridge.vtu", "--method", "laplacian")
+    status, _ = smoothed(tmp_path / "bridge.vtu", "--method", "laplacian", "--keep-last")
     assert status == 4
     said = capsys.readouterr().out
     assert "10 of 500 hexes are inverted. 94 were at the start." in said

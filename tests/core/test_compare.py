@@ -19,8 +19,8 @@ from hexmend.study.row import BINS
 
 #: Of each row in comparison.json, beside the figures of a summary.
 RUN = {
-    "method", "parameters", "outcome", "message", "iterations", "seconds", "setup_seconds", "seconds_per_iteration",
-    "seconds_per_iteration_and_node",
+    "method", "parameters", "outcome", "message", "worse", "iterations", "kept", "seconds", "setup_seconds",
+    "seconds_per_iteration", "seconds_per_iteration_and_node",
 }  # fmt: skip
 FEW = Stop(max_iterations=3, tolerance=0)
 

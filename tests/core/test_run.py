@@ -103,7 +103,8 @@ def test_reports_are_complete_and_strict(mesh, tmp_path):
     result = smooth(mesh, "local-sd", Stop(max_iterations=3))
     report = record(result)
     assert set(report) == {
-        "method", "parameters", "outcome", "message", "iterations", "seconds", "setup_seconds", "before", "after", "history",
+        "method", "parameters", "outcome", "message", "worse", "iterations", "kept", "seconds", "setup_seconds", "before",
+        "after", "history",
     }  # fmt: skip
     assert report["outcome"] == "max-iterations"
     assert "NaN" not in to_json(report)

@@ -25,6 +25,7 @@ from hexmend.study.claims import (
 )
 from hexmend.study.experiments import INITIAL, load
 from hexmend.study.measured import Measured
+from hexmend.study.outlook_claims import OUTLOOK_CLAIMS
 from hexmend.study.row import Row
 from hexmend.study.thesis import chosen_tables, run_experiments
 
@@ -198,7 +199,7 @@ def test_the_report_is_written_with_ours_beside_theirs(study, tmp_path):
         assert text in index
     back = json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))
     assert back == record
-    assert len(back["claims"]) == len(CLAIMS)
+    assert len(back["claims"]) == len(CLAIMS) + len(OUTLOOK_CLAIMS)
     for name in ("figure-4.4-scaling", "figure-4.9-distributions"):
         assert (tmp_path / f"{name}.svg").read_text(encoding="utf-8").startswith("<?xml")
         assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")

@@ -6,6 +6,7 @@ what VTK draws with, all of which belong to the window's thread: a crash that hi
 
 from __future__ import annotations
 
+import atexit
 import gc
 
 from PySide6.QtCore import QObject, QTimer
@@ -26,6 +27,7 @@ class Garbage(QObject):
     def __init__(self, parent: QObject):
         super().__init__(parent)
         gc.disable()
+        atexit.register(gc.freeze)  # at the end all goes with the process: widgets outlive the application there
         self._timer = QTimer(self, interval=_INTERVAL)
         self._timer.timeout.connect(self.look)
         self._timer.start()

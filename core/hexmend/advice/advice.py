@@ -10,6 +10,8 @@ from hexmend.advice.rules import RULES
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
 from hexmend.optimise import Outcome, Result
+from hexmend.quality import worse_in_words
+from hexmend.run.words import kept
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,9 +21,11 @@ class Advice:
     Parameters
     ----------
     why : str
-        The outcome, as sentences.
+        The outcome, as sentences, and which iteration is kept if not the last.
     left : str
         What the run left, as sentences.
+    worse : str
+        In what that is worse than what the run was given, as a sentence; "" where it is not.
     locked, loose : (k,) int64
         Numbers, from 0, of the inverted hexes that fixed nodes hold in inversion, and of the other inverted ones.
     suggestions : tuple of Suggestion
@@ -32,6 +36,7 @@ class Advice:
 
     why: str
     left: str
+    worse: str
     locked: np.ndarray
     loose: np.ndarray
     suggestions: tuple[Suggestion, ...]
@@ -46,12 +51,14 @@ def advise(result: Result) -> Advice:
         told = [one for one in told if one.unpin.size]
     untried = result.outcome is Outcome.STOPPED and not result.iterations
     nothing = "" if untried else "Nothing is known that would better this mesh."
-    return Advice(_why(now), _left(now), now.locked, now.loose, tuple(told), nothing)
+    fallen = worse_in_words(result.before, result.after)
+    return Advice(_why(now), _left(now), fallen, now.locked, now.loose, tuple(told), nothing)
 
 
 def _why(now: Situation) -> str:
     several = len({stage.stage for stage in now.result.stages}) > 1
-    return f"The last stage, {now.smoother.title}: {_end(now)}" if several else _end(now)
+    why = f"The last stage, {now.smoother.title}: {_end(now)}" if several else _end(now)
+    return why if now.result.kept == now.result.iterations else f"{why} {kept(now.result.kept)}"
 
 
 def _end(now: Situation) -> str:
@@ -102,7 +109,13 @@ def _locked(now: Situation) -> str:
     many, one = now.locked.size, now.locked.size == 1
     every = many == now.result.after.inverted
     which = ("It is" if one else "All of them are") if every else f"{many:,} of them {'is' if one else 'are'}"
-    said = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion, and no method moves these."
+    said = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion"
+    if now.result.surface is None:
+        said += ", and no method moves these unless the boundary slides."
+        remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
+    else:
+        said += " where the boundary is fixed, and sliding has not freed these."
+        remedy = " Correct the boundary where the mesh was made."
     if not now.pins_of(now.locked).size:
-        said += " Correct the boundary where the mesh was made."
+        said += remedy
     return said

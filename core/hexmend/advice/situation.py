@@ -73,11 +73,10 @@ class Situation:
     @cached_property
     def improving(self) -> bool:
         """Whether the last quarter of the last method's iterations still gained."""
-        rows = self.result.history
-        quarter = max(1, self.result.stages[-1].iterations // 4)
-        if not self.result.stages[-1].iterations:
+        rows, iterations = self.result.history, self.result.stages[-1].iterations
+        then, now = rows[-1 - min(iterations, max(1, iterations // 4))], rows[-1]
+        if self.result.kept <= then["iteration"]:
             return False
-        then, now = rows[-1 - quarter], rows[-1]
         if self.aim == "energy":  # of which the history does not tell; a line search lowers it with every move
             return now["largest_move"] > self.stop.tolerance
         if now["inverted"] != then["inverted"]:

@@ -16,6 +16,7 @@ class Compare:
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         from hexmend.cli.command.limits import add_limits
+        from hexmend.cli.command.method import add_boundary
 
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
         parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the tables")
@@ -31,12 +32,13 @@ class Compare:
             default=[],
             help="a parameter of the one method, or of every method that has it",
         )
+        add_boundary(parser)
         add_limits(parser)
         parser.add_argument("--write-meshes", action="store_true", help="write each method's mesh into the folder too")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command import settings
         from hexmend.cli.command.limits import given_limits, limits
+        from hexmend.cli.command.method import with_boundary
         from hexmend.cli.command.printed import print_table
         from hexmend.cli.command.progress import Progress
         from hexmend.io import read, write, writer_for
@@ -46,7 +48,8 @@ class Compare:
         from hexmend.study.compare import compare
 
         names = [name.strip() for name in args.methods.split(",")] if args.methods else list(METHODS)
-        smoothers, stop = chosen(names, settings(args.set), given_limits(args)), limits(args)
+        settings = with_boundary(args, [name for name in names if not name.endswith(".toml")])
+        smoothers, stop = chosen(names, settings, given_limits(args)), limits(args)
         mesh = read(args.mesh)
         folder = made_folder(args.output)
         suffix = Path(args.mesh).suffix

@@ -43,8 +43,20 @@ class Info:
             print(to_json(answer))
             return 0
         from hexmend.cli.tables import print_spreads, print_summaries
+        from hexmend.figures import count
 
         print_summaries(args.mesh, [""], [summary])
+        if summary.locked_inverted:
+            from hexmend.quality import locked
+            from hexmend.surface import freed_by_sliding
+
+            which = locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
+            freed = int(freed_by_sliding(mesh, which).sum())
+            left = summary.locked_inverted - freed
+            print(
+                f"Locked: {count(freed)} can be freed where the boundary slides (--boundary slide), "
+                f"{count(left)} cannot."
+            )
         if args.metrics:
             print_spreads(metrics)
         for finding in doctor.examine(mesh):

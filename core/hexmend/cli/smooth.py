@@ -43,7 +43,10 @@ class Smooth:
         if args.history:
             write_history(args.history, result)
         print_summaries(f"{args.mesh}: {what.title}", ["before", "after"], [result.before, result.after])
-        print(f"{result.message}\nWritten to {args.output}.")
+        print(result.message)
+        if result.surface is not None:
+            print(result.surface.words)
+        print(f"Written to {args.output}.")
         if not result.after.inverted:
             return 0
         advice = advise(result)

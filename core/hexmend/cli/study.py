@@ -11,35 +11,46 @@ if TYPE_CHECKING:
 
 
 class Study:
-    """Chapter 4 on the gallery's meshes."""
+    """Chapter 4, and what 5.2 hopes for, on the gallery's meshes."""
 
     name = "study"
     help = "Do the thesis's experiments again: tables, figures and claims, ours beside the published."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("study", metavar="NAME", choices=["thesis"], help="thesis: the tables of Chapter 4")
+        parser.add_argument(
+            "study", metavar="NAME", choices=["thesis"], help="thesis: the tables of Chapter 4 and outlooks of 5.2"
+        )
         parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the report")
         parser.add_argument(
             "--quick", action="store_true", help="small meshes and a few seconds a run: minutes in place of hours"
         )
         parser.add_argument(
-            "--only", metavar="TABLE", action="append", default=[], help="one of the tables, as 4.1; may be repeated"
+            "--only",
+            metavar="TABLE",
+            action="append",
+            default=[],
+            help="one of the tables, as 4.1, or of the sections, as 5.2.5; may be repeated",
         )
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.progress import Progress
-        from hexmend.report import made_folder, write_experiment, write_study
+        from hexmend.report import made_folder, write_experiment, write_outlook, write_study
         from hexmend.report.thesis import VERDICTS
         from hexmend.study.bench import machine
         from hexmend.study.experiments import load
+        from hexmend.study.outlook import Tried
         from hexmend.study.thesis import chosen_tables, run_experiments
 
         thesis = chosen_tables(load(), args.only) if args.only else load()
         folder = made_folder(args.output)
 
-        def done(measured: Measured) -> None:
-            paths = write_experiment(folder, measured.record())
-            print(f"Table {measured.experiment.table}, {measured.experiment.thesis_mesh}: {paths[1].name}", flush=True)
+        def done(one: Measured | Tried) -> None:
+            if isinstance(one, Tried):
+                said, paths = f"Section {one.outlook.section}, {one.outlook.mesh}", write_outlook(folder, one.record())
+            else:
+                said = f"Table {one.experiment.table}, {one.experiment.thesis_mesh}"
+                paths = write_experiment(folder, one.record())
+            print(f"{said}: {paths[1].name}", flush=True)
 
         with Progress() as progress:
             study = run_experiments(thesis, quick=args.quick, watch=progress.show, done=done)

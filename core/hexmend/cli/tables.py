@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
+
+from hexmend.figures import Worse
 
 if TYPE_CHECKING:
     from hexmend.quality import Spread, Summary
 
 
 def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summary]) -> None:
-    """Print one or several summaries side by side."""
-    from hexmend.quality import FIGURES
+    """Print one or several summaries side by side; what is worse than in the first stands out."""
+    from hexmend.quality import FIGURES, JUDGED, worse
 
     print(title)
-    records = [summary.to_dict() for summary in summaries]
+    columns = [(summary.to_dict(), {JUDGED[name] for name in worse(summaries[0], summary)}) for summary in summaries]
     rows = [
-        [f"  {figure.label}" if figure.part_of else figure.title, *(figure.of(record) for record in records)]
+        [
+            f"  {figure.label}" if figure.part_of else figure.title,
+            *((Worse if figure.key in fallen else str)(figure.of(record)) for record, fallen in columns),
+        ]
         for figure in FIGURES.values()
     ]
     print_columns(["", *heads] if len(heads) > 1 else None, rows)
@@ -37,13 +44,21 @@ def print_spreads(spreads: Mapping[str, Spread]) -> None:
 
 
 def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> None:
-    """Print rows in columns, the first from the left and the others from the right, with a line below the head."""
+    """Print rows in columns, the first from the left and the others from the right, with a line below the head.
+
+    On a terminal that has colours, a cell that is a `Worse` is red.
+    """
+    red, plain = ("\x1b[31m", "\x1b[0m") if _coloured() else ("", "")
     every = [*([head] if head else []), *rows]
     widths = [max(map(len, column)) for column in zip(*every, strict=True)]
 
     def line(row: Sequence[str]) -> str:
         cells = (cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))
-        return "  " + "   ".join([row[0].ljust(widths[0]), *cells])
+        painted = (
+            f"{red}{text}{plain}" if isinstance(cell, Worse) else text
+            for cell, text in zip(row[1:], cells, strict=True)
+        )
+        return "  " + "   ".join([row[0].ljust(widths[0]), *painted])
 
     print()
     if head:
@@ -51,3 +66,8 @@ def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> 
         print(" " + "─" * (len(line(head)) - 1))
     print("\n".join(map(line, rows)))
     print()
+
+
+def _coloured() -> bool:
+    """Whether standard output shows colours, and may: as rich, which draws the other tables, decides."""
+    return not os.environ.get("NO_COLOR") and bool(os.environ.get("FORCE_COLOR") or sys.stdout.isatty())

@@ -4,8 +4,9 @@ from hexmend.energy.couplings import Couplings
 from hexmend.energy.delta import POLICIES, AdaptiveDelta, DeltaPolicy, FixedDelta
 from hexmend.energy.hexahedral import energies, objective
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
+from hexmend.energy.sliding import SlidingEnergy
 
 __all__ = [
     "POLICIES", "AdaptiveDelta", "Couplings", "DeltaPolicy", "FixedDelta", "Hessian", "MeshEnergy",
-    "energies", "objective",
+    "SlidingEnergy", "energies", "objective",
 ]  # fmt: skip

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import as_points
+from hexmend.arrays import as_points, dot
 from hexmend.energy.assembled import Assembled
 from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import energies
@@ -46,6 +46,9 @@ class MeshEnergy:
     >>> round(energy.value(x), 12), energy.gradient(x).shape
     (0.0, (8, 3))
     """
+
+    #: Whether it has bends, those of a surface of triangles, at which Newton's method is slow.
+    faceted = False
 
     def __init__(self, mesh: Mesh, p: float = 2.0, left_out: np.ndarray | None = None):
         self.mesh = mesh
@@ -102,6 +105,14 @@ class MeshEnergy:
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
         """Second derivative of `value` by the free nodes, at points x (n, 3)."""
         return Hessian(self, x, delta)
+
+    def descending(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
+        """The slope of `value` along a step (k, 3) of the free nodes, `gradient` (k, 3) being its derivative at x."""
+        return dot(step, gradient)
+
+    def strayed(self, x: np.ndarray) -> np.ndarray:
+        """Which nodes are where they may not be whatever their energy, (n,) bool; x (n, 3)."""
+        return np.zeros(len(x), dtype=bool)
 
     def _gathered(self) -> np.ndarray:
         """What the shares of the hexes come to at each free node, (k, 3)."""

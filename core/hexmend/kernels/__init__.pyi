@@ -2,6 +2,7 @@
 
 from hexmend.kernels import assembly as assembly
 from hexmend.kernels import binning as binning
+from hexmend.kernels import closest as closest
 from hexmend.kernels import conjugate_gradients as conjugate_gradients
 from hexmend.kernels import corner_values as corner_values
 from hexmend.kernels import couplings as couplings
@@ -13,6 +14,7 @@ from hexmend.kernels import getme as getme
 from hexmend.kernels import hexahedron as hexahedron
 from hexmend.kernels import incidence as incidence
 from hexmend.kernels import laplacian as laplacian
+from hexmend.kernels import large_patches as large_patches
 from hexmend.kernels import local as local
 from hexmend.kernels import metrics as metrics
 from hexmend.kernels import objective as objective
@@ -24,8 +26,10 @@ from hexmend.kernels import reach as reach
 from hexmend.kernels import shape as shape
 from hexmend.kernels import sides as sides
 from hexmend.kernels import skin as skin
+from hexmend.kernels import sliding as sliding
 from hexmend.kernels import structure as structure
 from hexmend.kernels import symmetric as symmetric
+from hexmend.kernels import visiting as visiting
 from hexmend.kernels import worst_first as worst_first
 
 BUILD: str

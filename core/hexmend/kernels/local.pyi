@@ -21,14 +21,14 @@ FLAT: int = 2
 
 INFINITE: int = 3
 
-def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: int, delta: float, p: float, first: float, shrink: float, c1: float, cuts: int) -> None:
+def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: int, delta: float, p: float, first: float, shrink: float, c1: float, cuts: int) -> int:
     """
     Move every node of `nodes` once, in place: one pass of Algorithm 3.2.
 
     Group k is nodes[groups[k]:groups[k + 1]]. Nodes of one group share no hex, so that each sees the others
     where they stay: the result is that of a sequential sweep, whatever the number of threads. delta is meant
     for the patch scaled to mean edge length 1; p is the exponent of the objective; first, shrink, c1 and cuts
-    are those of the line search, A.5.
+    are those of the line search, A.5. Returns how often its trial steps asked a hex for its energy.
     """
 
 def look(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, delta: float, p: float) -> tuple[float, float, list[float], list[float]]:

@@ -11,6 +11,7 @@ from hexmend.mesh import Mesh
 from hexmend.node_step.local import local_step
 from hexmend.node_step.record import NodeStep
 from hexmend.smoothers.local_descent import LocalDescent
+from hexmend.smoothers.order import ORDERS
 
 
 class Sweep(Iterator[NodeStep]):
@@ -25,7 +26,7 @@ class Sweep(Iterator[NodeStep]):
     Attributes
     ----------
     nodes : (k,) int32
-        The free nodes in the order of the sweep.
+        The free nodes in the order of the sweep, the first of a run with these places.
     done : int
         How many of them have been visited.
     delta : float
@@ -42,8 +43,7 @@ class Sweep(Iterator[NodeStep]):
 
     def __init__(self, mesh: Mesh, smoother: LocalDescent):
         self.mesh, self.smoother = mesh, smoother
-        self._groups = mesh.topology.colouring(mesh.free)
-        self.nodes = self._groups.items
+        self.nodes = ORDERS[smoother.order](mesh)(mesh.points, 0)
         self.done = 0
         self.delta = smoother.delta_at(mesh, mesh.points)
         self._points = mesh.points.copy()
@@ -84,9 +84,9 @@ class Sweep(Iterator[NodeStep]):
         if self.over:
             return None
         corners, method, last = self.mesh.topology.node_corners, self.smoother, self.nodes.size - 1
-        groups = np.clip(self._groups.start - self.done, 0, last - self.done).astype(np.int32)
+        groups = self.mesh.topology.wavefronts(self.nodes[self.done : last])
         local.sweep(
-            self._points, self.mesh.hexes, corners.start, corners.items, groups, self.nodes[self.done : last],
+            self._points, self.mesh.hexes, corners.start, corners.items, groups.start, groups.items,
             method.direction, self.delta, method.p, method.first_step, method.shrink, method.c1, method.max_cuts,
         )  # fmt: skip
         self.done = last

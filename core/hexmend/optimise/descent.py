@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.arrays import dot, norm
+from hexmend.arrays import norm
 from hexmend.energy import MeshEnergy, energies
 from hexmend.kernels.reach import shorten
 from hexmend.optimise.direction import Direction, Found, steepest_descent
@@ -84,9 +84,12 @@ def descend(
         ring = energy.mesh.topology.rings
         shorten(found.p, x, ring.start, ring.items, energy.nodes, reach)
         restrain(energy, x, delta, found.p)
-    if not dot(found.p, gradient) < 0:
+    slope = energy.descending(x, delta, found.p, gradient)
+    if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
-    slope = dot(found.p, gradient)
+        if np.isfinite(reach):
+            restrain(energy, x, delta, found.p)
+        slope = energy.descending(x, delta, found.p, gradient)
     alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
     return Descent(energy.moved(x, found.p, alpha), value, slope, length, found, alpha, cuts)
 
@@ -96,16 +99,19 @@ WORSE, MORE, HALVINGS = 2.0, 1.0, 8
 
 
 def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
-    """Halve the steps of the nodes of hexes that would be spoilt, again and again: the rest need not wait for them."""
+    """Halve the steps of nodes that stray or whose hexes would be spoilt, again and again: the rest need not wait."""
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
     limit = WORSE * energies(x, hexes, delta, energy.left_out) + MORE
     for _ in range(HALVINGS):
-        spoilt = ~(energies(energy.moved(x, share[energy.nodes, None] * step), hexes, delta, energy.left_out) <= limit)
-        if not spoilt.any():
-            break
-        halved = np.zeros(share.size, dtype=bool)
+        there = energy.moved(x, share[energy.nodes, None] * step)
+        spoilt = ~(energies(there, hexes, delta, energy.left_out) <= limit)
+        halved = energy.strayed(there)
         halved[hexes[spoilt]] = True
+        if not halved.any():
+            break
         share[halved] *= 0.5
+    else:
+        share[energy.strayed(there)] = 0.0  # step by step they would go out of their room all the same
     step *= share[energy.nodes, None]
 
 

@@ -12,7 +12,8 @@ import numpy as np
 
 from hexmend.mesh import Mesh
 from hexmend.optimise.stop import Stop
-from hexmend.quality import ElementQuality, Summary, objective
+from hexmend.quality import ElementQuality, Summary, objective, worse
+from hexmend.surface import SurfaceChange
 
 
 class Outcome(Enum):
@@ -50,6 +51,8 @@ class Step:
         True while another stage is to come: however little this step moved, the run has not converged.
     figures : ElementQuality, optional
         `measure(points, hexes)`, where the method has needed it itself.
+    detour : bool
+        True where nodes are further than the method may leave them: such an iterate is no result.
     """
 
     points: np.ndarray
@@ -57,6 +60,7 @@ class Step:
     decision: str = ""
     more: bool = False
     figures: ElementQuality | None = None
+    detour: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,6 +159,8 @@ class Result:
     message : str
         The outcome with its figures, in sentences.
     iterations : int
+    kept : int
+        Number of the iteration that is the result.
     seconds : float
         In the smoother, without its set-up, without reading and writing.
     setup_seconds : float
@@ -164,6 +170,8 @@ class Result:
     stages : tuple of StageResult
         What each method did: of a run of one method one, else the stages of a recipe as they were run, or the methods
         of a run whose method was changed on the way.
+    surface : SurfaceChange or None
+        How far the boundary has left where it was; None where no method let it slide.
     """
 
     mesh: Mesh
@@ -174,7 +182,14 @@ class Result:
     outcome: Outcome
     message: str
     iterations: int
+    kept: int
     seconds: float
     setup_seconds: float
     history: tuple[dict[str, float | int | None], ...]
     stages: tuple[StageResult, ...]
+    surface: SurfaceChange | None = None
+
+    @property
+    def worse(self) -> tuple[str, ...]:
+        """What is worse than before: names of `hexmend.quality.JUDGED`."""
+        return worse(self.before, self.after)

@@ -1,4 +1,4 @@
-"""When a run ends by itself."""
+"""When a run ends by itself, and which of its iterates is kept."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hexmend.parameters import Parametrised, parameter
 
 @dataclass(frozen=True)
 class Stop(Parametrised):
-    """When a run ends by itself."""
+    """When a run ends by itself, and which of its iterates is kept."""
 
     max_iterations: int = parameter(300, low=0, high=1_000_000, help="Most iterations of a run.")
     tolerance: float = parameter(
@@ -25,4 +25,8 @@ class Stop(Parametrised):
         high=1e7,
         unit="s",
         help="Most seconds in the smoother; 0 sets no limit. The iteration at hand ends.",
+    )
+    keep_last: bool = parameter(
+        False,
+        help="Keep the last iterate, however bad, not the best by inverted hexes, then least q(H).",
     )

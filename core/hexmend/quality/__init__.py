@@ -13,12 +13,14 @@ from hexmend.quality.q import Q
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
 from hexmend.quality.spread import Spread, spreads
 from hexmend.quality.summary import FIGURES, Summary, objective, summarise
+from hexmend.quality.worse import JUDGED, worse, worse_in_words
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
 __all__ = [
     "FIGURES",
+    "JUDGED",
     "METRICS",
     "SCALED_JACOBIAN",
     "Element",
@@ -38,5 +40,7 @@ __all__ = [
     "objective",
     "spreads",
     "summarise",
+    "worse",
+    "worse_in_words",
     "worst",
 ]

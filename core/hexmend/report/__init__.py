@@ -12,6 +12,7 @@ from hexmend.report.markdown import markdown
 if _TYPE_CHECKING:
     from hexmend.report.comparison import comparison_rows, comparison_table, table_of, write_comparison
     from hexmend.report.documents import made_folder, write_csv, write_documents, write_text
+    from hexmend.report.outlook import write_outlook
     from hexmend.report.records import record, to_json, write_history, write_json
     from hexmend.report.tables import Table
     from hexmend.report.thesis import write_experiment, write_study
@@ -19,6 +20,7 @@ if _TYPE_CHECKING:
 _HOMES = {
     "comparison": ("comparison_rows", "comparison_table", "table_of", "write_comparison"),
     "documents": ("made_folder", "write_csv", "write_documents", "write_text"),
+    "outlook": ("write_outlook",),
     "records": ("record", "to_json", "write_history", "write_json"),
     "tables": ("Table",),
     "thesis": ("write_experiment", "write_study"),
@@ -41,6 +43,7 @@ __all__ = [
     "write_experiment",
     "write_history",
     "write_json",
+    "write_outlook",
     "write_study",
     "write_text",
 ]

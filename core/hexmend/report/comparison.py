@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hexmend.figures import Figure, count, micro, milli, significant
+from hexmend.figures import Figure, Worse, count, micro, milli, significant
 from hexmend.quality.summary import FIGURES
+from hexmend.quality.worse import JUDGED
 from hexmend.report.documents import write_document
 from hexmend.report.tables import Table
 
@@ -20,9 +21,22 @@ _ENDED = {
     "nothing-free": "nothing free",
 }
 
+
+def ended(outcome: str) -> str:
+    """Why a run ended, in a word or two.
+
+    >>> ended("max-seconds")
+    'time limit'
+    """
+    return _ENDED.get(outcome, outcome)
+
+
 #: The lines of the table: those of the thesis, and what tells how far they can be believed.
 LINES: tuple[Figure, ...] = (
-    *(FIGURES[key] for key in ("inverted", "q_min", "q_mean", "q_std", "q_max", "q_norm", "objective")),
+    *(
+        FIGURES[key]
+        for key in ("inverted", "q_min", "q_mean", "q_std", "q_max", "q_norm", "scaled_jacobian_min", "objective")
+    ),
     Figure(
         "seconds",
         "time, s",
@@ -39,7 +53,7 @@ LINES: tuple[Figure, ...] = (
         micro,
         -1,
     ),
-    Figure("outcome", "ended", "Why the run ended.", lambda key: _ENDED.get(key, key)),
+    Figure("outcome", "ended", "Why the run ended.", ended),
 )
 
 #: The thesis's widest table has this many columns of figures; a wider one is turned on its side.
@@ -65,11 +79,11 @@ def comparison_table(
     """
     rows = []
     for figure in LINES:
-        rows.append([figure.label, *(figure.of(record) for record in columns.values())])
+        rows.append([figure.label, *(_cell(figure, record) for record in columns.values())])
         theirs = [(published or {}).get(head, {}) for head in columns]
         if any(record.get(figure.key) is not None for record in theirs):
             rows.append(["– thesis", *(figure.of(record) for record in theirs)])
-    table = Table(title, ["", *columns], rows, [*notes, *_explained(columns.values())])
+    table = Table(title, ["", *columns], rows, [*notes, *_fallen(columns), *_explained(columns.values())])
     return table if len(columns) <= _WIDEST or published else table.transposed
 
 
@@ -100,6 +114,22 @@ def write_comparison(path: Path, comparison: Mapping[str, Any]) -> None:
         For another suffix, or where the file cannot be written; the one that was there stays.
     """
     write_document(path, table_of(comparison), comparison_rows(comparison), comparison)
+
+
+def _cell(figure: Figure, record: Mapping[str, Any]) -> str:
+    fallen = {JUDGED[name] for name in record.get("worse", ())}
+    return (Worse if figure.key in fallen else str)(figure.of(record))
+
+
+def _fallen(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """Which methods left what worse than the mesh they were given."""
+    labels = {name: FIGURES[key].label for name, key in JUDGED.items()}
+    those = [
+        f"{head} ({', '.join(labels[name] for name in record['worse'])})"
+        for head, record in columns.items()
+        if record.get("worse")
+    ]
+    return [f"Worse than before: {'; '.join(those)}."] if those else []
 
 
 def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def record(result: Result) -> dict[str, Any]:
-    """The report of `hexmend smooth --json`; `stages` is there for a recipe alone."""
+    """The report of `hexmend smooth --json`; `stages` is there for a recipe alone, `surface` if the boundary slid."""
     from hexmend.optimise.figures import HISTORY
     from hexmend.recipe import Recipe
 
@@ -23,13 +23,17 @@ def record(result: Result) -> dict[str, Any]:
         "parameters": dict(result.parameters),
         "outcome": result.outcome.key,
         "message": result.message,
+        "worse": list(result.worse),
         "iterations": result.iterations,
+        "kept": result.kept,
         "seconds": result.seconds,
         "setup_seconds": result.setup_seconds,
         "before": result.before.to_dict(),
         "after": result.after.to_dict(),
         "history": [{column: row[column] for column in HISTORY} for row in result.history],
     }
+    if result.surface is not None:
+        report["surface"] = result.surface.to_dict()
     return report | {"stages": [stage.to_dict() for stage in result.stages]} if result.method == Recipe.name else report
 
 

@@ -12,6 +12,7 @@ from hexmend.report import plots
 from hexmend.report.comparison import comparison_table
 from hexmend.report.documents import write_documents, write_text
 from hexmend.report.markdown import escaped, markdown
+from hexmend.report.outlook import outlook_stem, outlook_table
 from hexmend.report.records import write_json
 from hexmend.report.tables import Table
 
@@ -95,11 +96,14 @@ def index(study: Mapping[str, Any], pictures: Sequence[str]) -> str:
     parts = ["# The thesis's Chapter 4, measured again", _preface(study), "## Claims", _claims(study["claims"])]
     if pictures:
         parts += ["## Figures", *(f"![{name}]({name})" for name in pictures)]
-    parts.append("## Tables")
-    for experiment in study["experiments"]:
-        name = stem(experiment)
-        files = ", ".join(f"[{suffix}]({name}.{suffix})" for suffix in ("csv", "tex", "json"))
-        parts.append(f"{markdown(experiment_table(experiment))}\n{files}")
+    for head, tables in (
+        ("## Tables", [(stem(one), experiment_table(one)) for one in study["experiments"]]),
+        ("## What section 5.2 hopes for", [(outlook_stem(one), outlook_table(one)) for one in study["outlooks"]]),
+    ):
+        parts += [head] if tables else []
+        for name, table in tables:
+            files = ", ".join(f"[{suffix}]({name}.{suffix})" for suffix in ("csv", "tex", "json"))
+            parts.append(f"{markdown(table)}\n{files}")
     return "\n\n".join(parts) + "\n"
 
 

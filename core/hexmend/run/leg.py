@@ -36,13 +36,17 @@ class Leg:
         Where the nodes are as it begins.
     after : Iteration
         The run's newest: numbers and seconds go on from it.
-    since : Iteration
-        The run's newest as the stage began: the limits count from it.
+    before : Leg, optional
+        The one whose stage it takes over: limits count and iterates are ranked from where that stage began.
 
     Attributes
     ----------
+    at : Iteration
+        Where the nodes are.
     last, reached : Iteration
         See `Run`.
+    since : Iteration
+        The run's newest as the stage began.
     outcome : Outcome or None
         None while it goes on.
     setup_seconds : float
@@ -50,20 +54,25 @@ class Leg:
         What the method decided at its newest step.
     """
 
-    def __init__(self, mesh: Mesh, stage: Stage, number: int, start: Iteration, after: Iteration, since: Iteration):
+    def __init__(
+        self, mesh: Mesh, stage: Stage, number: int, start: Iteration, after: Iteration, before: Leg | None = None
+    ):
         self.stage, self.number = stage, number
-        self.start, self.after, self.since = start, after, since
-        self.last, self.reached = after, start
+        self.start, self.after = start, after
+        self.since = after if before is None else before.since
+        self.last, self.at = after, start
         self.outcome: Outcome | None = None
         self.decision = ""
         self._hexes, self._unit = mesh.hexes, mesh.mean_edge_length or 1.0
-        self._at = start
-        self._reached_rank = self._rank(start)
+        self._origin = start if before is None else before._origin
+        self._best = start if before is None else before._best
+        self._best_rank = self._rank(self._best)
+        self._consider(start)
         began = perf_counter()
-        self._steps = self.smoother.steps(mesh.with_points(start.points))
+        self._steps = self.smoother.steps(mesh.keeping_surface().with_points(start.points))
         next(self._steps)
         self.setup_seconds = perf_counter() - began
-        if not mesh.free.any():
+        if not mesh.free.any() and not self.smoother.movable(mesh).any():
             self.end(Outcome.NOTHING_FREE)
         else:
             self._end_at_a_limit()
@@ -72,6 +81,11 @@ class Leg:
     def smoother(self) -> Smoother:
         """The method at work."""
         return self.stage.smoother
+
+    @property
+    def reached(self) -> Iteration:
+        """See `Run`."""
+        return self.at if self.stage.stop.keep_last else self._best
 
     @property
     def made(self) -> int:
@@ -87,15 +101,14 @@ class Leg:
             self.end(end.value or Outcome.FINISHED)
             return None
         seconds = self.last.seconds + perf_counter() - began
-        points, before = read_only(as_points(step.points)), self._at
+        points, before = read_only(as_points(step.points)), self.at
         move = float(np.sqrt(np.square(points - before.points).sum(axis=1).max())) / self._unit
         figures = step.figures if step.figures is not None else measure(points, self._hexes)
         notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
-        now = self.last = self._at = Iteration(self.last.number + 1, points, figures, seconds, move, notes)
+        now = self.last = self.at = Iteration(self.last.number + 1, points, figures, seconds, move, notes)
         self.decision = step.decision
-        rank = self._rank(now)
-        if rank <= self._reached_rank:
-            self.reached, self._reached_rank = now, rank
+        if not step.detour:
+            self._consider(now)
         if move < self.stage.stop.tolerance and not step.more and not self._falling(before, now):  # Algorithm A.1
             self.end(Outcome.CONVERGED)
         else:
@@ -120,7 +133,8 @@ class Leg:
         stop, before, spent = self.stage.stop, self.after.number - self.since.number, self.after.seconds
         most = self.made if cut else max(stop.max_iterations - before, 0)
         left = max(stop.max_seconds - (spent - self.since.seconds), 1e-3) if stop.max_seconds else 0.0
-        return Stage(self.smoother, replace(stop, max_iterations=most, max_seconds=left))
+        last = cut or stop.keep_last  # what took over went on from there
+        return Stage(self.smoother, replace(stop, max_iterations=most, max_seconds=left, keep_last=last))
 
     def result(self) -> StageResult:
         """Its record as far as it went."""
@@ -137,7 +151,13 @@ class Leg:
         )
 
     def _rank(self, iteration: Iteration) -> tuple[float, ...]:
-        return self.smoother.rank(self.start.figures, iteration.figures) or ()
+        return self.smoother.rank(self._origin.figures, iteration.figures)
+
+    def _consider(self, iteration: Iteration) -> None:
+        """Take it for the best of the stage if none before it was better."""
+        rank = self._rank(iteration)
+        if rank <= self._best_rank:
+            self._best, self._best_rank = iteration, rank
 
     def _falling(self, before: Iteration, now: Iteration) -> bool:
         """Whether an optimiser's objective still falls: beside the barrier steps are short, however much they gain."""

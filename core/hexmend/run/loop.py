@@ -8,11 +8,13 @@ from itertools import pairwise
 from hexmend.arrays import read_only
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Outcome, Result, Stop
-from hexmend.quality import measure, summarise
+from hexmend.quality import Summary, measure, summarise, worse_in_words
 from hexmend.recipe import Recipe, Stage
 from hexmend.run.leg import Leg
-from hexmend.run.words import changes, iterations
+from hexmend.run.words import changes, iterations, kept
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.surface import SurfaceChange, surface_change
+from hexmend.surface.features import DEGREES
 
 
 class Run(Iterator[Iteration]):
@@ -37,7 +39,8 @@ class Run(Iterator[Iteration]):
     last : Iteration
         The newest.
     reached : Iteration
-        The one that is the run's result: the last, or, if the method at work ranks them, the best since it began.
+        The one that is the run's result: the best of the stage at hand by the rank of the method at work, of equals
+        the last; the last in any case under `Stop.keep_last`.
     history : list of dict
         `Iteration.row` of every iteration so far, number 0 first.
     outcome : Outcome or None
@@ -56,7 +59,7 @@ class Run(Iterator[Iteration]):
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
-        self._legs = [Leg(mesh, self._stages[0], 1, self.start, self.start, self.start)]
+        self._legs = [Leg(mesh, self._stages[0], 1, self.start, self.start)]
         self._settle()
 
     def __next__(self) -> Iteration:
@@ -101,7 +104,7 @@ class Run(Iterator[Iteration]):
         if new.smoother == old.smoother and old.outcome is None:
             old.limit(new.stop)
         else:
-            leg = Leg(self.mesh, new, old.number, self.last, self.last, old.since)
+            leg = Leg(self.mesh, new, old.number, old.at, self.last, old)
             if old.outcome is None:
                 old.end(Outcome.STOPPED)
             self._legs.append(leg)
@@ -163,34 +166,50 @@ class Run(Iterator[Iteration]):
 
     @property
     def message(self) -> str:
-        """What has been reached and why the run ended, in sentences."""
+        """What has been reached, why the run ended, and in what the mesh is worse than it was, in sentences."""
+        return self._message(*self._summaries())
+
+    def _message(self, before: Summary, after: Summary) -> str:
         at, inverted = self.last, self.reached.figures.n_inverted
         said = self.outcome.value if self.outcome is not None else "Running."
         left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
         words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *self.decisions]
         if self.reached is not self.last:
-            words.append(f"Kept is iteration {self.reached.number}, better than what came after.")
-        return " ".join(words)
+            words.append(kept(self.reached.number))
+        return " ".join(filter(None, [*words, worse_in_words(before, after)]))
 
     def result(self) -> Result:
         """The record of the run as far as it went."""
-        mesh = self.mesh.with_points(self.reached.points)
+        before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._legs) > 1
+        mesh = self.mesh.with_points(self.reached.points)
         return Result(
             mesh=mesh,
-            before=summarise(self.mesh, self.start.figures),
-            after=summarise(mesh, self.reached.figures),
+            before=before,
+            after=after,
             method=Recipe.name if several else self.smoother.name,
             parameters={} if several else self.stage.smoother.values(),
             outcome=self.outcome or Outcome.STOPPED,
-            message=self.message,
+            message=self._message(before, after),
             iterations=self.last.number,
+            kept=self.reached.number,
             seconds=self.last.seconds,
             setup_seconds=self.setup_seconds,
             history=tuple(self.history),
             stages=tuple(leg.result() for leg in self._legs),
+            surface=self._surface_change(mesh),
         )
+
+    def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
+        """Of the boundary as given to that of a mesh, where a method let it slide."""
+        angles = [leg.smoother.values().get("feature_angle", DEGREES) for leg in self._legs if leg.smoother.slides]
+        return surface_change(self.mesh, mesh, angles[0]) if angles else None
+
+    def _summaries(self) -> tuple[Summary, Summary]:
+        """Of the mesh as given and of what was reached."""
+        mesh = self.mesh.with_points(self.reached.points)
+        return summarise(self.mesh, self.start.figures), summarise(mesh, self.reached.figures)
 
     @property
     def _leg(self) -> Leg:
@@ -205,7 +224,7 @@ class Run(Iterator[Iteration]):
         kept = f" Kept of it is iteration {reached.number}." if reached is not last else ""
         count = iterations(last.number - done.since.number)
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
-        self._legs.append(Leg(self.mesh, self._to_come[0], done.number + 1, reached, last, last))
+        self._legs.append(Leg(self.mesh, self._to_come[0], done.number + 1, reached, last))
         self._settle()
 
     def _settle(self) -> None:

@@ -36,6 +36,15 @@ def iterations(count: int) -> str:
     return f"{count} iteration{'s' * (count != 1)}"
 
 
+def kept(number: int) -> str:
+    """
+    >>> kept(3)
+    'Kept is iteration 3, better than what came after.'
+    """
+    which = "" if number else ", the mesh as given"
+    return f"Kept is iteration {number}{which}, better than what came after."
+
+
 def _differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
     return [
         f"{name} = {_said(value)} instead of {_said(old[name])}" for name, value in new.items() if value != old[name]

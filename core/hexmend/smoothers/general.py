@@ -13,12 +13,13 @@ from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import parameter
 from hexmend.quality import measure
-from hexmend.smoothers.smoother import METHODS, Smoother, Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import METHODS, Steps, method
 
 
 @method
 @dataclass(frozen=True)
-class General(Smoother):
+class General(SlidingSmoother):
     """GETMe first; then, where that does not suffice, the optimiser that suits the mesh."""
 
     name = "general"
@@ -42,6 +43,7 @@ class General(Smoother):
     getme_iterations: int = parameter(500, low=0, high=100_000, help="Most iterations of GETMe.")
 
     def steps(self, mesh: Mesh) -> Steps:
+        mesh = mesh.keeping_surface()
         points = yield from self._getme(mesh)
         figures = measure(points, mesh.hexes)
         if not figures.n_inverted and figures.q.min() >= self.sufficient:
@@ -52,14 +54,14 @@ class General(Smoother):
         inverted = f"{count:,} inverted hex{'es' * (count != 1)}" if count else "no inverted hexes"
         chosen = METHODS["global-nr" if ratio <= self.similar and not count else "local-sd"]
         decision = f"After GETMe: {sizes}, {inverted}: {chosen.title}."
-        rest = chosen().steps(mesh.with_points(points))
+        rest = chosen(boundary=self.boundary, feature_angle=self.feature_angle).steps(mesh.with_points(points))
         next(rest)
         return (yield from _beginning_with(decision, rest))
 
     def _getme(self, mesh: Mesh) -> Generator[Step, None, np.ndarray]:
         """GETMe to its end; returns the points."""
         points, unit = mesh.points, mesh.mean_edge_length or 1.0
-        getme = METHODS["getme"]().steps(mesh)
+        getme = METHODS["getme"](boundary=self.boundary, feature_angle=self.feature_angle).steps(mesh)
         yield dataclasses.replace(next(getme), more=True)
         for _, step in zip(range(self.getme_iterations), getme, strict=False):
             move = float(np.sqrt(np.square(step.points - points).sum(axis=1).max())) / unit

@@ -12,7 +12,9 @@ from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
-from hexmend.smoothers.smoother import Smoother, Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import Steps, method
+from hexmend.surface import Sliding
 
 #: A rise of q_min or q_mean that is less than this is none.
 RISE = 1e-6
@@ -20,7 +22,7 @@ RISE = 1e-6
 
 @method
 @dataclass(frozen=True)
-class GETMe(Smoother):
+class GETMe(SlidingSmoother):
     """Every hex grows more regular by itself; each node goes to a mean of the places that its hexes give it."""
 
     name = "getme"
@@ -41,6 +43,8 @@ class GETMe(Smoother):
     )
 
     def steps(self, mesh: Mesh) -> Steps:
+        sliding = self.sliding(mesh)
+        mesh = mesh if sliding is None else sliding.mesh
         attached = mesh.topology.node_corners
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         places = np.empty((mesh.n_hexes, 8, 3))
@@ -52,7 +56,9 @@ class GETMe(Smoother):
             element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
             moved = points.copy()
             kernels.weighted_means(places, self.weigh(figures.q), attached.start, attached.items, nodes, moved)
-            points, figures, relaxed = _without_harm(mesh, points, figures, moved)
+            if sliding is not None:
+                moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
+            points, figures, relaxed = _without_harm(mesh, points, figures, moved, sliding)
             now = standing(figures)
             idle = 0 if np.any(now > best + RISE) else idle + 1
             best = np.maximum(best, now)
@@ -74,7 +80,7 @@ def standing(figures: ElementQuality) -> np.ndarray:
 
 
 def _without_harm(
-    mesh: Mesh, points: np.ndarray, figures: ElementQuality, moved: np.ndarray
+    mesh: Mesh, points: np.ndarray, figures: ElementQuality, moved: np.ndarray, sliding: Sliding | None
 ) -> tuple[np.ndarray, ElementQuality, int]:
     """The moved points, relaxed where a hex that was sound would be inverted; their figures; how many were relaxed."""
     after = measure(moved, mesh.hexes)
@@ -83,4 +89,12 @@ def _without_harm(
         return moved, after, 0
     attached = mesh.topology.node_corners
     relaxed = kernels.relax(points, mesh.hexes, attached.start, attached.items, ~figures.inverted, harmed, moved)
-    return moved, measure(moved, mesh.hexes), relaxed
+    if sliding is None:
+        return moved, measure(moved, mesh.hexes), relaxed
+    moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
+    while True:  # a relaxed step that is put back may harm again: then it is not taken at all
+        after = measure(moved, mesh.hexes)
+        nodes = mesh.hexes[after.inverted & ~figures.inverted]
+        if not nodes.size:
+            return moved, after, relaxed
+        moved[nodes] = points[nodes]

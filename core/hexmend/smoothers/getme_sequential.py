@@ -6,13 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.kernels import sliding as on_surface
 from hexmend.kernels import worst_first as kernels
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import parameter
 from hexmend.quality import measure
 from hexmend.smoothers.getme import standing
-from hexmend.smoothers.smoother import Smoother, Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import Steps, method
 
 #: A sweep that raises q_min by less than this has not raised it.
 RISE = 1e-4
@@ -23,7 +25,7 @@ HALVINGS = 6
 
 @method
 @dataclass(frozen=True)
-class SequentialGETMe(Smoother):
+class SequentialGETMe(SlidingSmoother):
     """The worst hex takes its step alone, then whichever is worst by then, as many steps a sweep as there are hexes."""
 
     name = "getme-sequential"
@@ -43,6 +45,8 @@ class SequentialGETMe(Smoother):
     )
 
     def steps(self, mesh: Mesh) -> Steps:
+        sliding = self.sliding(mesh)
+        mesh = mesh if sliding is None else sliding.mesh
         attached = mesh.topology.node_corners
         candidates = np.flatnonzero(mesh.free[mesh.hexes].any(axis=1)).astype(np.int32)
         points, figures = mesh.points, measure(mesh.points, mesh.hexes)
@@ -50,11 +54,15 @@ class SequentialGETMe(Smoother):
         yield Step(points)
         while relaxation >= self.relaxation / 2**HALVINGS:
             moved = points.copy()
-            taken_back = kernels.sweep(
+            sweep_of = (
                 moved, mesh.hexes, attached.start, attached.items, mesh.free, candidates,
                 figures.q.copy(), ~figures.inverted,
                 self.scaling, relaxation, self.penalty, self.setback,
             )  # fmt: skip
+            if sliding is None:
+                taken_back = kernels.sweep(*sweep_of)
+            else:
+                taken_back = on_surface.worst_first(*sweep_of, *sliding.ground)
             before, figures = figures, measure(moved, mesh.hexes)
             points = moved
             # Algorithm A.1 does not apply: a sweep may end where it began, and a finer one still raise q_min.

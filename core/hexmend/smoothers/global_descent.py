@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-from hexmend.energy import POLICIES, MeshEnergy
+from hexmend.energy import POLICIES, MeshEnergy, SlidingEnergy
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.optimise.descent import descend
@@ -13,11 +13,12 @@ from hexmend.optimise.direction import Direction
 from hexmend.optimise.line_search import BackLineSearch
 from hexmend.parameters import parameter
 from hexmend.quality import measure
-from hexmend.smoothers.smoother import Smoother, Steps
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import Steps
 
 
 @dataclass(frozen=True)
-class GlobalDescent(Smoother):
+class GlobalDescent(SlidingSmoother):
     """A search direction for all free nodes, a line search along it, and so on; a method names the direction."""
 
     optimises = True
@@ -47,7 +48,8 @@ class GlobalDescent(Smoother):
         """The search direction: Algorithm A.2, A.3 or A.4."""
 
     def steps(self, mesh: Mesh) -> Steps:
-        energy, policy = MeshEnergy(mesh, self.p), POLICIES[self.delta_policy](self.delta)
+        sliding, policy = self.sliding(mesh), POLICIES[self.delta_policy](self.delta)
+        energy = MeshEnergy(mesh, self.p) if sliding is None else SlidingEnergy(sliding, self.p)
         search = BackLineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
         find = self.direction()
         x, points = energy.scaled(mesh.points), mesh.points

@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
-from hexmend.energy import MeshEnergy, energies
+from hexmend.energy import MeshEnergy, SlidingEnergy, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
+from hexmend.optimise.corners import shortest_edges
 from hexmend.optimise.descent import Descent, descend
 from hexmend.optimise.direction import TruncatedNewton
 from hexmend.optimise.line_search import BackLineSearch
+from hexmend.optimise.raising import Limit, Raising
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, corner_determinants, measure
-from hexmend.smoothers.smoother import Smoother, Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import Steps, method
+from hexmend.surface import Sliding
 
 #: Newton steps on one delta; the energy is not worth minimising before delta is what it is to be.
 STEPS = 3
@@ -29,6 +34,8 @@ LARGEST = 0.5
 PATIENCE = 14
 #: How far a step may take a node, in mean lengths of its edges.
 REACH = 1.5
+#: From how many mean edge lengths of its shortest edge on an inner node is far away: it begins amid its neighbours.
+FAR = 10.0
 #: Sweeps of local Newton steps (A.4) around the hexes that a step of all nodes has left inverted, and, at the optimum's
 #: side of the barrier, around those whose energy eta is higher than `POOR`: a few of them would cut the step of all.
 SWEEPS, POOR_SWEEPS, POOR = 10, 5, 3.0
@@ -39,20 +46,46 @@ SETTLED = 1e-3
 #: and the whole mesh steps again only where two deltas in a row have mended nothing.
 FEW, MANY_SWEEPS = 0.003, 50
 
+#: On a faceted surface the last steps go from edge to edge: it is enough where so many gain no more than such a share.
+LATELY, SLOW = 5, 2e-3
+
+#: Least scaled Jacobian from which on a hex is sound enough for the energy's barrier, and below which one is so bad
+#: that nodes of the boundary leave the surface for it.
+SOUND, AIM = 0.02, 0.2
+#: What share of its room the boundary may use where that is enough; how far it may go at first where it is not, in
+#: mean edge lengths, until the least is so many times `AIM`.
+SPARED, WIDE, ENOUGH, NEAR_ENOUGH = 1 / 3, 1.5, 1.2, 1e-5
+#: How many linear programs an iteration has.
+TOGETHER = 3
+#: How many groups of corners that hold each other below `AIM` are left behind; and while nodes leave the surface.
+CLUSTERS, MANY_CLUSTERS = 5, 30
+
 SEARCH = BackLineSearch(shrink=0.5)
 
 
 @method
 @dataclass(frozen=True)
-class Mend(Smoother):
+class Mend(SlidingSmoother):
     """Every free node at once by truncated Newton steps, on a barrier that hardens until no hex is inverted."""
 
     name = "mend"
     title = "Mend"
-    help = "Untangles whatever its fixed nodes allow, then goes to the optimum. Never ends worse than it began."
+    help = "Untangles whatever its fixed nodes allow, then goes to the optimum, of shape or of the worst corner."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     optimises = True
 
+    goal: str = parameter(
+        "shape",
+        choices=("shape", "scaled-jacobian"),
+        help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
+    )
+    surface_tolerance: float = parameter(
+        0.3,
+        low=0,
+        high=10,
+        unit="mean edge length",
+        help="How far the boundary may leave where it was; 0: nodes slide, without a limit.",
+    )
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
     )
@@ -75,20 +108,48 @@ class Mend(Smoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
+        slides, raises = self.slides, self.goal != "shape"
+        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), slides or raises)
+        places, sliding = [mesh.points, points], None
+        if slides:
+            room = self.surface_tolerance * mesh.mean_edge_length
+            sliding = Sliding(mesh, self.feature_angle, SPARED * room if room else np.inf)
+            freeing = Raising(sliding.mesh, points, sliding)
+            yield from raise_least(freeing, SOUND, clusters=1)
+            energy = SlidingEnergy(sliding, self.p)
+            points, outcome = yield from self._shaped(sliding.mesh.with_points(freeing.points), energy, True)
+            places += [freeing.points, points]
+        if raises or slides:
+            at = mesh if sliding is None else sliding.mesh
+            raising = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.least)
+            if raises or raising.least < SOUND:
+                outcome = Outcome.NO_IMPROVEMENT
+                limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
+                if slides and room and raising.least < (AIM if raises else SOUND):
+                    raising, limit = yield from _lifted(Raising(at, places[1], sliding), room, raising, limit)
+                if raises:
+                    yield Step(raising.points, {"least": raising.least}, _what_limits(limit), more=True)
+        return outcome
+
+    def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
+        """Untangle, then go to the optimum of shape; `more` where that is not the end."""
         locked = _locked_corners(mesh)
-        energy = MeshEnergy(mesh, self.p, locked)
+        energy = energy.but(self.p, locked)
         points, left_out = yield from self._untangled(mesh, energy, locked)
-        return (yield from self._optimum(mesh, energy, points, left_out))
+        return (yield from self._optimum(mesh, energy, points, left_out, more))
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Inverted hexes first, then whether a guarded figure is lower than at the start, then whether the objective of
         the sound hexes, with the highest p that was asked for, is higher; of equals the last is kept.
         """
-        fallen = now.q.min() < start.q.min() or now.scaled_jacobian.min() < start.scaled_jacobian.min()
+        fallen = now.q.min() < start.q.min(), now.scaled_jacobian.min() < start.scaled_jacobian.min()
+        harmed = any(fallen) if self.guard else all(fallen)
+        if self.goal != "shape":
+            return now.n_inverted, harmed, -now.scaled_jacobian.min()
         p = max(self.p, self.highest_p)
         with np.errstate(over="ignore"):  # beside the barrier
             before, after = (np.power(figures.eta[~figures.inverted], p).sum() for figures in (start, now))
-        return now.n_inverted, self.guard and fallen, after > before
+        return now.n_inverted, harmed, after > before
 
     def _direction(self) -> TruncatedNewton:
         return TruncatedNewton(iterations=self.solver_iterations)
@@ -97,8 +158,13 @@ class Mend(Smoother):
         self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray
     ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
-        points, x, e = mesh.points, energy.scaled(mesh.points), self.softness
+        points, e = mesh.points, self.softness
         figures = measure(points, mesh.hexes)
+        near = _brought_near(mesh, figures)
+        if near is not points:
+            points, figures = near, measure(near, mesh.hexes)
+            yield Step(points, more=True, figures=figures)
+        x = energy.scaled(points)
         tangled, worst = _tangled(points, mesh.hexes, locked, figures)
         least, idle = tangled, 0
         while tangled and idle < PATIENCE and e > LEAST:
@@ -117,7 +183,7 @@ class Mend(Smoother):
                 if not tangled:
                     break
             if tangled:
-                x = _swept(mesh, x, figures.inverted, locked, delta, self.p, sweeps)
+                x = _swept(energy, x, figures.inverted, locked, delta, self.p, sweeps)
                 points = energy.placed(x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True, figures=figures)
@@ -130,7 +196,9 @@ class Mend(Smoother):
             yield Step(points, decision=words, more=True)
         return points, _inverted_corners(points, mesh.hexes) | locked
 
-    def _optimum(self, mesh: Mesh, energy: MeshEnergy, points: np.ndarray, left_out: np.ndarray) -> Steps:
+    def _optimum(
+        self, mesh: Mesh, energy: MeshEnergy, points: np.ndarray, left_out: np.ndarray, more: bool
+    ) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Behind the barrier to the optimum, then, where it is asked for, with higher and higher p."""
         p = self.p
         while True:
@@ -138,35 +206,57 @@ class Mend(Smoother):
             find = self._direction()
             x, rises = energy.scaled(points), p < self.highest_p
             whole = False  # whether the last step was taken whole: then no hex is in the way
+            values: list[float] = []
             while True:
                 poor = None if whole else energies(x, mesh.hexes, 0.0, left_out) > POOR
                 if poor is not None and poor.any():
-                    x = _swept(mesh, x, poor, left_out, 0.0, p, POOR_SWEEPS)
+                    x = _swept(energy, x, poor, left_out, 0.0, p, POOR_SWEEPS)
                 taken = descend(energy, x, 0.0, find, SEARCH, REACH)
-                if taken is None or (taken.alpha == 0 and taken.slope < 0):
+                if taken is None or (taken.alpha == 0 and (taken.slope < 0 or more)):
                     break
+                values.append(taken.value)
+                if energy.faceted and len(values) > LATELY and values[-LATELY] - values[-1] < SLOW * values[-1]:
+                    return points, Outcome.NO_IMPROVEMENT
                 move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))
                 x, points, whole = taken.x, energy.placed(taken.x), taken.cuts == 0
-                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises)
+                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises or more)
                 if rises and move < SETTLED:
                     break
             if not rises:
-                return _end(taken)
+                return points, _end(taken)
             p = min(2 * p, self.highest_p)
 
 
+def _brought_near(mesh: Mesh, figures: ElementQuality) -> np.ndarray:
+    """The points of a mesh, those nodes of its inverted hexes amid their neighbours that are far from them all, (n, 3).
+
+    From far away such a node would draw the others after it for as long as delta is large.
+    """
+    size = shortest_edges(mesh.points, mesh.hexes[figures.inverted])
+    far = np.isfinite(size) & (size > FAR * mesh.mean_edge_length)
+    points = mesh.points
+    for node in np.flatnonzero(far & mesh.free & ~mesh.topology.boundary):
+        ring = mesh.topology.rings[node]
+        ring = ring[~far[ring]]
+        if ring.size:
+            points = points.copy() if points is mesh.points else points
+            points[node] = mesh.points[ring].mean(axis=0)
+    return points
+
+
 def _swept(
-    mesh: Mesh, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, p: float, sweeps: int
+    energy: MeshEnergy, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, p: float, sweeps: int
 ) -> np.ndarray:
-    """Sweeps of local Newton steps over the nodes of some hexes and of their neighbours.
+    """Sweeps of local Newton steps over the nodes of some hexes and of their neighbours, those that slide left out.
 
     Nodes at hexes of which corners are left out stay: a local energy would count these corners.
     """
+    mesh = energy.mesh
     near = np.zeros(mesh.n_nodes, dtype=bool)
     near[mesh.hexes[around]] = True
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
     near[mesh.hexes[left_out != 0]] = False
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & mesh.free)
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
     swept = x.copy()
     for _ in range(sweeps):
         local.sweep(
@@ -174,6 +264,77 @@ def _swept(
             local.MODIFIED_NEWTON, delta, p, 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
     return swept
+
+
+def raise_least(
+    raising: Raising,
+    aim: float = np.inf,
+    lifts: float = -np.inf,
+    clusters: int = 1,
+    detour: bool = False,
+) -> Generator[Step, None, Limit]:
+    """Raise the least scaled Jacobian.
+
+    Where corners hold each other below `aim`, those that are above them are raised further. Below `lifts`, nodes of the
+    boundary leave the surface for that.
+
+    Parameters
+    ----------
+    raising : Raising
+    aim, lifts : float
+    clusters : int
+        How many groups of corners that hold each other are left behind, at most.
+    detour : bool
+        See `Step.detour`.
+
+    Returns
+    -------
+    Limit
+        What held the least at first.
+    """
+    first = None
+    yield Step(raising.points, {"least": raising.least}, more=True, detour=detour)
+    while True:
+        for number, step in enumerate(raising.steps(aim)):
+            limit = step if isinstance(step, Limit) else None
+            if limit is None and number % TOGETHER == 0:
+                yield step.step(detour)
+        if not limit.hexes.size or limit.least >= aim:
+            break
+        if limit.least < lifts and raising.lift(limit):
+            continue
+        first = first or limit
+        clusters -= 1
+        if limit.least >= AIM or not clusters:
+            break
+        raising.settle(limit)
+    return first or limit
+
+
+def _lifted(
+    raising: Raising, room: float, other: Raising, limit: Limit
+) -> Generator[Step, None, tuple[Raising, Limit]]:
+    """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room.
+
+    Returns what is better, that or the other, with its limit.
+    """
+    raising.room = WIDE * raising.mesh.mean_edge_length
+    yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
+    for step in islice(raising.into(room), 0, None, TOGETHER):
+        yield step.step(detour=True)
+    if raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.least < other.least:
+        yield Step(other.points, {"least": other.least}, more=True)
+        return other, limit
+    return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
+
+
+def _what_limits(limit: Limit) -> str:
+    count = len(limit.hexes)
+    if not count:
+        return ""
+    hexes = ", ".join(f"{number:,}" for number in dict.fromkeys(limit.hexes[:8].tolist()))
+    who = f"{count} of them hold each other there, in the hexes" if count > 1 else "it can go no further, in hex"
+    return f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}: {who} {hexes}."
 
 
 def _end(taken: Descent | None) -> Outcome:

@@ -7,15 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.kernels import laplacian as kernels
+from hexmend.kernels import sliding as on_surface
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
-from hexmend.smoothers.smoother import Smoother, Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.smoother import Steps, method
 
 
 @method
 @dataclass(frozen=True)
-class SmartLaplacian(Smoother):
+class SmartLaplacian(SlidingSmoother):
     """Each node goes to the mean of its edge neighbours unless that harms an attached hex."""
 
     name = "smart-laplacian"
@@ -30,20 +32,21 @@ class SmartLaplacian(Smoother):
     )
 
     def steps(self, mesh: Mesh) -> Steps:
-        corners, ring = mesh.topology.node_corners, mesh.topology.rings
+        sliding, ring = self.sliding(mesh), mesh.topology.rings
+        if sliding is not None:
+            mesh, ring = sliding.mesh, sliding.rings
+        corners = mesh.topology.node_corners
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         points = mesh.points
         yield Step(points)
         while True:
             points = points.copy()
-            taken_back = kernels.guarded(
-                points,
-                mesh.hexes,
-                corners.start,
-                corners.items,
-                ring.start,
-                ring.items,
-                nodes,
+            sweep_of = (
+                points, mesh.hexes, corners.start, corners.items, ring.start, ring.items, nodes,
                 self.guard == "quality",
-            )
+            )  # fmt: skip
+            if sliding is None:
+                taken_back = kernels.guarded(*sweep_of)
+            else:
+                taken_back = on_surface.guarded(*sweep_of, *sliding.ground)
             yield Step(points, {"taken_back": taken_back})

@@ -8,6 +8,8 @@ from collections.abc import Generator
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias, TypeVar
 
+import numpy as np
+
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import Parametrised, declared
@@ -18,9 +20,13 @@ from hexmend.registry import Registry
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
 
 
+#: The least fall of q(H) that four decimals tell: near its optimum an optimiser goes up and down by less.
+_TOLD = 0.5e-4
+
+
 @dataclass(frozen=True)
 class Smoother(Parametrised, ABC):
-    """A method that moves the free nodes of a mesh.
+    """A method that moves nodes of a mesh: the free ones, and, if it is told to, those of the boundary along it.
 
     A smoother is a frozen dataclass of declared parameters with one method, `steps`. It owns no clock, no limit, no
     record and no window: `hexmend.run` does.
@@ -33,17 +39,37 @@ class Smoother(Parametrised, ABC):
     #: Whether it goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
 
+    @property
+    def slides(self) -> bool:
+        """Whether nodes of the boundary slide on the surface."""
+        return False
+
+    def movable(self, mesh: Mesh) -> np.ndarray:
+        """True for each node that the method may move, (n,) bool: the free ones, and those that slide."""
+        return mesh.free
+
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:
         """Yield the initial points once what the method prepares is ready, then the points after each step.
 
         The generator goes on until nobody asks for more, or returns the outcome where the method has no further step.
-        Yielded arrays are never changed afterwards; rows of fixed nodes stay as they are to the last bit.
+        Yielded arrays are never changed afterwards; rows of nodes that it may not move stay as they are to the
+        last bit.
         """
 
-    def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...] | None:
-        """What an iterate is kept for, the lower the better; None for a method whose last iterate is its result."""
-        return None
+    def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
+        """What an iterate is kept for, the lower the better; of equals the last is kept.
+
+        Inverted hexes come first. Then the least q(H) counts; of an optimiser only whether it is lower than at the
+        start, in the digits of tables, as its iterates get better by the objective, not by the least q(H).
+
+        Parameters
+        ----------
+        start, now : ElementQuality
+            As the stage began, and of the iterate.
+        """
+        least = float(now.q.min())
+        return now.n_inverted, least < start.q.min() - _TOLD if self.optimises else -least
 
     @classmethod
     def to_json(cls) -> dict[str, Any]:

@@ -73,9 +73,11 @@ def compare(
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> answer = compare(make("bridge-sharp", size=500), ["laplacian", "local-sd"])
+    >>> answer = compare(make("bridge-sharp", size=500), ["laplacian", "local-sd"], Stop(keep_last=True))
     >>> [row.after.inverted > 0 for row in answer.rows]
     [True, False]
+    >>> answer.rows[0].worse
+    ('inverted', 'q_min', 'scaled_jacobian')
     """
     stop = stop or Stop()
     smoothers = [METHODS[one]() if isinstance(one, str) else one for one in methods]

@@ -16,6 +16,7 @@ from hexmend.mesh import Mesh
 from hexmend.parameters import declared
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.study.outlook import Outlook, outlooks
 
 #: The start that is no method's.
 INITIAL = "initial"
@@ -71,22 +72,25 @@ class Experiments:
         Most seconds of a run, of the "full" and the "quick" study.
     quick_seconds : mapping
         Most seconds of a run in the quick study, of methods for which it is another.
+    outlooks : tuple of Outlook
+        What section 5.2 hopes for.
     """
 
     experiments: tuple[Experiment, ...]
     iterations: Mapping[str, int]
     seconds: Mapping[str, float]
     quick_seconds: Mapping[str, float] = field(default_factory=dict)
+    outlooks: tuple[Outlook, ...] = ()
 
     def stop(self, method: str, quick: bool) -> Stop:
-        """The limits of a run."""
+        """The limits of a run; what the thesis tells of a method is its last iterate."""
         limit = self.iterations.get(method, Stop().max_iterations)
         seconds = self.quick_seconds.get(method, self.seconds["quick"]) if quick else self.seconds["full"]
-        return Stop(max_iterations=limit, max_seconds=seconds)
+        return Stop(max_iterations=limit, max_seconds=seconds, keep_last=True)
 
 
 def load(source: Path | Traversable | None = None) -> Experiments:
-    """Experiments from a TOML file; the thesis's Chapter 4 if none is named.
+    """Experiments from a TOML file; the thesis's Chapter 4 and section 5.2 if none is named.
 
     Examples
     --------
@@ -97,7 +101,8 @@ def load(source: Path | Traversable | None = None) -> Experiments:
     source = source or files("hexmend.study") / "thesis.toml"
     data = tomllib.loads(source.read_text(encoding="utf-8"))
     experiments = tuple(_experiment(entry) for entry in data["experiment"])
-    return Experiments(experiments, data["iterations"], data["seconds"], data.get("quick_seconds", {}))
+    quick_seconds, hopes = data.get("quick_seconds", {}), outlooks(data.get("outlook", ()))
+    return Experiments(experiments, data["iterations"], data["seconds"], quick_seconds, hopes)
 
 
 def _experiment(entry: Mapping[str, Any]) -> Experiment:

@@ -15,6 +15,7 @@ from hexmend.quality import Summary, measure, summarise
 from hexmend.recipe import Recipe
 from hexmend.run import Run, Stop, iterate
 from hexmend.smoothers import Smoother
+from hexmend.surface import SurfaceChange
 
 log = logging.getLogger(__name__)
 
@@ -45,6 +46,12 @@ class Row:
     seconds, setup_seconds : float
     stages : tuple of StageResult
         As in `Result`; of one method alone none.
+    worse : tuple of str
+        What is worse than before, as in `Result`.
+    kept : int
+        Number of the iteration that is the result.
+    surface : SurfaceChange or None
+        As in `Result`.
     """
 
     method: str
@@ -57,6 +64,9 @@ class Row:
     seconds: float = 0.0
     setup_seconds: float = 0.0
     stages: tuple[StageResult, ...] = ()
+    worse: tuple[str, ...] = ()
+    kept: int = 0
+    surface: SurfaceChange | None = None
 
     @property
     def seconds_per_iteration(self) -> float | None:
@@ -78,12 +88,15 @@ class Row:
             "outcome": self.outcome,
             "message": self.message,
             **figures,
+            "worse": list(self.worse),
             "iterations": self.iterations,
+            "kept": self.kept,
             "seconds": self.seconds,
             "setup_seconds": self.setup_seconds,
             "seconds_per_iteration": self.seconds_per_iteration,
             "seconds_per_iteration_and_node": self.seconds_per_iteration_and_node,
             "distribution": distribution(self.mesh) if self.mesh else None,
+            **({"surface": self.surface.to_dict()} if self.surface else {}),
         } | ({"stages": [stage.to_dict() for stage in self.stages]} if self.stages else {})
 
 
@@ -124,7 +137,10 @@ def _row(name: str, result: Result) -> Row:
         message=result.message,
         mesh=result.mesh,
         after=result.after,
+        worse=result.worse,
         iterations=result.iterations,
+        kept=result.kept,
+        surface=result.surface,
         seconds=result.seconds,
         setup_seconds=result.setup_seconds,
         stages=result.stages if result.method == Recipe.name else (),

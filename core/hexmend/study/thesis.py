@@ -1,4 +1,4 @@
-"""`hexmend study thesis`: the experiments of Chapter 4, each run done once however many tables show it."""
+"""`hexmend study thesis`: the experiments of Chapter 4, each run done once however many tables show it; then 5.2."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from hexmend.quality import Summary, summarise
 from hexmend.study.claims import CLAIMS
 from hexmend.study.experiments import INITIAL, Experiment, Experiments
 from hexmend.study.measured import Measured
+from hexmend.study.outlook import Tried, try_outlook
+from hexmend.study.outlook_claims import OUTLOOK_CLAIMS
 from hexmend.study.row import Row, Watch, run_one
 
 
@@ -23,6 +25,8 @@ class Study:
     ----------
     measured : tuple of Measured
         In the order of the tables; the last may lack columns where the study was interrupted.
+    tried : tuple of Tried
+        The outlooks of section 5.2.
     quick : bool
         Whether the meshes were the small ones.
     seconds : float
@@ -33,6 +37,7 @@ class Study:
     """
 
     measured: tuple[Measured, ...]
+    tried: tuple[Tried, ...]
     quick: bool
     seconds: float
     own_seconds: Mapping[str, float]
@@ -46,24 +51,27 @@ class Study:
             "max_seconds_of": dict(self.own_seconds),
             "interrupted": self.interrupted,
             "experiments": [one.record() for one in self.measured],
-            "claims": [claim(self.measured).record() for claim in CLAIMS],
+            "outlooks": [one.record() for one in self.tried],
+            "claims": [claim(self.measured).record() for claim in CLAIMS]
+            + [claim(self.tried).record() for claim in OUTLOOK_CLAIMS],
         }
 
 
 def chosen_tables(thesis: Experiments, tables: Sequence[str]) -> Experiments:
-    """The experiments of some tables only.
+    """The experiments of some tables only, or of sections that have an outlook.
 
     Raises
     ------
     ParameterError
         For a table that there is not.
     """
-    known = list(dict.fromkeys(one.table for one in thesis.experiments))
+    known = list(dict.fromkeys([one.table for one in thesis.experiments] + [one.section for one in thesis.outlooks]))
     for table in tables:
         if table not in known:
             raise ParameterError(f"there is no table {table!r}: expected one of {', '.join(known)}")
     some = tuple(one for one in thesis.experiments if one.table in tables)
-    return replace(thesis, experiments=some)
+    hopes = tuple(one for one in thesis.outlooks if one.section in tables)
+    return replace(thesis, experiments=some, outlooks=hopes)
 
 
 def run_experiments(
@@ -71,7 +79,7 @@ def run_experiments(
     *,
     quick: bool = False,
     watch: Watch | None = None,
-    done: Callable[[Measured], Any] | None = None,
+    done: Callable[[Measured | Tried], Any] | None = None,
 ) -> Study:
     """Run experiments one after another.
 
@@ -95,8 +103,17 @@ def run_experiments(
             done(measured[-1])
         if laboratory.interrupted:
             break
+    tried: list[Tried] = []
+    for outlook in () if laboratory.interrupted else thesis.outlooks:
+        one, go_on = try_outlook(outlook, lambda method: thesis.stop(method, quick), quick, watch)
+        tried.append(one)
+        if done is not None:
+            done(one)
+        if not go_on:
+            laboratory.interrupted = True
+            break
     seconds, own = (thesis.seconds["quick"], thesis.quick_seconds) if quick else (thesis.seconds["full"], {})
-    return Study(tuple(measured), quick, seconds, own, laboratory.interrupted)
+    return Study(tuple(measured), tuple(tried), quick, seconds, own, laboratory.interrupted)
 
 
 class _Laboratory:

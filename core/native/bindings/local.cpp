@@ -21,7 +21,7 @@ void bind_local(nb::module_ &m) {
           "Group k is nodes[groups[k]:groups[k + 1]]. Nodes of one group share no hex, so that each sees the others\n"
           "where they stay: the result is that of a sequential sweep, whatever the number of threads. delta is meant\n"
           "for the patch scaled to mean edge length 1; p is the exponent of the objective; first, shrink, c1 and cuts\n"
-          "are those of the line search, A.5.");
+          "are those of the line search, A.5. Returns how often its trial steps asked a hex for its energy.");
     m.def("look", &look, "points"_a, "hexes"_a, "star"_a, "factor"_a, "delta"_a, "p"_a, Unlocked(),
           "What a visit of `sweep` begins with, at the node that the corners `star` (8 * hex + corner) share.\n\n"
           "Lengths are multiplied by `factor`; if that is 0, so that the patch's mean edge is 1. Returns the factor,\n"

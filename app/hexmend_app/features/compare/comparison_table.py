@@ -10,6 +10,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.figures import Figure
+from hexmend.quality import JUDGED
 from hexmend.report.comparison import LINES
 from hexmend.smoothers import METHODS
 from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
@@ -36,7 +37,8 @@ class Entry:
     help : str
         What the row's tooltip says.
     record : mapping
-        The figures, by the keys of `hexmend.report.comparison.LINES`; empty while there are none.
+        The figures, by the keys of `hexmend.report.comparison.LINES`, and "worse", names of those that are worse than
+        the initial mesh's; empty while there are none.
     has_mesh : bool
         Whether there is a mesh to be shown or taken.
     shown : bool
@@ -183,10 +185,12 @@ class ComparisonModel(QAbstractTableModel):
             font = tabular(QFont())
             font.setBold(True)
             return font
-        if role == _Role.AccessibleTextRole and is_best:
-            return f"{figure.of(entry.record)}, best"
+        fallen = figure.key in {JUDGED[name] for name in entry.record.get("worse", ())}
+        if role == _Role.AccessibleTextRole and (is_best or fallen):
+            words = [figure.of(entry.record), *["best"] * is_best, *["worse than initial"] * fallen]
+            return ", ".join(words)
         if role == _Role.ForegroundRole:
-            wrong = figure.key == "inverted" and entry.record.get("inverted")
+            wrong = fallen or (figure.key == "inverted" and entry.record.get("inverted"))
             colour = WORSE if wrong else BETTER if is_best else None
             return colour and QBrush(QColor(str(colour)))
         return None

@@ -110,7 +110,7 @@ class FeatureCompare(Feature):
             return Entry(name, f"<b>{method.title}</b><br>{method.help}", {})
         row, state = compared.row, compared.state
         figures = {one.key: getattr(row, one.key, None) for one in LINES}
-        record = figures | (row.after.to_dict() if row.after else {})
+        record = figures | (row.after.to_dict() if row.after else {}) | {"worse": row.worse}
         shown = state is not None and self._views.shows(state)
         return Entry(name, f"<b>{method.title}</b><br>{row.message}", record, state is not None, shown)
 

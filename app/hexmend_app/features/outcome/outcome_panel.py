@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
-from hexmend_app.widgets.style import AMBER, INVERTED_TEXT, TEXT, dress, explain, icon, note, tint
+from hexmend_app.widgets.style import AMBER, INVERTED_TEXT, TEXT, WORSE, dress, explain, icon, note, tint
 from hexmend_app.widgets.wording import counted
 
 _HINT = "No run has ended yet. Here you will see why it stopped, which hexes are still inverted, and what to try next."
@@ -52,7 +52,7 @@ class OutcomePanel(QWidget):
         self._hint = note(_HINT)
         self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._hint.setMargin(24)
-        self._title, self._why, self._left = QLabel(), self._text(), self._text()
+        self._title, self._why, self._left, self._worse = QLabel(), *(self._text() for _ in range(3))
         font = QFont(self._title.font())
         font.setBold(True)
         self._title.setFont(font)
@@ -85,7 +85,8 @@ class OutcomePanel(QWidget):
         column = QVBoxLayout(inside)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(6)
-        parts = (self._title, self._where, self._why, self._left, self._locked, self._loose, self._next, self._nothing)
+        heads = (self._title, self._where, self._why, self._left, self._worse)
+        parts = (*heads, self._locked, self._loose, self._next, self._nothing)
         for part in parts:
             column.addWidget(part)
         column.addLayout(self._rows)
@@ -114,6 +115,9 @@ class OutcomePanel(QWidget):
         self._why.setText(advice.why)
         self._left.setText(advice.left)
         tint(self._left, INVERTED_TEXT if advice.locked.size or advice.loose.size else TEXT)
+        self._worse.setText(advice.worse)
+        self._worse.setVisible(bool(advice.worse))
+        tint(self._worse, WORSE)
         self._locked.show_elements(advice.locked)
         self._loose.show_elements(advice.loose)
         self._nothing.setText(advice.nothing)

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.figures import Figure
-from hexmend.quality import FIGURES
+from hexmend.quality import FIGURES, JUDGED, worse
 from hexmend_app.widgets.link_table import LinkTable
 from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, smaller, tabular
 from hexmend_app.widgets.wording import figure
@@ -155,6 +155,7 @@ class StatisticsTable(QWidget):
     def set_summaries(self, start: Any, now: Any) -> None:
         """Take two summaries, as `hexmend.quality.summarise` gives them; None for both clears the table."""
         self._summaries = (start, now)
+        fallen = {JUDGED[name] for name in worse(start, now)} if start is not None and now is not None else set()
         for at, row in enumerate(ROWS):
             was, is_ = (None if summary is None else getattr(summary, row.key) for summary in (start, now))
             shown = start is not None and now is not None
@@ -163,6 +164,9 @@ class StatisticsTable(QWidget):
             self._table.item(at, _NOW).setText(_cell(is_) if now is not None else "")
             item = self._table.item(at, _CHANGE)
             item.setText(text)
+            font = item.font()
+            font.setBold(row.key in fallen)
+            item.setFont(font)
             item.setForeground(QBrush(QColor(str({1: BETTER, -1: WORSE, 0: MUTED}[sense]))))
             word = {1: "better", -1: "worse", 0: ""}[sense]
             item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{text} {word}".strip())

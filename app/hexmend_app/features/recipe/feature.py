@@ -16,7 +16,12 @@ from hexmend_app.state.run import Phase
 from hexmend_app.widgets.questions import ask_recipe, ask_recipe_target
 from hexmend_app.widgets.wording import name_in_words, short_number
 
-_LIMITS = {"max_iterations": "at most {} iterations", "tolerance": "tolerance {}", "max_seconds": "at most {} s"}
+_LIMITS = {
+    "max_iterations": "at most {} iterations",
+    "tolerance": "tolerance {}",
+    "max_seconds": "at most {} s",
+    "keep_last": "the last iterate kept",
+}
 
 
 class FeatureRecipe(Feature):

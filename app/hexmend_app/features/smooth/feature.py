@@ -130,7 +130,7 @@ class FeatureSmooth(Feature):
             row = record.rows[-1]
             return row["iteration"], row["seconds"], self._stage(row)
         moment, why = self.session.timeline.moment, self.session.order.why
-        if moment is None or not moment.number:
+        if moment is None or (not moment.number and moment.record.result != 0):
             return None, None, why or self._said_of_none()
         row = moment.record.rows[moment.number]
         ended = moment.record.message if moment.number == moment.record.result else ""

@@ -1,4 +1,4 @@
-"""The limits of a run as options, from the declarations of `Stop`."""
+"""The limits of a run, and which iterate it keeps, as options, from the declarations of `Stop`."""
 
 from __future__ import annotations
 
@@ -10,15 +10,17 @@ if TYPE_CHECKING:
 
 
 def add_limits(parser: argparse.ArgumentParser) -> None:
-    """Declare an option for each limit, such as --max-iterations."""
+    """Declare an option for each, such as --max-iterations."""
     from hexmend.parameters import declared
     from hexmend.run import Stop
 
     for limit in declared(Stop):
+        option = f"--{limit.name.replace('_', '-')}"
+        if limit.type is bool:
+            parser.add_argument(option, action="store_const", const="true", help=limit.help)
+            continue
         unit = f" in {limit.unit}" if limit.unit else ""
-        parser.add_argument(
-            f"--{limit.name.replace('_', '-')}", metavar="X", help=f"{limit.help} Default {limit.default:g}{unit}."
-        )
+        parser.add_argument(option, metavar="X", help=f"{limit.help} Default {limit.default:g}{unit}.")
 
 
 def limits(args: argparse.Namespace) -> Stop:

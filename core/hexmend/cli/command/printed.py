@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from hexmend.figures import Worse
+
 if TYPE_CHECKING:
     from hexmend.report import Table
 
+
+#: How what is worse than it was stands out.
+_WORSE = "red"
 
 #: Letters that rich puts around a cell's text.
 _GAP = 3
@@ -31,7 +36,7 @@ def print_table(table: Table) -> None:
         for column, head in enumerate(part.head):
             drawn.add_column(Text(head), justify="right" if column else "left", no_wrap=True)
         for row in part.rows:
-            drawn.add_row(*map(Text, row))
+            drawn.add_row(*(Text(cell, _WORSE if isinstance(cell, Worse) else "") for cell in row))
         console.print(drawn)
     for note in table.notes:
         print(note)

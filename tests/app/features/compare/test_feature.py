@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QColor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QPushButton, QTableView, QToolButton, QWidget
 
+from hexmend import io
+from hexmend.gallery import make
 from hexmend.report.comparison import LINES
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
@@ -23,6 +26,7 @@ from hexmend_app.features.compare.comparison_table import METHOD, VIEW, title_of
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.document import State
 from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.widgets.style import WORSE
 from tests.app.driving import LEFT, choose, click, drag, key, named, open_and_wait, pixels, press, seen_at
 from tests.patience import PATIENCE
 
@@ -114,6 +118,24 @@ def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
     cell = model(compared).index(row(compared, best), COLUMN["inverted"])
     assert cell.data(Qt.ItemDataRole.FontRole).bold()
     assert cell.data(Qt.ItemDataRole.AccessibleTextRole).endswith("best")
+
+
+def test_what_is_worse_than_the_initial_mesh_stands_out(comparing, qtbot, tmp_path):
+    io.write(tmp_path / "sound.vtu", make("bridge-sharp", size=500))
+    open_and_wait(qtbot, comparing, tmp_path / "sound.vtu")
+    choose(comparing, "laplacian", Stop(keep_last=True))
+    choose_methods(comparing, "laplacian", "smart-laplacian")
+    press(button(comparing, "Run the comparison"))
+    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
+
+    def cell(name, figure):
+        return model(comparing).index(row(comparing, name), COLUMN[figure])
+
+    for figure in ("inverted", "q_min", "scaled_jacobian_min"):
+        assert cell("laplacian", figure).data(Qt.ItemDataRole.AccessibleTextRole).endswith("worse than initial")
+        assert cell("laplacian", figure).data(Qt.ItemDataRole.ForegroundRole).color() == QColor(str(WORSE))
+    assert "worse" not in (cell("laplacian", "q_mean").data(Qt.ItemDataRole.AccessibleTextRole) or "")
+    assert "worse" not in (cell("smart-laplacian", "inverted").data(Qt.ItemDataRole.AccessibleTextRole) or "")
 
 
 def test_a_click_on_a_head_sorts_and_the_initial_mesh_stays_first(compared):

@@ -117,14 +117,29 @@ def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=500))
     open_and_wait(qtbot, window, tmp_path / "sound.vtu")
     start = window.session.document.now.mesh.points
-    run(window, qtbot, "laplacian")
+    run(window, qtbot, "laplacian", keep_last=True)
     assert window.session.document.now.summary.inverted > 0
+    assert "Worse than at the start: inverted 0 → 10" in said(window)
     press(window, "Choose: Smart Laplacian from before the run")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
     assert window.session.order.method == "smart-laplacian"
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.session.document.now.summary.inverted == 0
+
+
+def test_what_is_kept_is_said_and_shown(window, qtbot, tmp_path):
+    io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=500))
+    open_and_wait(qtbot, window, tmp_path / "sound.vtu")
+    start = window.session.document.now.mesh.points
+    run(window, qtbot, "laplacian")
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
+    assert window.session.timeline.moment.number == 0
+    kept = "Kept is iteration 0, the mesh as given, better than what came after."
+    assert kept in said(window)
+    assert "Worse than" not in said(window)
+    panel = window.features["smooth"].panel
+    assert any(kept in label.text() for label in panel.findChildren(QLabel))
 
 
 def test_locked_elements_are_listed_and_shown(window, qtbot, locked):

@@ -55,6 +55,17 @@ def cell(table, key, column):
     return grid(table).item(_AT[key], column)
 
 
+def test_what_analysts_judge_by_stands_out_where_it_is_worse(table):
+    table.set_summaries(SimpleNamespace(**_NOW), SimpleNamespace(**_START))
+    bold = {key for key in _AT if cell(table, key, 3).font().bold()}
+    assert bold == {"inverted", "q_min", "scaled_jacobian_min"}
+    for key in bold:
+        assert cell(table, key, 3).foreground().color() == QColor(str(WORSE))
+        assert cell(table, key, 3).data(Qt.ItemDataRole.AccessibleTextRole).endswith("worse")
+    table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW))
+    assert not any(cell(table, key, 3).font().bold() for key in _AT)
+
+
 def test_every_figure_of_a_summary_but_the_trivial_has_a_row():
     assert {row.key for row in ROWS} == {field.name for field in dataclasses.fields(Summary)} - {"q_max"}
 

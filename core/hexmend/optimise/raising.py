@@ -1,0 +1,439 @@
+"""Raise the least scaled Jacobian of a mesh as far as it goes, by a sequence of linear programs.
+
+The least of many functions has no derivative where two of them are equal, which is where its maximum lies. So each step
+takes all that could become the least by their linear models, and asks for the displacement within a trust region that
+raises their least most: a linear program (Madsen 1975; Fletcher and Sainz de la Maza 1989). At the end its multipliers
+say which corners hold each other: no direction raises one without lowering another.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh import Mesh
+from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
+from hexmend.optimise.iteration import Step
+from hexmend.surface import Sliding
+
+#: Radius of the trust region at first and at most, in lengths of the shortest edge at each node, and where it ends.
+FIRST, LARGEST, SMALLEST = 0.1, 0.3, 1e-6
+#: What share of the gain that the models promise a step must bring, below which share the region shrinks, above which
+#: it grows; and by what factors.
+BRINGS, POOR, GOOD, SHRINK, GROW = 0.1, 0.3, 0.7, 0.4, 2.0
+#: Nodes at corners whose values are within a band above the least are moved: so many radii of the region, in bounds.
+BAND, NARROWEST, WIDEST = 4.0, 0.01, 0.1
+#: How much a corner can fall while its nodes go no further than a radius.
+FALL = 8.0
+#: Of how many corners the nodes are moved at first, and how many there are at most; more as the fewer bring nothing.
+FEW, MANY = 300, 1_200
+#: A gain that is none of a step's model; that is none of `LATELY` steps together, and where the least is sound anyway.
+NOTHING, LATELY, LITTLE, SOUND, LITTLE_BEYOND = 1e-6, 10, 2e-5, 0.2, 1e-3
+#: What a multiplier counts from on, the sum of all being 1.
+HOLDS = 1e-3
+#: By how many radii, in mean edge lengths, a boundary that has strayed is brought nearer at a time; what is enough.
+NEARER, EXACT = 0.2, 1e-6
+#: Ways around a place of a patch, in its basis.
+_AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
+#: Share of the gain that may be given away so that nodes stay which need not move.
+IDLE = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Raised:
+    """A step that has raised the least.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    least : float
+        The least scaled Jacobian of the corners that can be moved.
+    corners : int
+        Whose models were looked at.
+    radius : float
+        Of the trust region, in lengths of the shortest edge at each node.
+    """
+
+    points: np.ndarray
+    least: float
+    corners: int
+    radius: float
+
+    def step(self, detour: bool = False) -> Step:
+        """As a smoother yields it; see `Step.detour`."""
+        notes = {"least": self.least, "corners": self.corners, "radius": self.radius}
+        return Step(self.points, notes, more=True, detour=detour)
+
+
+@dataclass(frozen=True, eq=False)
+class Limit:
+    """Where it ended.
+
+    Parameters
+    ----------
+    least : float
+        The least scaled Jacobian of the corners that can be moved.
+    hexes, corners : (k,) int64
+        Those that hold each other there, and which corner of each it is; by their weight, the heaviest first.
+    """
+
+    least: float
+    hexes: np.ndarray
+    corners: np.ndarray
+
+
+class Raising:
+    """The corners of a mesh that can be moved, with their scaled Jacobians.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose free nodes are moved.
+    points : (n, 3) float64
+        Where they begin.
+    sliding : Sliding, optional
+        Where some of them slide: `mesh` is its mesh.
+
+    Attributes
+    ----------
+    points : (n, 3) float64
+    values : (m, 8)
+        Of each corner.
+    settled : (m, 8) bool
+        Corners that are not to be raised any more, but not to fall either.
+    lifted : (n,) bool
+        Nodes of the boundary that need not stay on the surface, as long as they stay in the room around it.
+    """
+
+    def __init__(self, mesh: Mesh, points: np.ndarray, sliding: Sliding | None = None):
+        self.mesh, self.sliding, self.points = mesh, sliding, points
+        self._held = ~mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+        self.values = scaled_jacobians(points, mesh.hexes)
+        self.settled = np.zeros(self.values.shape, dtype=bool)
+        self.lifted = np.zeros(mesh.n_nodes, dtype=bool)
+        self._floor = np.full(self.values.shape, -np.inf)
+        self.room = np.inf if sliding is None else sliding.room
+        self._looked: tuple[np.ndarray, tuple[np.ndarray, ...]] | None = None
+        self._begin()
+
+    @property
+    def least(self) -> float:
+        """The least scaled Jacobian of the corners that are raised; +inf where there is none."""
+        return float(self._raised().min(initial=np.inf))
+
+    def steps(self, aim: float = np.inf) -> Iterator[Raised | Limit]:
+        """Steps that raise the least, until none does any more, or it has reached `aim`; at last what limits it."""
+        self._begin()
+        gains = [np.inf] * LATELY
+        while self._radius > SMALLEST and self.least < aim:
+            values, least, radius = self._raised().ravel(), self.least, self._radius
+            band = float(np.clip(BAND * radius, NARROWEST, WIDEST))
+            low = np.flatnonzero(values < least + band)
+            whole = low.size <= self._most
+            if not whole:
+                low = low[np.argpartition(values[low], self._most)[: self._most]]
+            promised, points, moved = self._step(low, band)
+            gain = self._take(points, moved, least, promised) if promised > NOTHING else 0.0
+            if gain > 0:
+                yield Raised(self.points, self.least, low.size, radius)
+            gains.append(gain)
+            if promised <= NOTHING or sum(gains[-LATELY:]) < (LITTLE if least < SOUND else LITTLE_BEYOND):
+                if whole or self._most >= MANY:
+                    break
+                self._most, self._radius = 2 * self._most, max(self._radius, NARROWEST)
+                gains.append(np.inf)
+        yield self._limit()
+
+    def into(self, room: float) -> Iterator[Raised]:
+        """Steps that bring the boundary nearer to the surface until it is in its room; the least falls as it must."""
+        self._begin()
+        while self._radius > SMALLEST and (far := self.furthest()) > room * (1 + EXACT):
+            radius = self._radius
+            self.room, least = max(room, far - NEARER * radius * self.mesh.mean_edge_length), self.least
+            low = np.flatnonzero(self._raised().ravel() < least + NARROWEST)[: self._most]
+            _, points, moved = self._step(low, NARROWEST, self._strayed())
+            old, self.points = self.points, points
+            if self.furthest() > far - BRINGS * (far - self.room):
+                self.points = old
+                self._radius *= SHRINK
+                continue
+            hexes = np.unique(self.mesh.topology.node_corners.of(moved) // 8)
+            self.values[hexes] = scaled_jacobians(points, self.mesh.hexes[hexes])
+            self._radius = min(GROW * self._radius, LARGEST)
+            yield Raised(points, self.least, low.size, radius)
+        self.room = room
+
+    def furthest(self) -> float:
+        """The largest distance of the boundary and the surface, both ways."""
+        return 0.0 if self.sliding is None else max(self._far(), float(self._behind()[0].max(initial=0.0)))
+
+    def _strayed(self) -> np.ndarray:
+        """Free nodes where the boundary is out of its room."""
+        far, _ = self.sliding.off(self.points, np.arange(len(self.sliding.middles)))
+        behind, _, nodes, _ = self._behind()
+        found = np.unique(np.concatenate([self.sliding.middles[far > self.room], nodes[behind > self.room]]))
+        return found[self.mesh.free[found]]
+
+    def settle(self, limit: Limit) -> None:
+        """Let the corners that hold each other be: those that are left can be raised further."""
+        at = limit.hexes, limit.corners
+        self.settled[at] = True
+        self._floor[at] = np.minimum(self.values[at], limit.least)
+
+    def lift(self, limit: Limit) -> bool:
+        """Let sliding nodes of the corners that hold each other leave the surface; whether there is one more."""
+        if self.sliding is None or not self.room > 0:
+            return False
+        nodes = np.unique(self.mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]])
+        nodes = nodes[self.sliding.slides(nodes) & ~self.lifted[nodes]]
+        self.lifted[nodes] = True
+        if not nodes.size and limit.least < 0:
+            nodes = np.unique(self.mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]])
+            nodes = nodes[self.sliding.yields[nodes] & ~self.mesh.free[nodes]]
+            fixed = self.mesh.fixed.copy()
+            fixed[nodes] = False
+            self.lifted[nodes] = True
+            self.mesh = self.mesh.with_fixed(fixed)
+            self._held = ~self.mesh.free[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+        return nodes.size > 0
+
+    def _begin(self) -> None:
+        self._radius, self._most = FIRST, FEW
+        self._multipliers: tuple[np.ndarray, np.ndarray] = np.empty(0, np.int64), np.empty(0)
+
+    def _raised(self) -> np.ndarray:
+        """The values, +inf of corners that cannot be moved or are settled, (m, 8)."""
+        return np.where(self._held | self.settled, np.inf, self.values)
+
+    def _step(
+        self, low: np.ndarray, band: float, strayed: np.ndarray | None = None
+    ) -> tuple[float, np.ndarray, np.ndarray]:
+        """Solve the linear program of the nodes at corners `low`; of those too that have strayed, the least may fall.
+
+        Returns the gain that it promises, all points with these nodes moved and put back, and which these are.
+        """
+        from scipy.optimize import linprog
+
+        hexes, radius, least = self.mesh.hexes, self._radius, self.least
+        nodes = np.unique(_nodes(hexes, low))
+        nodes = nodes[self.mesh.free[nodes]]
+        if strayed is not None:
+            nodes = np.union1d(nodes, strayed)
+        around = np.unique(self.mesh.topology.node_corners.of(nodes) // 8)
+        near = (8 * around[:, None] + np.arange(8)).ravel()
+        above = self.values.ravel()[near] - np.where(self.settled.ravel()[near], self._floor.ravel()[near], least)
+        near = near[(above < band + FALL * radius) & ~self._held.ravel()[near]]
+        ends = _nodes(hexes, near)
+        values, derivatives = gradients(self.points, ends)
+        size = shortest_edges(self.points, hexes[around])
+        settled = self.settled.ravel()[near]
+        above = np.maximum(values - np.where(settled, self._floor.ravel()[near], least), 0.0)
+        models = _Models(ends, above, derivatives, 1.0 - settled)
+        if self.sliding is not None and np.isfinite(self.room):
+            room = self._room(nodes, size)
+            if strayed is None:
+                np.maximum(room.above, 0.0, out=room.above)
+            models = models.and_those(room)
+        ways = self._ways(nodes, size)
+        solved = linprog(*_program(nodes, ways, models, radius, strayed is not None), method="highs")
+        if solved.status != 0:
+            return 0.0, self.points, nodes
+        self._multipliers = near, -solved.ineqlin.marginals[: near.size]
+        points = self.points.copy()
+        np.add.at(points, nodes[ways.of], solved.x[:-1, None] * ways.aims)
+        slide = nodes[self._slides(nodes)]
+        if slide.size:
+            points[slide] = self.sliding.put_back(points[slide], slide)
+        return float(solved.x[-1]), points, nodes
+
+    def _slides(self, nodes: np.ndarray) -> np.ndarray:
+        """Which of some nodes are put back on the surface wherever they are moved to, bool."""
+        if self.sliding is None:
+            return np.zeros(nodes.size, dtype=bool)
+        return self.sliding.slides(nodes) & ~self.lifted[nodes]
+
+    def _room(self, nodes: np.ndarray, size: np.ndarray) -> _Models:
+        """What keeps the boundary at nodes in its room."""
+        sliding = self.sliding
+        which = sliding.middles_at(nodes)
+        far, away = sliding.off(self.points, which)
+        ends = sliding.middles[which]
+        reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
+        near = far + reach > self.room
+        ends, far, away = ends[near], far[near], away[near]
+        models = _bounds(ends, self.room - far, np.repeat(-away[:, None] / 4, 4, axis=1))
+        if sliding.leaves_behind(self.points, self.room - self._radius * float(size[nodes].max(initial=0.0))):
+            far, away, ends, weights = self._behind()
+            moved = np.zeros(self.mesh.n_nodes, dtype=bool)
+            moved[nodes] = True
+            reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
+            near = moved[ends].any(axis=1) & (far + reach > self.room)
+            slopes = weights[near, :, None] * away[near, None, :]
+            models = models.and_those(_bounds(ends[near], self.room - far[near], slopes))
+        return models
+
+    def _far(self) -> float:
+        """How far the boundary has left the surface."""
+        return float(self.sliding.off(self.points, np.arange(len(self.sliding.middles)))[0].max(initial=0.0))
+
+    def _behind(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """See `Sliding.behind`; of a place that has been looked from before it is known."""
+        if self._looked is None or self._looked[0] is not self.points:
+            self._looked = self.points, self.sliding.behind(self.points)
+        return self._looked[1]
+
+    def _leaves(self, points: np.ndarray, nodes: np.ndarray) -> bool:
+        """Whether the boundary at nodes has left its room, further than it was."""
+        if self.sliding is None or not np.isfinite(self.room):
+            return False
+        which = self.sliding.middles_at(nodes)
+        before, after = (self.sliding.off(x, which)[0] for x in (self.points, points))
+        room = self.room
+        if (after > np.maximum(before, room)).any():
+            return True
+        if not self.sliding.leaves_behind(points, room):
+            return False
+        seen = self.sliding.behind(points)
+        if (seen[0] > np.maximum(self._behind()[0], room)).any():
+            return True
+        self._looked = points, seen
+        return False
+
+    def _ways(self, nodes: np.ndarray, size: np.ndarray) -> _Ways:
+        """Ways of nodes: both senses of each axis; of those that slide on a patch eight around, on a curve two."""
+        axes = np.concatenate([np.eye(3), -np.eye(3)])
+        slides = self._slides(nodes)
+        inside = np.flatnonzero(~slides)
+        of, aims = np.repeat(inside, 6), np.tile(axes, (inside.size, 1))
+        leads = aims
+        if slides.any():
+            on = np.flatnonzero(slides)
+            bases = self.sliding.bases(self.points[nodes[on]], nodes[on])
+            around = np.einsum("kij,wj->kwi", bases, _AROUND).reshape(-1, 3)
+            of_around = np.repeat(on, len(_AROUND))
+            there = np.linalg.norm(around, axis=1) > 0.5  # of a curve all that goes along it, once
+            there &= np.tile(_AROUND[:, 1] == 0, on.size) | np.repeat(bases[:, :, 1].any(axis=1), len(_AROUND))
+            around, of_around = around[there], of_around[there]
+            far = self._radius * size[nodes[of_around], None]
+            start = self.points[nodes[of_around]]
+            led = (self.sliding.put_back(start + far * around, nodes[of_around]) - start) / far
+            of, aims, leads = (np.concatenate(both) for both in ((of, of_around), (aims, around), (leads, led)))
+        order = np.argsort(of, kind="stable")
+        scale = size[nodes[of[order]], None]
+        return _Ways(of[order], scale * aims[order], scale * leads[order])
+
+    def _limit(self) -> Limit:
+        corners, weights = self._multipliers
+        order = np.argsort(-weights, kind="stable")
+        order = order[weights[order] > HOLDS]
+        return Limit(self.least, corners[order] // 8, corners[order] % 8)
+
+    def _take(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
+        """Move to `points` if that brings enough, and fit the trust region; returns what was gained."""
+        hexes = np.unique(self.mesh.topology.node_corners.of(moved) // 8)
+        before, self.values[hexes] = self.values[hexes], scaled_jacobians(points, self.mesh.hexes[hexes])
+        gain = self.least - least
+        fallen = self.settled[hexes] & (self.values[hexes] < self._floor[hexes] - NOTHING)
+        if fallen.any() or (gain > BRINGS * promised and self._leaves(points, moved)):
+            gain = -np.inf
+        share = gain / promised
+        if share > GOOD:
+            self._radius = min(GROW * self._radius, LARGEST)
+        elif share < POOR:
+            self._radius *= SHRINK
+        if share > BRINGS:
+            self.points = points
+            return gain
+        self.values[hexes] = before
+        return 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class _Ways:
+    """Ways that nodes may go, in the length of the shortest edge at each.
+
+    Parameters
+    ----------
+    of : (w,)
+        Whose, ascending.
+    aims : (w, 3)
+        The displacement that is asked for: along a tangent where the node slides.
+    leads : (w, 3)
+        What it comes to once the node is put back: of a faceted surface that is another plane at every side.
+    """
+
+    of: np.ndarray
+    aims: np.ndarray
+    leads: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class _Models:
+    """Linear models of what depends on the places of four nodes each.
+
+    Parameters
+    ----------
+    ends : (r, 4)
+        The nodes.
+    above : (r,)
+        How far the value is above its bound.
+    slopes : (r, 4, 3)
+        Its derivatives by their places.
+    rises : (r,)
+        1 where the bound is to rise, as the least of the corners is; 0 where it stands.
+    """
+
+    ends: np.ndarray
+    above: np.ndarray
+    slopes: np.ndarray
+    rises: np.ndarray
+
+    def and_those(self, other: _Models) -> _Models:
+        """These, and others behind them."""
+        pairs = ((getattr(one, field.name) for one in (self, other)) for field in dataclasses.fields(self))
+        return _Models(*(np.concatenate(list(pair)) for pair in pairs))
+
+
+def _bounds(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> _Models:
+    """Models of what is not to fall below its bound."""
+    return _Models(ends, above, slopes, np.zeros(len(above)))
+
+
+def _program(nodes: np.ndarray, ways: _Ways, models: _Models, radius: float, falls: bool) -> tuple[Any, ...]:
+    """The linear program of a step, as `scipy.optimize.linprog` takes it: costs, matrix, limits, bounds.
+
+    Unknowns are how far nodes (k,) go each of their ways, up to a radius, and what the least rises by. Those nodes stay
+    that need not move: a small price is on each way.
+    """
+    from scipy.sparse import coo_array
+
+    ends = models.ends
+    slot = np.full(int(ends.max(initial=0)) + 1, -1)
+    slot[nodes] = np.arange(nodes.size)
+    slots = slot[ends]
+    row, end = np.nonzero(slots >= 0)
+    own = slots[row, end]
+    start = np.searchsorted(ways.of, np.arange(nodes.size + 1))
+    count = start[own + 1] - start[own]
+    pair = np.repeat(np.arange(own.size), count)
+    column = np.arange(pair.size) + np.repeat(start[own] - np.cumsum(count) + count, count)
+    slopes = np.einsum("ki,ki->k", models.slopes[row[pair], end[pair]], ways.leads[column])
+    unknowns, rows = ways.of.size + 1, len(ends)
+    entries = np.concatenate([-slopes, models.rises])
+    at = np.concatenate([row[pair], np.arange(rows)]), np.concatenate([column, np.full(rows, unknowns - 1)])
+    cost = np.full(unknowns, IDLE / max(nodes.size, 1))
+    cost[-1] = -1.0
+    bounds = np.zeros((unknowns, 2))
+    bounds[:, 1] = radius
+    bounds[-1] = -2.0 if falls else 0.0, 2.0
+    return cost, coo_array((entries, at), shape=(rows, unknowns)).tocsr(), models.above, None, None, bounds
+
+
+def _nodes(hexes: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Apex and ends of corners, 8 * hex + corner, (k, 4)."""
+    return np.take_along_axis(hexes[corners // 8], CORNER_TETRAHEDRA[corners % 8], axis=1)

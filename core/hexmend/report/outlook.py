@@ -1,0 +1,67 @@
+"""The report of an outlook: how fast a method arrives at the optimum, by the values that are varied."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from hexmend.figures import Figure, count, significant
+from hexmend.report.comparison import ended
+from hexmend.report.documents import write_documents
+from hexmend.report.tables import Table
+
+
+def _three(value: float) -> str:
+    return significant(value, 3)
+
+
+#: What is told of a run: until it arrives near the optimum, and in all.
+COLUMNS: tuple[Figure, ...] = (
+    Figure("near_iterations", "sweeps", "Iterations until the objective is near the optimum.", count, -1),
+    Figure("near_evaluations", "evaluations", "How often a hex was asked until then, on average.", _three, -1),
+    Figure("near_seconds", "s", "Seconds in the method until then.", _three, -1),
+    Figure("iterations", "sweeps in all", "Iterations until the run ended.", count, -1),
+    Figure("seconds", "s in all", "Seconds in the method until then.", _three, -1),
+    Figure("outcome", "ended", "Why the run ended.", ended),
+)
+
+
+def write_outlook(folder: Path, outlook: Mapping[str, Any]) -> list[Path]:
+    """An outlook as four files.
+
+    Parameters
+    ----------
+    folder : Path
+    outlook : mapping
+        `hexmend.study.outlook.Tried.record`.
+    """
+    return write_documents(folder, outlook_stem(outlook), outlook_table(outlook), outlook["runs"], outlook)
+
+
+def outlook_table(outlook: Mapping[str, Any]) -> Table:
+    """A line a run: its method, the values that are varied, and how fast it arrived."""
+    vary = outlook["vary"]
+    rows = [
+        [run["method"], *(str(run.get(name, "–")) for name in vary), *(column.of(run) for column in COLUMNS)]
+        for run in outlook["runs"]
+    ]
+    title = (
+        f"{outlook['section']}, {outlook['title']}: {outlook['mesh']}, {outlook['hexes']:,} hexes, "
+        f"{outlook['free_nodes']:,} free nodes"
+    )
+    notes = [
+        f"Sweeps, evaluations and seconds until the objective is within {100 * outlook['near']:g} % of the least that "
+        "any run ended with, and in all. An evaluation is one of a hex's energy or of its derivatives; told is how "
+        "many there were for each hex."
+    ]
+    return Table(title, ["method", *vary, *(column.label for column in COLUMNS)], rows, notes)
+
+
+def outlook_stem(outlook: Mapping[str, Any]) -> str:
+    """The name of an outlook's files.
+
+    >>> outlook_stem({"section": "5.2.5", "mesh": "five-side"})
+    'section-5.2.5-five-side'
+    """
+    return f"section-{outlook['section']}-{outlook['mesh']}"

@@ -1,0 +1,201 @@
+"""How far a boundary has left where it was."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.errors import MeshError
+from hexmend.mesh import Mesh
+from hexmend.surface.boundary import boundary_of
+from hexmend.surface.edges import Edges
+from hexmend.surface.features import DEGREES, angles
+from hexmend.surface.trees import Trees, triangulated
+
+#: A node that has moved less, in mean edge lengths, has been put back where it was.
+_MOVED = 1e-9
+
+
+@dataclass(frozen=True)
+class SurfaceChange:
+    """What became of a mesh's boundary.
+
+    Distances are those of the nodes, edge middles and face middles of each boundary from the other.
+
+    Parameters
+    ----------
+    furthest : float
+        The largest distance, both ways, in the mesh's unit.
+    average : float
+        The mean distance, of the way in which it is larger, in the mesh's unit.
+    edge_length, diagonal : float
+        Mean length of the mesh's edges and diagonal of its box before, in its unit.
+    volume_change : float
+        Of the enclosed volume, as a share of what it was.
+    moved : int
+        Number of boundary nodes that are elsewhere.
+    features, features_kept : int
+        Number of edges in which the boundary was sharp, and how many of these still are.
+    """
+
+    furthest: float
+    average: float
+    edge_length: float
+    diagonal: float
+    volume_change: float
+    moved: int
+    features: int
+    features_kept: int
+
+    @property
+    def max(self) -> float:
+        """The largest distance in mean edge lengths."""
+        return self.furthest / self.edge_length
+
+    @property
+    def mean(self) -> float:
+        """The mean distance in mean edge lengths."""
+        return self.average / self.edge_length
+
+    @property
+    def max_percent_of_diagonal(self) -> float:
+        """The largest distance in per cent of the diagonal."""
+        return 100 * self.furthest / self.diagonal
+
+    @property
+    def words(self) -> str:
+        """What became of it, in a sentence."""
+        return (
+            f"The boundary slid: {self.moved:,} of its nodes moved; it is at most {self.max:.2g} mean edge lengths "
+            f"({self.max_percent_of_diagonal:.2g} % of the diagonal) from where it was, {self.mean:.2g} in the mean; "
+            f"its volume changed by {100 * self.volume_change:+.2g} %; {self.features_kept:,} of {self.features:,} "
+            "sharp edges are kept."
+        )
+
+    def to_dict(self) -> dict[str, float | int]:
+        """Figures by name, lengths in mean edge lengths."""
+        names = ("max", "mean", "max_percent_of_diagonal", "volume_change", "moved")
+        return {name: getattr(self, name) for name in names}
+
+
+class Skin:
+    """A boundary as the surface that it is, without patches: what others are compared with.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    faces : (k, 4) or (k, 3) int32
+
+    Attributes
+    ----------
+    nodes : (b,) int64
+        Nodes of the faces, ascending.
+    edges : Edges
+    """
+
+    def __init__(self, points: np.ndarray, faces: np.ndarray):
+        self.points, self.faces = points, faces
+        self.nodes, self.edges = np.unique(faces), Edges(faces, len(points))
+        self._trees = _one_tree(points, faces)
+
+    def with_points(self, points: np.ndarray) -> Skin:
+        """The same faces with their nodes elsewhere."""
+        other = copy.copy(self)
+        other.points, other._trees = points, _one_tree(points, self.faces)
+        return other
+
+    def samples(self) -> np.ndarray:
+        """Places of `nodes`, middles of `edges.nodes`, middles of `faces`, in this order, (s, 3)."""
+        middles = (self.points[of].mean(axis=1) for of in (self.edges.nodes, self.faces))
+        return np.concatenate([self.points[self.nodes], *middles])
+
+    def distances(self, x: np.ndarray) -> np.ndarray:
+        """How far each of x (k, 3) is from the surface, (k,), in the mesh's unit."""
+        return np.linalg.norm(self.closest(x) - x, axis=1)
+
+    def closest_on(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The places of the surface that are closest to x (k, 3), by the nodes that make them.
+
+        Returns
+        -------
+        places : (k, 3)
+        nodes : (k, 4) or (k, 3)
+            Those of the face that each is on.
+        weights : (k, 4) or (k, 3)
+            Of these nodes there.
+        """
+        found = self._trees.closest(x, np.zeros(len(x), dtype=np.int64))
+        pieces, width = self._trees.pieces[found.pieces], self.faces.shape[1]
+        if width == 3:
+            return found.places, pieces, found.weights
+        nodes = self.faces[pieces[:, 2] - len(self.points)]
+        weights = np.repeat(found.weights[:, 2:] / width, width, axis=1)
+        for end in range(2):
+            weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
+        return found.places, nodes, weights
+
+    def closest(self, x: np.ndarray) -> np.ndarray:
+        """The places of the surface that are closest to x (k, 3), (k, 3)."""
+        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64)).places
+
+    def volume(self) -> float:
+        """What the surface encloses, if it is closed."""
+        x, triangles = self._trees.points - self.points[self.nodes].mean(axis=0), self._trees.pieces
+        a, b, c = (x[triangles[:, k]] for k in range(3))
+        return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
+
+
+def _one_tree(points: np.ndarray, faces: np.ndarray) -> Trees:
+    vertices, triangles, _ = triangulated(points, faces)
+    return Trees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
+
+
+def distances(one: Skin, other: Skin) -> tuple[np.ndarray, np.ndarray]:
+    """How far the samples of each of two boundaries are from the other: those of the first, those of the second."""
+    return other.distances(one.samples()), one.distances(other.samples())
+
+
+def surface_change(before: Mesh, after: Mesh, degrees: float = DEGREES) -> SurfaceChange:
+    """Compare the boundaries of a mesh before and after its nodes have moved.
+
+    Parameters
+    ----------
+    before, after : Mesh
+        Of the same hexes.
+    degrees : float
+        Angle beyond which an edge is a feature.
+
+    Raises
+    ------
+    MeshError
+        For meshes of different hexes.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> cube = make("cube", size=27)
+    >>> change = surface_change(cube, cube.with_points(1.5 * cube.points))
+    >>> round(change.volume_change, 12), change.moved, change.features, change.features_kept
+    (2.375, 55, 36, 36)
+    """
+    if before.n_nodes != after.n_nodes or not np.array_equal(before.hexes, after.hexes):
+        raise MeshError(f"{before.n_hexes} and {after.n_hexes} hexes that are not the same: expected one mesh, moved")
+    old = Skin(before.points, before.topology.boundary_faces)
+    new = old.with_points(after.points)
+    ways = distances(old, new)
+    was, now = old.points[old.nodes], new.points[old.nodes]
+    sharp = np.isin(old.edges.key, old.edges.keys_of(boundary_of(before, degrees).segments))
+    sharp &= angles(old.points, old.edges) > degrees
+    volume = old.volume()
+    return SurfaceChange(
+        furthest=float(max(way.max() for way in ways)),
+        average=float(max(way.mean() for way in ways)),
+        edge_length=before.mean_edge_length,
+        diagonal=float(np.linalg.norm(np.ptp(was, axis=0))),
+        volume_change=(new.volume() - volume) / volume if volume else 0.0,
+        moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > _MOVED * before.mean_edge_length)),
+        features=int(np.count_nonzero(sharp)),
+        features_kept=int(np.count_nonzero(sharp & (angles(new.points, new.edges) > degrees))),
+    )

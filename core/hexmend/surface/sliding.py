@@ -1,0 +1,221 @@
+"""The nodes of a mesh that slide on its boundary: which they are, where they may go, and how they are put back."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.hexahedron import FACES
+from hexmend.mesh import Mesh
+from hexmend.quality import corner_determinants
+from hexmend.surface.boundary import Boundary, Kind, boundary_of
+from hexmend.surface.change import Skin
+from hexmend.surface.features import DEGREES, given_corners
+from hexmend.surface.surface import Surface
+from hexmend.surface.trees import Closest
+from hexmend.topology import Rows
+
+#: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
+#: is the tangent, at its edges the mean of those around.
+_INNER = 1e-3
+#: The least room, in mean edge lengths: what is on the surface is off it by rounding.
+_ROUNDING = 1e-9
+
+
+class Sliding:
+    """A mesh whose boundary nodes slide: those of curves along them, those of patches on them; corners stay.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Its `surface` is what nodes of its boundary slide on.
+    degrees : float
+        Dihedral angle beyond which an edge is a feature; see `boundary_of`.
+
+    room : float
+        How far, in the mesh's unit, the middles of the boundary's edges and faces may leave the surface: nodes are on
+        it, but what lies between them cuts off its bends.
+
+    Attributes
+    ----------
+    boundary : Boundary
+    surface : Surface
+    mesh : Mesh
+        The same, of whose nodes only corners, pinned ones and those that no hex uses are fixed.
+    nodes : (k,) int64
+        Those that slide, ascending.
+    """
+
+    def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
+        self.room, self._points = max(room, _ROUNDING * mesh.mean_edge_length), mesh.surface
+        original = mesh.with_points(mesh.surface)
+        self.boundary = boundary_of(original, degrees)
+        bends = kept_bends(original, self.boundary)
+        if bends.size:
+            kept = np.concatenate([given_corners(mesh), bends])
+            self.boundary = boundary_of(original, degrees, corners=kept)
+        self.surface = Surface(mesh.surface, self.boundary)
+        slides = self.boundary.kind >= Kind.CURVE
+        fixed = mesh.fixed & ~slides
+        self.mesh = mesh.with_fixed(fixed)
+        self.nodes = np.flatnonzero(slides)
+        self.yields = self.boundary.kind == Kind.CORNER
+        self.yields[given_corners(mesh)] = False
+        self._group = self.surface.group_of(self.nodes)
+        self._number = np.full(mesh.n_nodes, -1, dtype=np.int64)
+        self._number[self.nodes] = np.arange(self.nodes.size)
+
+    def slides(self, nodes: np.ndarray) -> np.ndarray:
+        """Which of some nodes slide, bool."""
+        return self._number[nodes] >= 0
+
+    def put_back(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
+        """The closest places of sliding nodes on their own curves and patches, (k, 3).
+
+        Parameters
+        ----------
+        x : (k, 3) float64
+            Where they have been moved to, in the mesh's unit of length.
+        nodes : (k,) int, optional
+            Which they are; all that slide, if None.
+        """
+        return self._closest(x, nodes).places
+
+    def bases(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
+        """Directions in which sliding nodes may move, the columns of (k, 3, 3): 0 beyond the node's degrees of freedom.
+
+        Parameters
+        ----------
+        x : (k, 3) float64
+            Where they are, on the surface.
+        nodes : (k,) int, optional
+            Which they are; all that slide, if None.
+        """
+        of, found = self.nodes if nodes is None else nodes, self._closest(x, nodes)
+        weights = found.weights.copy()
+        weights[self.boundary.kind[of] == Kind.CURVE, 2] = 1.0  # a segment has two
+        inner = weights.min(axis=1, keepdims=True) > _INNER
+        along = np.where(inner, self.surface.directions(found, smooth=False), self.surface.directions(found))
+        bases = np.zeros((len(of), 3, 3))
+        curve = self.boundary.kind[of] == Kind.CURVE
+        bases[curve, :, 0] = along[curve]
+        bases[~curve, :, :2] = _across(along[~curve])
+        return bases
+
+    def tangents(self, points: np.ndarray) -> np.ndarray:
+        """The directions of `bases` for all that slide, nodes being at points (n, 3): one after the other, (k, 6)."""
+        return np.ascontiguousarray(self.bases(points[self.nodes])[:, :, :2].transpose(0, 2, 1)).reshape(-1, 6)
+
+    @cached_property
+    def ground(self) -> tuple[np.ndarray, ...]:
+        """What `hexmend.kernels.sliding` takes: slots, roots, vertices, pieces, boxes, links."""
+        trees = self.surface.trees
+        slots = self._number.astype(np.int32)
+        return slots, trees.roots[self._group], trees.points, trees.pieces, trees.boxes, trees.links
+
+    @cached_property
+    def rings(self) -> Rows:
+        """Edge neighbours of each node, of those that slide only the ones on their own curve or patch, and its ends."""
+        kind, whole = self.boundary.kind, self.mesh.topology.rings
+        node = np.repeat(np.arange(self.mesh.n_nodes), np.diff(whole.start))
+        ways = [np.stack([node, whole.items], axis=1)[self._number[node] < 0]]
+        for of, along in (Kind.CURVE, self.boundary.segments), (Kind.PATCH, self.skin.edges.nodes):
+            both = np.concatenate([along, along[:, ::-1]])
+            ways.append(both[kind[both[:, 0]] == of])
+        ways = np.concatenate(ways)
+        ways = ways[np.lexsort((ways[:, 1], ways[:, 0]))]
+        start = np.searchsorted(ways[:, 0], np.arange(self.mesh.n_nodes + 1))
+        return Rows(start.astype(np.int32), np.ascontiguousarray(ways[:, 1], dtype=np.int32))
+
+    @cached_property
+    def skin(self) -> Skin:
+        """The surface as a whole."""
+        return Skin(self._points, self.boundary.faces)
+
+    @cached_property
+    def middles(self) -> np.ndarray:
+        """Nodes whose means are the middles of the boundary's edges and faces, (s, 4) int: an edge's nodes twice."""
+        nodes = np.tile(self.skin.nodes[:, None], 4)
+        return np.concatenate([np.tile(self.skin.edges.nodes, 2), self.boundary.faces, nodes])
+
+    def middles_at(self, nodes: np.ndarray) -> np.ndarray:
+        """Which of `middles` move with some nodes, (k,) int64."""
+        moved = np.zeros(self.mesh.n_nodes, dtype=bool)
+        moved[nodes] = True
+        return np.flatnonzero(moved[self.middles].any(axis=1))
+
+    def off(self, points: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """How far some of `middles` are from the surface, (k,), and the unit vectors that lead away from it, (k, 3)."""
+        x = points[self.middles[which]].mean(axis=1)
+        away = x - self.skin.closest(x)
+        far = np.linalg.norm(away, axis=1)
+        return far, away / np.maximum(far, np.finfo(float).tiny)[:, None]
+
+    def behind(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """How far the surface's nodes and middles are from the boundary as it is now.
+
+        Returns
+        -------
+        far : (s,)
+        away : (s, 3)
+            Unit vectors from the boundary to them.
+        nodes, weights : (s, 4)
+            What makes the closest places of the boundary.
+        """
+        x = self._samples
+        places, nodes, weights = self.skin.with_points(points).closest_on(x)
+        far = np.linalg.norm(x - places, axis=1)
+        return far, (x - places) / np.maximum(far, np.finfo(float).tiny)[:, None], nodes, weights
+
+    def leaves_behind(self, points: np.ndarray, room: float) -> bool:
+        """Whether the boundary may have left a place of the surface by more: not where each node is that near."""
+        nodes = self.skin.nodes
+        return bool((np.square(points[nodes] - self._points[nodes]).sum(axis=1) > max(room, 0.0) ** 2).any())
+
+    @cached_property
+    def _samples(self) -> np.ndarray:
+        return self.skin.samples()
+
+    def beyond(self, points: np.ndarray) -> np.ndarray:
+        """The nodes at which the boundary has left its room, (k,) int."""
+        if not np.isfinite(self.room):
+            return np.empty(0, dtype=np.int64)
+        far, _ = self.off(points, np.arange(len(self.middles)))
+        beyond = self.middles[far > self.room].ravel()
+        if self.leaves_behind(points, self.room):
+            far, _, nodes, _ = self.behind(points)
+            beyond = np.concatenate([beyond, nodes[far > self.room].ravel()])
+        return np.unique(beyond)
+
+    def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
+        return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
+
+
+def kept_bends(mesh: Mesh, boundary: Boundary) -> np.ndarray:
+    """Nodes of curves that had better not slide, (k,) int: of a face with both edges at the node on the curve.
+
+    The bend of the curve at such a node is all that holds the hex's corner open: on one straight segment with its
+    neighbours it would be flat for good, sigma being 0 and its derivative along the curve too. Where the corner is
+    inverted as it is, the node may as well slide.
+    """
+    hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
+    ahead = _keys(boundary.faces, np.roll(boundary.faces, -1, axis=1), mesh.n_nodes)
+    on_curve = np.isin(ahead, _keys(*boundary.segments.T, mesh.n_nodes))
+    at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.kind[boundary.faces] == Kind.CURVE)
+    face, place = np.nonzero(at)
+    sigma = corner_determinants(mesh.points, mesh.hexes, hexes[face])
+    corner = FACES[sides[face], place]
+    return np.unique(boundary.faces[face, place][sigma[np.arange(face.size), corner] > 0])
+
+
+def _keys(one: np.ndarray, other: np.ndarray, n: int) -> np.ndarray:
+    return np.minimum(one, other).astype(np.int64) * n + np.maximum(one, other)
+
+
+def _across(normals: np.ndarray) -> np.ndarray:
+    """Two unit vectors at right angles to each other and to each normal, the columns of (k, 3, 2); 0 where it is 0."""
+    least = np.abs(normals).argmin(axis=1)
+    one = np.cross(normals, np.eye(3)[least])
+    one /= np.maximum(np.linalg.norm(one, axis=1, keepdims=True), np.finfo(float).tiny)
+    return np.stack([one, np.cross(normals, one)], axis=-1)

@@ -1,0 +1,140 @@
+"""A surface that nodes slide on: each is put back on the closest point of its own curve or patch."""
+
+from __future__ import annotations
+
+import copy
+
+import numpy as np
+
+from hexmend.errors import MeshError
+from hexmend.surface.boundary import Boundary, Kind
+from hexmend.surface.trees import Closest, Trees, triangulated
+from hexmend.surface.vectors import curve_tangents, segment_tangents, triangle_normals, vertex_normals
+
+#: Vertex normals whose mean is shorter say nothing: they stand against each other.
+_OPPOSED = 1e-6
+
+
+class Surface:
+    """The surface that a boundary is: triangles in patches and segments in curves.
+
+    A quad is four triangles around the mean of its corners. Between the vertices of a patch its normal is interpolated,
+    as the tangent is between those of a curve; the places are those of the triangles and segments as they are.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        Where the nodes of the boundary are.
+    boundary : Boundary
+        Of quads, or of triangles as a file of a surface holds them.
+
+    Attributes
+    ----------
+    kind, part
+        Those of the nodes that slide on it, as in `Boundary`: of its own boundary, or as `attached` says.
+    trees : Trees
+        Patch i is group i, curve i is group `n_patches` + i.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> from hexmend.surface import boundary_of
+    >>> cube = make("cube", size=27)
+    >>> boundary = boundary_of(cube)
+    >>> surface = Surface(cube.points, boundary)
+    >>> sliding = np.flatnonzero(boundary.kind == Kind.PATCH)
+    >>> places, normals = surface.project(cube.points[sliding] + 0.1, sliding)
+    >>> sorted(set(np.abs(normals).sum(axis=1).tolist()))
+    [1.0]
+    """
+
+    def __init__(self, points: np.ndarray, boundary: Boundary):
+        self.kind, self.part = boundary.kind, boundary.part
+        self.n_patches, self.n_curves = boundary.n_patches, boundary.n_curves
+        vertices, triangles, face = triangulated(points, boundary.faces)
+        patch, segments = boundary.patch_of_face[face], boundary.segments
+        self.trees = Trees(
+            vertices,
+            np.concatenate([triangles, segments[:, [0, 1, 1]]]),
+            np.concatenate([patch, self.n_patches + boundary.curve_of_segment]),
+        )
+        plain = triangle_normals(vertices, triangles), segment_tangents(points, segments)
+        smooth = vertex_normals(vertices, triangles, patch), curve_tangents(points, boundary)[:, [0, 1, 1]]
+        self._plain, self._smooth = (np.concatenate(both)[self.trees.order] for both in (plain, smooth))
+
+    def project(self, x: np.ndarray, nodes: np.ndarray, smooth: bool = True) -> tuple[np.ndarray, np.ndarray]:
+        """Put nodes back on their own curves and patches.
+
+        Parameters
+        ----------
+        x : (k, 3) float64
+            Where they are now.
+        nodes : (k,) int
+            Which they are: of kind `Kind.CURVE` or `Kind.PATCH`.
+        smooth : bool
+            Interpolate directions between vertices; else they are those of the triangle or segment.
+
+        Returns
+        -------
+        places : (k, 3) float64
+            The closest points.
+        directions : (k, 3) float64
+            There, of length 1: a patch's normal, to the outside; a curve's tangent, of either sense. 0 on a triangle or
+            segment that has none.
+
+        Raises
+        ------
+        MeshError
+            For a node of another kind, and as `Trees.closest` says.
+        """
+        found = self.trees.closest(x, self.group_of(nodes))
+        return found.places, self.directions(found, smooth)
+
+    def group_of(self, nodes: np.ndarray) -> np.ndarray:
+        """The group of `trees` that each of some nodes slides on, (k,) int32.
+
+        Raises
+        ------
+        MeshError
+            For a node that slides on nothing: one of the inside, or a corner.
+        """
+        kind = self.kind[nodes]
+        stays = np.flatnonzero(kind < Kind.CURVE)
+        if len(stays):
+            node, name = int(np.asarray(nodes)[stays[0]]), Kind(kind[stays[0]]).name
+            raise MeshError(f"node {node} (counted from 0) is of kind {name}: expected CURVE or PATCH, which slide")
+        return self.part[nodes] + np.where(kind == Kind.CURVE, np.int32(self.n_patches), np.int32(0))
+
+    def directions(self, found: Closest, smooth: bool = True) -> np.ndarray:
+        """Normals of patches and tangents of curves at places that `trees` found; see `project`."""
+        plain = self._plain[found.pieces]
+        if not smooth:
+            return plain
+        mean = np.einsum("ki,kij->kj", found.weights, self._smooth[found.pieces])
+        size = np.linalg.norm(mean, axis=1, keepdims=True)
+        return np.where(size > _OPPOSED, mean / np.maximum(size, _OPPOSED), plain)
+
+    def attached(self, points: np.ndarray, boundary: Boundary) -> Surface:
+        """This surface for the nodes of another boundary: each slides on the nearest patch or curve of this one.
+
+        Curve nodes are given to curves while there are any, else to patches; corners stay what they are.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+        boundary : Boundary
+        """
+        kind, part = boundary.kind.copy(), np.full(len(boundary.kind), -1, dtype=np.int32)
+        if not self.n_curves:
+            kind[kind == Kind.CURVE] = Kind.PATCH
+        for of, first, count in (Kind.PATCH, 0, self.n_patches), (Kind.CURVE, self.n_patches, self.n_curves):
+            nodes = np.flatnonzero(kind == of)
+            furthest = np.full(len(nodes), np.inf)
+            for group in range(count):
+                found = self.trees.closest(points[nodes], np.full(len(nodes), first + group))
+                distance = np.linalg.norm(found.places - points[nodes], axis=1)
+                nearer = distance < furthest
+                part[nodes[nearer]], furthest[nearer] = group, distance[nearer]
+        other = copy.copy(self)
+        other.kind, other.part = kind, part
+        return other

@@ -1,0 +1,236 @@
+"""The least scaled Jacobian is raised as far as it goes; what stops it is told."""
+
+import itertools
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import linprog
+
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.io import read
+from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
+from hexmend.optimise.raising import IDLE, Limit, Raising
+from hexmend.surface import Sliding, surface_change
+from tests.core.grids import grid, scrambled
+from tests.core.surface.solids import ball, cylinder, slid
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def raised(raising, **limits):
+    """What a `Raising` yields: its steps, and where it ends."""
+    *steps, limit = raising.steps(**limits)
+    assert isinstance(limit, Limit)
+    return steps, limit
+
+
+def steepest(mesh, points, limit):
+    """The rate at which the corners of a limit can be raised together, no node going further than its shortest edge."""
+    ends = mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]]
+    _, derivatives = gradients(points, ends)
+    slopes = np.zeros((len(ends), *points.shape))
+    for of, at, slope in zip(slopes, ends, derivatives, strict=True):
+        of[at] = slope
+    slopes *= shortest_edges(points, mesh.hexes)[:, None]
+    slopes = slopes[:, mesh.free].reshape(len(ends), -1)
+    ways = slopes.shape[1]
+    solved = linprog(
+        np.append(np.zeros(ways), -1.0),
+        A_ub=np.column_stack([-slopes, np.ones(len(ends))]),
+        b_ub=np.zeros(len(ends)),
+        bounds=[(-1, 1)] * ways + [(None, None)],
+    )
+    return -solved.fun
+
+
+def one_free_node(seed):
+    """A cube of eight hexes, its boundary rough, so that corners of several hexes hold each other."""
+    mesh = grid(2)
+    return mesh.with_points(mesh.points + np.random.default_rng(seed).uniform(-0.25, 0.25, mesh.points.shape))
+
+
+def with_locked_corner(mesh):
+    """The mesh with its first node pushed so far in that the corner there, all of whose nodes are fixed, is inverted."""
+    points = mesh.points.copy()
+    points[0] += 0.7 * (points[mesh.hexes[0, 6]] - points[0])
+    return mesh.with_points(points)
+
+
+@settings(max_examples=20)
+@given(seeds, st.floats(0.1, 1.2))
+def test_the_least_rises_from_step_to_step_and_fixed_nodes_stay(seed, amplitude):
+    mesh = scrambled(grid(3), amplitude, seed)
+    raising = Raising(mesh, mesh.points)
+    least = raising.least
+    steps, limit = raised(raising)
+    for step in steps:
+        assert step.least > least
+        least = step.least
+        assert step.least == scaled_jacobians(step.points, mesh.hexes).min()  # that of the boundary's corners too
+        np.testing.assert_array_equal(step.points[mesh.fixed], mesh.points[mesh.fixed])
+    assert limit.least == raising.least == least
+    np.testing.assert_array_equal(raising.values, scaled_jacobians(raising.points, mesh.hexes))
+
+
+@settings(max_examples=20)
+@given(seeds, st.floats(0.1, 0.5))
+def test_a_scrambled_grid_is_raised_to_that_of_cubes(seed, amplitude):
+    mesh = scrambled(grid(3), amplitude, seed)
+    raising = Raising(mesh, mesh.points)
+    raised(raising)
+    assert raising.least > 0.99
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_corners_at_the_end_hold_each_other(seed):
+    mesh = one_free_node(seed)
+    raising = Raising(mesh, mesh.points)
+    _, limit = raised(raising)
+    values = raising.values[limit.hexes, limit.corners]
+    assert np.ptp(values) < 1e-3
+    assert (mesh.free[mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]]]).any(axis=1).all()
+    assert steepest(mesh, raising.points, limit) < 3 * IDLE + 1e-6  # each axis of a node has its price
+    random, size = np.random.default_rng(seed), shortest_edges(raising.points, mesh.hexes)[:, None]
+    for reach in 1e-2, 1e-3:
+        way = random.uniform(-1, 1, mesh.points.shape) * size * mesh.free[:, None]
+        there = scaled_jacobians(raising.points + reach * way, mesh.hexes)[limit.hexes, limit.corners]
+        assert there.min() < values.min() + 3 * IDLE * reach + 10 * reach**2
+
+
+def test_nothing_is_raised_beyond_its_aim():
+    mesh = scrambled(grid(4), 0.4, 2)
+    raising = Raising(mesh, mesh.points)
+    steps, _ = raised(raising, aim=0.6)
+    assert [step.least >= 0.6 for step in steps] == [False] * (len(steps) - 1) + [True]
+    assert raised(raising, aim=0.6)[0] == []
+
+
+@settings(max_examples=15)
+@given(seeds)
+def test_settled_corners_do_not_fall_while_others_rise(seed):
+    mesh = one_free_node(seed)
+    raising = Raising(mesh, mesh.points)
+    _, first = raised(raising)
+    at = first.hexes, first.corners
+    raising.settle(first)
+    assert raising.settled[at].all()
+    assert raising.least >= first.least
+    _, second = raised(raising)
+    assert second.least >= first.least
+    assert (raising.values[at] >= first.least - 2e-6).all()
+    assert scaled_jacobians(raising.points, mesh.hexes).min() >= min(raising.values.min(), first.least - 2e-6)
+
+
+def test_where_nothing_is_free_nothing_is_done():
+    mesh = grid(1)
+    raising = Raising(mesh, mesh.points)
+    steps, limit = raised(raising)
+    assert steps == []
+    assert raising.least == limit.least == np.inf
+    assert limit.hexes.size == 0
+    np.testing.assert_array_equal(raising.points, mesh.points)
+
+
+def test_a_corner_that_fixed_nodes_lock_holds_back_no_other():
+    mesh = with_locked_corner(scrambled(grid(3), 0.3, 4))
+    raising = Raising(mesh, mesh.points)
+    steps, limit = raised(raising)
+    assert steps
+    assert raising.values[0, 0] < 0 < limit.least
+    assert (0, 0) not in list(zip(limit.hexes, limit.corners, strict=True))
+
+
+@settings(max_examples=15)
+@given(seeds, st.integers(0, 7), st.integers(0, 7))
+def test_coinciding_nodes_are_no_end(seed, one, other):
+    mesh = scrambled(grid(3), 0.1, seed)
+    points, inner = mesh.points.copy(), int(np.flatnonzero(mesh.free)[one])
+    ring = mesh.topology.rings[inner]
+    points[inner] = points[ring[other % len(ring)]]
+    raising = Raising(mesh.with_points(points), points)
+    with np.errstate(all="raise"):
+        raised(raising)
+    assert np.isfinite(raising.points).all()
+    np.testing.assert_array_equal(raising.points[mesh.fixed], points[mesh.fixed])
+
+
+@settings(max_examples=10)
+@given(seeds, st.sampled_from(["ball", "cylinder"]), st.floats(0.02, 0.2))
+def test_the_boundary_slides_in_its_room(seed, solid, share):
+    mesh = slid({"ball": ball(3), "cylinder": cylinder(16, 3)}[solid], 0.25, seed)
+    room = share * mesh.mean_edge_length
+    sliding = Sliding(mesh, room=room)
+    raising = Raising(sliding.mesh, mesh.points, sliding)
+    before = raising.least
+    steps, _ = raised(raising)
+    assert (np.diff([before, *(step.least for step in steps)]) > 0).all()
+    assert raising.furthest() <= room * (1 + 1e-9)
+    change = surface_change(mesh, mesh.with_points(raising.points))
+    assert change.furthest <= room * (1 + 1e-9)
+    np.testing.assert_array_equal(raising.points[sliding.mesh.fixed], mesh.points[sliding.mesh.fixed])
+    on = raising.points[sliding.nodes]
+    np.testing.assert_allclose(sliding.put_back(on), on, atol=1e-9)
+
+
+def lifted(sliding, points, wide, times):
+    """A boundary that has left its surface where that raises the least, up to so far, and as often as it has to."""
+    raising = Raising(sliding.mesh, points, sliding)
+    raising.room = wide
+    for _ in range(times):
+        _, limit = raised(raising, aim=0.5)
+        if not raising.lift(limit):
+            break
+    return raising
+
+
+def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
+    mesh = slid(ball(3), 0.3, 1)
+    edge = mesh.mean_edge_length
+    sliding = Sliding(mesh)
+    raising = lifted(sliding, mesh.points, edge, 4)
+    assert raising.lifted.any()
+    assert sliding.slides(np.flatnonzero(raising.lifted)).all()
+    far = raising.furthest()
+    assert 0.1 * edge < far <= edge * (1 + 1e-9)
+    for step in raising.into(0.1 * edge):
+        assert np.isfinite(step.points).all()
+    assert raising.furthest() <= 0.1 * edge * (1 + 1e-5)
+    assert surface_change(mesh, mesh.with_points(raising.points)).max <= 0.1 * (1 + 1e-5)
+    assert raising.room == 0.1 * edge
+    least = raising.least
+    steps, _ = raised(raising)
+    assert all(step.least > least for step in steps)
+    assert raising.furthest() <= 0.1 * edge * (1 + 1e-5)
+
+
+def test_nothing_is_lifted_off_a_surface_without_room():
+    mesh = slid(ball(3), 0.3, 1)
+    sliding = Sliding(mesh, room=0.0)
+    raising = Raising(sliding.mesh, mesh.points, sliding)
+    _, limit = raised(raising)
+    raising.room = 0.0
+    assert not raising.lift(limit)
+    assert not raising.lifted.any()
+    fixed = Raising(mesh, mesh.points)
+    assert not fixed.lift(raised(fixed)[1])
+
+
+def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
+    mesh = read(real_mesh("bunny.vtk"))
+    room = 0.4 * mesh.mean_edge_length
+    sliding = Sliding(mesh)
+    raising = Raising(sliding.mesh, mesh.points, sliding)
+    raising.room = 1.5 * mesh.mean_edge_length
+    for _ in range(5):
+        for step in itertools.islice(raising.steps(0.0), 10):
+            limit = step
+        if not isinstance(limit, Limit) or not raising.lift(limit):
+            break
+    assert raising.furthest() > room
+    for _ in raising.into(room):
+        pass
+    assert raising.furthest() <= room * (1 + 1e-5)
+    change = surface_change(mesh, mesh.with_points(raising.points))
+    assert change.furthest <= room * (1 + 1e-5)

@@ -1,0 +1,45 @@
+"""Solids whose corners, curves and patches are known."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.surface import Sliding
+from tests.core.grids import grid
+
+
+def ball(n: int) -> Mesh:
+    """A cube of n x n x n whose shells are blown up to spheres; its boundary lies on the unit sphere."""
+    mesh = grid(n)
+    x = 2 * mesh.points / n - 1
+    x = np.tan(np.pi / 4 * x)  # so that angles are alike
+    size, far = np.abs(x).max(axis=1, keepdims=True), np.linalg.norm(x, axis=1, keepdims=True)
+    return Mesh(x * size / np.where(far > 0, far, 1), mesh.hexes, name="ball")
+
+
+def cylinder(around: int = 32, layers: int = 5) -> Mesh:
+    """A block whose layers are blown up to discs of radius 1; its height is 1."""
+    n = around // 4
+    mesh = grid(n, n, layers)
+    x = 2 * mesh.points[:, :2] / n - 1
+    size = np.abs(x).max(axis=1, keepdims=True)
+    wide = np.abs(x[:, 0]) >= np.abs(x[:, 1])
+    angle = np.pi / 4 * np.where(wide, x[:, 1], x[:, 0]) / np.where(size[:, 0] > 0, size[:, 0], 1)
+    far = np.sign(np.where(wide, x[:, 0], x[:, 1])) * np.cos(angle)
+    disc = size * np.where(wide[:, None], np.stack([far, np.sin(angle)], 1), np.stack([np.sin(angle), far], 1))
+    return Mesh(np.column_stack([disc, mesh.points[:, 2] / layers]), mesh.hexes, name="cylinder")
+
+
+def wavy(mesh: Mesh, height: float, seed: int = 0) -> Mesh:
+    """Every node displaced at random by up to `height` in each direction."""
+    return mesh.with_points(mesh.points + np.random.default_rng(seed).uniform(-height, height, mesh.points.shape))
+
+
+def slid(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
+    """Every node displaced at random by up to so many mean edge lengths, those of the boundary along it; corners stay."""
+    sliding = Sliding(mesh)
+    shift = np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape) * mesh.mean_edge_length
+    points = mesh.points + shift * sliding.mesh.free[:, None]
+    points[sliding.nodes] = sliding.put_back(points[sliding.nodes])
+    return mesh.with_points(points)

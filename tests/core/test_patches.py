@@ -1,0 +1,222 @@
+"""Patches of several nodes, 5.2.5: what they are made of, and the Newton step of each."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend import kernels
+from hexmend.energy import MeshEnergy
+from hexmend.gallery import make
+from hexmend.kernels import large_patches
+from hexmend.mesh import Mesh
+from hexmend.patches import grown
+from hexmend.quality import measure
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.local_patch import LocalPatch
+from tests.core.grids import grid, scrambled
+
+SIZES = st.sampled_from([1, 2, 8, 27])
+OVERLAPS = st.sampled_from([0, 1])
+
+
+def after(mesh, smoother, steps=1):
+    """The points after some iterations."""
+    return next(itertools.islice(smoother.steps(mesh), steps, None)).points
+
+
+def hexes_at(mesh, nodes):
+    """The hexes that any of some nodes is a corner of."""
+    return np.flatnonzero(np.isin(mesh.hexes, nodes).any(axis=1))
+
+
+def swept(mesh, patches, k, smoother, delta):
+    """The points after the step of patch k alone, and how often its hexes were asked."""
+    points = mesh.points.copy()
+    asked = large_patches.sweep(
+        points, patches.hexes, patches.slots, patches.chosen.start, patches.nodes.start, patches.nodes.items,
+        np.array([0, 1], np.int32), np.array([k], np.int32), delta, smoother.p, smoother.first_step, smoother.shrink,
+        smoother.c1, smoother.max_cuts,
+    )  # fmt: skip
+    return points, asked
+
+
+def part(mesh, patches, k):
+    """Patch k as a mesh of its own in mean edge lengths: it, its nodes' numbers among all, and the unit."""
+    used, hexes = np.unique(mesh.hexes[patches.chosen[k]], return_inverse=True)
+    hexes = hexes.reshape(-1, 8)
+    unit = Mesh(mesh.points[used], hexes).mean_edge_length
+    pinned = ~np.isin(used, patches.nodes[k])
+    return Mesh(mesh.points[used] / unit, hexes, pinned=pinned), used, unit
+
+
+@settings(max_examples=40)
+@given(st.tuples(*[st.integers(1, 5)] * 3), SIZES, OVERLAPS)
+def test_patches_hold_each_free_node_and_know_their_hexes(size, nodes, overlap):
+    mesh = grid(*size)
+    patches, free = grown(mesh, nodes, overlap), np.flatnonzero(mesh.free)
+    cores = grown(mesh, nodes, 0).nodes
+    np.testing.assert_array_equal(np.sort(cores.items), free)  # each once
+    assert (np.diff(cores.start) <= nodes).all()
+    assert len(cores) == len(patches.nodes)
+    for k in range(len(cores)):
+        expected = cores[k]
+        if overlap:
+            expected = np.intersect1d(np.unique(mesh.hexes[hexes_at(mesh, cores[k])]), free)
+        np.testing.assert_array_equal(patches.nodes[k], expected)
+        np.testing.assert_array_equal(np.sort(patches.chosen[k]), hexes_at(mesh, patches.nodes[k]))
+    for k in range(len(patches.chosen)):
+        rows = slice(*patches.chosen.start[k : k + 2])
+        np.testing.assert_array_equal(patches.hexes[rows], mesh.hexes[patches.chosen[k]])
+        slots, own = patches.slots[rows], np.isin(patches.hexes[rows], patches.nodes[k])
+        np.testing.assert_array_equal(slots >= 0, own)
+        np.testing.assert_array_equal(patches.nodes[k][slots[own]], patches.hexes[rows][own])
+
+
+@settings(max_examples=40)
+@given(st.tuples(*[st.integers(2, 5)] * 3), SIZES, OVERLAPS)
+def test_patches_of_a_colour_share_no_hex(size, nodes, overlap):
+    patches = grown(grid(*size), nodes, overlap)
+    np.testing.assert_array_equal(np.sort(patches.colours.items), np.arange(len(patches.nodes)))
+    for g in range(len(patches.colours)):
+        chosen = np.concatenate([patches.chosen[k] for k in patches.colours[g]])
+        assert np.unique(chosen).size == chosen.size
+
+
+def test_more_colours_than_bits_are_no_trouble():
+    hex_start = np.arange(101, dtype=np.int32)
+    start, patches = large_patches.colours(hex_start, np.zeros(100, np.int32), 1)  # all share the one hex
+    np.testing.assert_array_equal(start, np.arange(101))
+    np.testing.assert_array_equal(patches, np.arange(100))
+
+
+def test_nodes_of_a_patch_hang_together():
+    mesh = make("five-side", size=800)
+    pairs = mesh.hexes[:, list(itertools.combinations(range(8), 2))].reshape(-1, 2)
+    patches = grown(mesh, 27, 0).nodes
+    for k in range(len(patches)):
+        nodes = patches[k]
+        label = {int(i): int(i) for i in nodes}
+        inside = pairs[np.isin(pairs, nodes).all(axis=1)]
+        for _ in nodes:
+            for a, b in inside.tolist():
+                label[a] = label[b] = min(label[a], label[b])
+        assert len(set(label.values())) == 1
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([1.0, 2.0, 3.5]))
+def test_a_patch_of_one_node_is_visited_as_local_newton_does(seed, p):
+    mesh = scrambled(grid(3), 0.1, seed)
+    mesh = mesh.with_points(2.5 * mesh.points)
+    if measure(mesh.points, mesh.hexes).n_inverted:
+        return
+    single = after(mesh, LocalPatch(patch=1, overlap=0, p=p))
+    np.testing.assert_allclose(single, after(mesh, METHODS["local-nr"](p=p)), atol=1e-7)
+    np.testing.assert_allclose(single, after(mesh, METHODS["local-mnr"](p=p)), atol=1e-7)
+
+
+@settings(max_examples=20)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([8, 27, 64]), st.sampled_from([1.5, 2.0, 4.0]))
+def test_a_step_is_newtons_for_the_nodes_of_the_patch(seed, size, p):
+    mesh = scrambled(grid(5), 0.15, seed)
+    mesh = mesh.with_points(0.3 * mesh.points)
+    if measure(mesh.points, mesh.hexes).n_inverted:
+        return
+    patches, smoother = grown(mesh, size, 0), LocalPatch(p=p)
+    small, used, unit = part(mesh, patches, 0)
+    energy = MeshEnergy(small, p)
+    scale = energy.unit  # 1 but for rounding
+    x = small.points / scale
+    hessian = energy.hessian(x).assembled(np.float64).matrix().toarray()
+    if np.linalg.eigvalsh(hessian).min() <= 1e-9:
+        return
+    step = np.linalg.solve(hessian, -energy.gradient(x).ravel()).reshape(-1, 3)
+    points, (energies, derivatives) = swept(mesh, patches, 0, smoother, 0.0)
+    move = (points[used] - mesh.points[used])[small.free] / unit / scale
+    count = len(patches.chosen[0])
+    assert derivatives == count
+    assert energies % count == 0
+    alpha = smoother.shrink ** (energies // count - 1)
+    np.testing.assert_allclose(move, alpha * step, atol=1e-8 * np.abs(step).max() + 1e-12)
+
+
+@pytest.mark.parametrize("overlap", [0, 1])
+def test_large_systems_are_solved_by_conjugate_gradients_as_well(overlap):
+    mesh = scrambled(grid(9), 0.1, 3)
+    patches, smoother = grown(mesh, 216, overlap), LocalPatch()
+    assert 3 * patches.nodes[0].size > 600
+    small, used, unit = part(mesh, patches, 0)
+    energy = MeshEnergy(small, 2.0)
+    x = small.points / energy.unit
+    gradient, hessian = energy.gradient(x).ravel(), energy.hessian(x).assembled(np.float64).matrix()
+    points, (energies, derivatives) = swept(mesh, patches, 0, smoother, 0.0)
+    alpha = smoother.shrink ** (energies // derivatives - 1)
+    step = ((points[used] - mesh.points[used])[small.free] / unit / energy.unit / alpha).ravel()
+    best = gradient @ np.linalg.solve(hessian.toarray(), -gradient) / 2  # of the quadratic model
+    assert gradient @ step + step @ (hessian @ step) / 2 == pytest.approx(best, rel=0.01)
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 2**32 - 1), SIZES, OVERLAPS, st.sampled_from([1.0, 2.0, 5.0]), st.sampled_from([0.2, 0.7, 1.5]))
+def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overlap, p, amplitude):
+    mesh = scrambled(grid(4), amplitude, seed)
+    patches, smoother = grown(mesh, size, overlap), LocalPatch(p=p)
+    delta = smoother.delta_at(mesh, mesh.points)
+    k = seed % len(patches.nodes)
+    points, _ = swept(mesh, patches, k, smoother, delta)
+    moved = np.flatnonzero((points != mesh.points).any(axis=1))
+    assert np.isin(moved, patches.nodes[k]).all()
+    small, used, unit = part(mesh, patches, k)
+    energy = MeshEnergy(small, p)
+    before, now = energy.value(small.points, delta), energy.value(points[used] / unit, delta)
+    assert now <= before * (1 + 1e-9) + 1e-12
+
+
+@settings(max_examples=20)
+@given(st.integers(0, 2**32 - 1), SIZES, OVERLAPS)
+def test_sweeps_lower_the_objective_and_never_leave_the_feasible_region(seed, size, overlap):
+    mesh = scrambled(grid(4), 0.2, seed)
+    if measure(mesh.points, mesh.hexes).n_inverted:
+        return
+    steps = itertools.islice(LocalPatch(patch=size, overlap=overlap).steps(mesh), 5)
+    values = [(measure(step.points, mesh.hexes).eta ** 2).sum() for step in steps]
+    assert np.isfinite(values).all()
+    assert (np.diff(values) <= 1e-12).all()
+
+
+@pytest.mark.parametrize(("size", "overlap"), [(1, 0), (8, 0), (8, 1), (216, 1)])
+def test_threads_do_not_matter(size, overlap):
+    mesh = make("bridge-sharp", size=2048)
+    smoother, most = LocalPatch(patch=size, overlap=overlap), kernels.threads()
+    expected = after(mesh, smoother, 2)
+    try:
+        kernels.set_threads(1 if most > 1 else 2)
+        np.testing.assert_array_equal(after(mesh, smoother, 2), expected)
+    finally:
+        kernels.set_threads(most)
+
+
+@pytest.mark.parametrize("overlap", [0, 1])
+@pytest.mark.parametrize("size", [1, 8, 64, 216])
+def test_a_tangled_cube_becomes_the_perfect_grid(size, overlap):
+    mesh = make("cube", size=216, scramble=0.9, seed=2)
+    assert measure(mesh.points, mesh.hexes).n_inverted > 20
+    result = smooth(mesh, LocalPatch(patch=size, overlap=overlap), Stop(tolerance=1e-7))
+    assert result.after.inverted == 0
+    assert result.after.q_min == pytest.approx(1, abs=1e-8)
+
+
+def test_a_perfect_grid_and_a_mesh_without_free_nodes_stay():
+    np.testing.assert_array_equal(after(grid(4), LocalPatch()), grid(4).points)
+    assert smooth(grid(1), LocalPatch()).iterations == 0
+    assert len(grown(grid(1), 8, 1).nodes) == 0
+
+
+def test_overlap_saves_sweeps():
+    mesh = make("bridge-sharp", size=2048)
+    sweeps = [smooth(mesh, LocalPatch(overlap=overlap)).iterations for overlap in (0, 1)]
+    assert sweeps[1] < sweeps[0] / 2
