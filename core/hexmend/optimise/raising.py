@@ -8,10 +8,8 @@ say which corners hold each other: no direction raises one without lowering anot
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -19,6 +17,7 @@ from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh import Mesh
 from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
 from hexmend.optimise.iteration import Step
+from hexmend.optimise.program import Models, Ways, bounds_of, program
 from hexmend.surface import Sliding
 
 #: Radius of the trust region at first and at most, in lengths of the shortest edge at each node, and where it ends.
@@ -40,8 +39,6 @@ HOLDS = 1e-3
 NEARER, EXACT = 0.2, 1e-6
 #: Ways around a place of a patch, in its basis.
 _AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
-#: Share of the gain that may be given away so that nodes stay which need not move.
-IDLE = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,14 +230,14 @@ class Raising:
         size = shortest_edges(self.points, hexes[around])
         settled = self.settled.ravel()[near]
         above = np.maximum(values - np.where(settled, self._floor.ravel()[near], least), 0.0)
-        models = _Models(ends, above, derivatives, 1.0 - settled)
+        models = Models(ends, above, derivatives, 1.0 - settled)
         if self.sliding is not None and np.isfinite(self.room):
             room = self._room(nodes, size)
             if strayed is None:
                 np.maximum(room.above, 0.0, out=room.above)
             models = models.and_those(room)
         ways = self._ways(nodes, size)
-        solved = linprog(*_program(nodes, ways, models, radius, strayed is not None), method="highs")
+        solved = linprog(*program(nodes, ways, models, radius, strayed is not None), method="highs")
         if solved.status != 0:
             return 0.0, self.points, nodes
         self._multipliers = near, -solved.ineqlin.marginals[: near.size]
@@ -257,7 +254,7 @@ class Raising:
             return np.zeros(nodes.size, dtype=bool)
         return self.sliding.slides(nodes) & ~self.lifted[nodes]
 
-    def _room(self, nodes: np.ndarray, size: np.ndarray) -> _Models:
+    def _room(self, nodes: np.ndarray, size: np.ndarray) -> Models:
         """What keeps the boundary at nodes in its room."""
         sliding = self.sliding
         which = sliding.middles_at(nodes)
@@ -266,7 +263,7 @@ class Raising:
         reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
         near = far + reach > self.room
         ends, far, away = ends[near], far[near], away[near]
-        models = _bounds(ends, self.room - far, np.repeat(-away[:, None] / 4, 4, axis=1))
+        models = bounds_of(ends, self.room - far, np.repeat(-away[:, None] / 4, 4, axis=1))
         if sliding.leaves_behind(self.points, self.room - self._radius * float(size[nodes].max(initial=0.0))):
             far, away, ends, weights = self._behind()
             moved = np.zeros(self.mesh.n_nodes, dtype=bool)
@@ -274,7 +271,7 @@ class Raising:
             reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
             near = moved[ends].any(axis=1) & (far + reach > self.room)
             slopes = weights[near, :, None] * away[near, None, :]
-            models = models.and_those(_bounds(ends[near], self.room - far[near], slopes))
+            models = models.and_those(bounds_of(ends[near], self.room - far[near], slopes))
         return models
 
     def _far(self) -> float:
@@ -304,7 +301,7 @@ class Raising:
         self._looked = points, seen
         return False
 
-    def _ways(self, nodes: np.ndarray, size: np.ndarray) -> _Ways:
+    def _ways(self, nodes: np.ndarray, size: np.ndarray) -> Ways:
         """Ways of nodes: both senses of each axis; of those that slide on a patch eight around, on a curve two."""
         axes = np.concatenate([np.eye(3), -np.eye(3)])
         slides = self._slides(nodes)
@@ -325,7 +322,7 @@ class Raising:
             of, aims, leads = (np.concatenate(both) for both in ((of, of_around), (aims, around), (leads, led)))
         order = np.argsort(of, kind="stable")
         scale = size[nodes[of[order]], None]
-        return _Ways(of[order], scale * aims[order], scale * leads[order])
+        return Ways(of[order], scale * aims[order], scale * leads[order])
 
     def _limit(self) -> Limit:
         corners, weights = self._multipliers
@@ -351,87 +348,6 @@ class Raising:
             return gain
         self.values[hexes] = before
         return 0.0
-
-
-@dataclass(frozen=True, eq=False)
-class _Ways:
-    """Ways that nodes may go, in the length of the shortest edge at each.
-
-    Parameters
-    ----------
-    of : (w,)
-        Whose, ascending.
-    aims : (w, 3)
-        The displacement that is asked for: along a tangent where the node slides.
-    leads : (w, 3)
-        What it comes to once the node is put back: of a faceted surface that is another plane at every side.
-    """
-
-    of: np.ndarray
-    aims: np.ndarray
-    leads: np.ndarray
-
-
-@dataclass(frozen=True, eq=False)
-class _Models:
-    """Linear models of what depends on the places of four nodes each.
-
-    Parameters
-    ----------
-    ends : (r, 4)
-        The nodes.
-    above : (r,)
-        How far the value is above its bound.
-    slopes : (r, 4, 3)
-        Its derivatives by their places.
-    rises : (r,)
-        1 where the bound is to rise, as the least of the corners is; 0 where it stands.
-    """
-
-    ends: np.ndarray
-    above: np.ndarray
-    slopes: np.ndarray
-    rises: np.ndarray
-
-    def and_those(self, other: _Models) -> _Models:
-        """These, and others behind them."""
-        pairs = ((getattr(one, field.name) for one in (self, other)) for field in dataclasses.fields(self))
-        return _Models(*(np.concatenate(list(pair)) for pair in pairs))
-
-
-def _bounds(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> _Models:
-    """Models of what is not to fall below its bound."""
-    return _Models(ends, above, slopes, np.zeros(len(above)))
-
-
-def _program(nodes: np.ndarray, ways: _Ways, models: _Models, radius: float, falls: bool) -> tuple[Any, ...]:
-    """The linear program of a step, as `scipy.optimize.linprog` takes it: costs, matrix, limits, bounds.
-
-    Unknowns are how far nodes (k,) go each of their ways, up to a radius, and what the least rises by. Those nodes stay
-    that need not move: a small price is on each way.
-    """
-    from scipy.sparse import coo_array
-
-    ends = models.ends
-    slot = np.full(int(ends.max(initial=0)) + 1, -1)
-    slot[nodes] = np.arange(nodes.size)
-    slots = slot[ends]
-    row, end = np.nonzero(slots >= 0)
-    own = slots[row, end]
-    start = np.searchsorted(ways.of, np.arange(nodes.size + 1))
-    count = start[own + 1] - start[own]
-    pair = np.repeat(np.arange(own.size), count)
-    column = np.arange(pair.size) + np.repeat(start[own] - np.cumsum(count) + count, count)
-    slopes = np.einsum("ki,ki->k", models.slopes[row[pair], end[pair]], ways.leads[column])
-    unknowns, rows = ways.of.size + 1, len(ends)
-    entries = np.concatenate([-slopes, models.rises])
-    at = np.concatenate([row[pair], np.arange(rows)]), np.concatenate([column, np.full(rows, unknowns - 1)])
-    cost = np.full(unknowns, IDLE / max(nodes.size, 1))
-    cost[-1] = -1.0
-    bounds = np.zeros((unknowns, 2))
-    bounds[:, 1] = radius
-    bounds[-1] = -2.0 if falls else 0.0, 2.0
-    return cost, coo_array((entries, at), shape=(rows, unknowns)).tocsr(), models.above, None, None, bounds
 
 
 def _nodes(hexes: np.ndarray, corners: np.ndarray) -> np.ndarray:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import dataclass
-from itertools import islice
 
 import numpy as np
 
@@ -17,9 +16,10 @@ from hexmend.optimise.corners import shortest_edges
 from hexmend.optimise.descent import Descent, descend
 from hexmend.optimise.direction import TruncatedNewton
 from hexmend.optimise.line_search import BackLineSearch
-from hexmend.optimise.raising import Limit, Raising
+from hexmend.optimise.raising import Raising
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, corner_determinants, measure
+from hexmend.smoothers.raised import AIM, CLUSTERS, SOUND, SPARED, lifted, raise_least, what_limits
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.smoothers.smoother import Steps, method
 from hexmend.surface import Sliding
@@ -48,17 +48,6 @@ FEW, MANY_SWEEPS = 0.003, 50
 
 #: On a faceted surface the last steps go from edge to edge: it is enough where so many gain no more than such a share.
 LATELY, SLOW = 5, 2e-3
-
-#: Least scaled Jacobian from which on a hex is sound enough for the energy's barrier, and below which one is so bad
-#: that nodes of the boundary leave the surface for it.
-SOUND, AIM = 0.02, 0.2
-#: What share of its room the boundary may use where that is enough; how far it may go at first where it is not, in
-#: mean edge lengths, until the least is so many times `AIM`.
-SPARED, WIDE, ENOUGH, NEAR_ENOUGH = 1 / 3, 1.5, 1.2, 1e-5
-#: How many linear programs an iteration has.
-TOGETHER = 3
-#: How many groups of corners that hold each other below `AIM` are left behind; and while nodes leave the surface.
-CLUSTERS, MANY_CLUSTERS = 5, 30
 
 SEARCH = BackLineSearch(shrink=0.5)
 
@@ -126,9 +115,8 @@ class Mend(SlidingSmoother):
                 outcome = Outcome.NO_IMPROVEMENT
                 limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
                 if slides and room and raising.least < (AIM if raises else SOUND):
-                    raising, limit = yield from _lifted(Raising(at, places[1], sliding), room, raising, limit)
-                if raises:
-                    yield Step(raising.points, {"least": raising.least}, _what_limits(limit), more=True)
+                    raising, limit = yield from lifted(Raising(at, places[1], sliding), room, raising, limit)
+                yield Step(raising.points, {"least": raising.least}, what_limits(limit) if raises else "", more=True)
         return outcome
 
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
@@ -264,77 +252,6 @@ def _swept(
             local.MODIFIED_NEWTON, delta, p, 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
     return swept
-
-
-def raise_least(
-    raising: Raising,
-    aim: float = np.inf,
-    lifts: float = -np.inf,
-    clusters: int = 1,
-    detour: bool = False,
-) -> Generator[Step, None, Limit]:
-    """Raise the least scaled Jacobian.
-
-    Where corners hold each other below `aim`, those that are above them are raised further. Below `lifts`, nodes of the
-    boundary leave the surface for that.
-
-    Parameters
-    ----------
-    raising : Raising
-    aim, lifts : float
-    clusters : int
-        How many groups of corners that hold each other are left behind, at most.
-    detour : bool
-        See `Step.detour`.
-
-    Returns
-    -------
-    Limit
-        What held the least at first.
-    """
-    first = None
-    yield Step(raising.points, {"least": raising.least}, more=True, detour=detour)
-    while True:
-        for number, step in enumerate(raising.steps(aim)):
-            limit = step if isinstance(step, Limit) else None
-            if limit is None and number % TOGETHER == 0:
-                yield step.step(detour)
-        if not limit.hexes.size or limit.least >= aim:
-            break
-        if limit.least < lifts and raising.lift(limit):
-            continue
-        first = first or limit
-        clusters -= 1
-        if limit.least >= AIM or not clusters:
-            break
-        raising.settle(limit)
-    return first or limit
-
-
-def _lifted(
-    raising: Raising, room: float, other: Raising, limit: Limit
-) -> Generator[Step, None, tuple[Raising, Limit]]:
-    """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room.
-
-    Returns what is better, that or the other, with its limit.
-    """
-    raising.room = WIDE * raising.mesh.mean_edge_length
-    yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
-    for step in islice(raising.into(room), 0, None, TOGETHER):
-        yield step.step(detour=True)
-    if raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.least < other.least:
-        yield Step(other.points, {"least": other.least}, more=True)
-        return other, limit
-    return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
-
-
-def _what_limits(limit: Limit) -> str:
-    count = len(limit.hexes)
-    if not count:
-        return ""
-    hexes = ", ".join(f"{number:,}" for number in dict.fromkeys(limit.hexes[:8].tolist()))
-    who = f"{count} of them hold each other there, in the hexes" if count > 1 else "it can go no further, in hex"
-    return f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}: {who} {hexes}."
 
 
 def _end(taken: Descent | None) -> Outcome:

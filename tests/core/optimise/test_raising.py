@@ -10,7 +10,8 @@ from scipy.optimize import linprog
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.io import read
 from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
-from hexmend.optimise.raising import IDLE, Limit, Raising
+from hexmend.optimise.program import IDLE
+from hexmend.optimise.raising import Limit, Raising
 from hexmend.surface import Sliding, surface_change
 from tests.core.grids import grid, scrambled
 from tests.core.surface.solids import ball, cylinder, slid

@@ -1,0 +1,92 @@
+"""How mend raises the least scaled Jacobian: one group of corners after another, and off the surface where it must."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from itertools import islice
+
+import numpy as np
+
+from hexmend.optimise import Step
+from hexmend.optimise.raising import Limit, Raising
+
+#: Least scaled Jacobian from which on a hex is sound enough for the energy's barrier, and below which one is so bad
+#: that nodes of the boundary leave the surface for it.
+SOUND, AIM = 0.02, 0.2
+#: What share of its room the boundary may use where that is enough; how far it may go at first where it is not, in
+#: mean edge lengths, until the least is so many times `AIM`.
+SPARED, WIDE, ENOUGH, NEAR_ENOUGH = 1 / 3, 1.5, 1.2, 1e-5
+#: How many linear programs an iteration has.
+TOGETHER = 3
+#: How many groups of corners that hold each other below `AIM` are left behind; and while nodes leave the surface.
+CLUSTERS, MANY_CLUSTERS = 5, 30
+
+
+def raise_least(
+    raising: Raising,
+    aim: float = np.inf,
+    lifts: float = -np.inf,
+    clusters: int = 1,
+    detour: bool = False,
+) -> Generator[Step, None, Limit]:
+    """Raise the least scaled Jacobian.
+
+    Where corners hold each other below `aim`, those that are above them are raised further. Below `lifts`, nodes of the
+    boundary leave the surface for that.
+
+    Parameters
+    ----------
+    raising : Raising
+    aim, lifts : float
+    clusters : int
+        How many groups of corners that hold each other are left behind, at most.
+    detour : bool
+        See `Step.detour`.
+
+    Returns
+    -------
+    Limit
+        What held the least at first.
+    """
+    first = None
+    yield Step(raising.points, {"least": raising.least}, more=True, detour=detour)
+    while True:
+        for number, step in enumerate(raising.steps(aim)):
+            limit = step if isinstance(step, Limit) else None
+            if limit is None and number % TOGETHER == 0:
+                yield step.step(detour)
+        if not limit.hexes.size or limit.least >= aim:
+            break
+        if limit.least < lifts and raising.lift(limit):
+            continue
+        first = first or limit
+        clusters -= 1
+        if limit.least >= AIM or not clusters:
+            break
+        raising.settle(limit)
+    return first or limit
+
+
+def lifted(raising: Raising, room: float, other: Raising, limit: Limit) -> Generator[Step, None, tuple[Raising, Limit]]:
+    """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room.
+
+    Returns what is better, that or the other, with its limit.
+    """
+    raising.room = WIDE * raising.mesh.mean_edge_length
+    yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
+    for step in islice(raising.into(room), 0, None, TOGETHER):
+        yield step.step(detour=True)
+    if raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.least < other.least:
+        yield Step(other.points, {"least": other.least}, more=True)
+        return other, limit
+    return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
+
+
+def what_limits(limit: Limit) -> str:
+    """Which corners hold each other, in a sentence; "" where none does."""
+    count = len(limit.hexes)
+    if not count:
+        return ""
+    hexes = ", ".join(f"{number:,}" for number in dict.fromkeys(limit.hexes[:8].tolist()))
+    who = f"{count} of them hold each other there, in the hexes" if count > 1 else "it can go no further, in hex"
+    return f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}: {who} {hexes}."
