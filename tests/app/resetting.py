@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from weakref import WeakKeyDictionary
 
 import shiboken6
@@ -64,14 +65,23 @@ class Resetting:
 
     def reset(self, qtbot):
         """Put everything back, and open the mesh anew."""
-        window, session = self.window, self.window.session
         self.end()
+        with unseen(self.window):
+            self._reset_session()
+            self._open_anew(qtbot)
+        settle(qtbot, self.window)
+
+    def _reset_session(self):
+        """What is set goes back, whatever the mesh."""
+        session = self.window.session
         session.stepping.leave()
         QSettings().clear()
         theming.wear()
         self._put_back()
-        for method in (*METHODS.values(), METHODS[DEFAULT_METHOD]):
-            session.order.choose(Stage(method(), Stop()))
+        for method in METHODS.values():  # a form takes its time
+            if session.order.values_of(method.name) not in ({}, method().values()):
+                session.order.choose(Stage(method(), Stop()))
+        session.order.choose(Stage(METHODS[DEFAULT_METHOD](), Stop()))
         session.order.begun = None
         while session.chain.stages:
             session.chain.remove(0)
@@ -84,6 +94,10 @@ class Resetting:
         session.view.set_handles(True)
         session.view.set_snap(True)
         session.view.set_rings(1)
+
+    def _open_anew(self, qtbot):
+        """The mesh as it is in its file, in a window laid out as it was."""
+        window = self.window
         window.canvas.set_parallel(False)
         window.showNormal()
         window.resize(*SIZE)
@@ -91,10 +105,10 @@ class Resetting:
         self._put_back()
         window.messages.clear()
         window.refresh()
-        lay_out(window, self._layout)
-        self._put_back()  # what was folded, too
+        if window.docks.state() != self._layout:
+            lay_out(window, self._layout)
+            self._put_back()  # what was folded, too
         scroll_back(window)
-        settle(qtbot, window)
 
     def _put_back(self):
         for widget, setting in list(self._inputs.items()):
@@ -103,6 +117,16 @@ class Resetting:
         for view in self.window.findChildren(QAbstractItemView):
             if view.selectionModel() is not None:
                 view.clearSelection()
+
+
+@contextmanager
+def unseen(window):
+    """Draw nothing meanwhile: most of the time of a reset would go into pictures that nobody looks at."""
+    window.setUpdatesEnabled(False)
+    try:
+        yield
+    finally:
+        window.setUpdatesEnabled(True)
 
 
 def lay_out(window, layout):
@@ -127,6 +151,7 @@ def settle(qtbot, window):
     window.refresh()
     window.canvas.look_along("iso")
     window.canvas.fit()
+    window.canvas.travel.begin_anew()
     QTest.mouseMove(window, QPoint(1, 1))
     window.activateWindow()
     window.windowHandle().requestActivate()
