@@ -1,6 +1,7 @@
 """Pictures without a window: what is shown, hidden and coloured, seen in the pixels."""
 
 import argparse
+import json
 import os
 import subprocess
 import sys
@@ -25,6 +26,16 @@ from hexmend_app.state.look import Look
 from hexmend_app.state.measured import values
 from tests.core.grids import grid, scrambled
 
+#: Runs the commands that it is sent, a line each, and answers with their exit status, whatever they say.
+COMMANDS = """
+import contextlib, io, json, sys
+from hexmend.cli.main import main
+for line in sys.stdin:
+    with contextlib.redirect_stdout(io.StringIO()):
+        status = main(json.loads(line))
+    print(status, flush=True)
+"""
+
 
 @pytest.fixture(scope="module")
 def pictures(tmp_path_factory):
@@ -33,18 +44,21 @@ def pictures(tmp_path_factory):
     mesh = scrambled(grid(5), 0.7)
     write(folder / "mesh.vtu", mesh)
     environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    pipe = subprocess.PIPE
+    with subprocess.Popen(
+        [sys.executable, "-c", COMMANDS], env=environment, stdin=pipe, stdout=pipe, stderr=pipe, text=True
+    ) as process:
 
-    def draw(*words):
-        path = folder / ("-".join(word.strip("-") or "none" for word in words).replace(":", "_") + ".png")
-        done = subprocess.run(
-            [sys.executable, "-m", "hexmend", "render", folder / "mesh.vtu", "-o", path, "--size", "320x240", *words],
-            env=environment, capture_output=True, text=True,
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
-        assert done.stderr == ""
-        return np.asarray(Image.open(path).convert("RGB")).astype(int)
+        def draw(*words):
+            path = folder / ("-".join(word.strip("-") or "none" for word in words).replace(":", "_") + ".png")
+            line = ["render", str(folder / "mesh.vtu"), "-o", str(path), "--size", "320x240", *words]
+            print(json.dumps(line), file=process.stdin, flush=True)
+            assert process.stdout.readline().strip() == "0", process.communicate()[1]
+            return np.asarray(Image.open(path).convert("RGB")).astype(int)
 
-    return draw
+        yield draw
+        assert process.communicate()[1] == ""
+        assert process.returncode == 0
 
 
 def ink(image):
