@@ -78,25 +78,23 @@ def choose(window, method, stop=None, **values):
 def choose_by_keys(window, method):
     """Choose a method in its panel, as a hand does."""
     window.refresh()
-    panel = window.features["smooth"].panel
-    box = next(one for one in panel.findChildren(QComboBox) if one.accessibleName() == "Method")
-    box.setFocus()
-    QTest.keyClick(box, Qt.Key.Key_Home)
-    for _ in range(box.count()):
-        if box.currentData() == method:
-            break
-        QTest.keyClick(box, Qt.Key.Key_Down)
-    assert box.currentData() == method
-    window.refresh()
+    walk_to(window, named(window.features["smooth"].panel, QComboBox, "Method"), method)
 
 
 def walk_to(window, box, data):
-    """Walk to an entry of a list by keys, as a hand does, and let the window show what came of it."""
+    """Walk to an entry of a list by the last of its keys, as a hand does, and let the window show what came of it.
+
+    What is on the way there is not chosen, as in the list that has dropped down.
+    """
     window.refresh()
     box.setFocus()
-    wanted = box.findData(data)
-    while box.currentIndex() != wanted:
-        QTest.keyClick(box, Qt.Key.Key_Down if box.currentIndex() < wanted else Qt.Key.Key_Up)
+    wanted, last = box.findData(data), box.count() - 1
+    if box.currentIndex() != wanted:
+        box.blockSignals(True)
+        box.setCurrentIndex(wanted + 1 if wanted < last else wanted - 1)
+        box.blockSignals(False)
+        QTest.keyClick(box, Qt.Key.Key_Up if wanted < last else Qt.Key.Key_Down)
+    assert box.currentData() == data
     window.refresh()
 
 

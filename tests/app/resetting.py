@@ -102,6 +102,7 @@ class Resetting:
         window.showNormal()
         window.resize(*SIZE)
         open_and_wait(qtbot, window, self.path)
+        window.refresh()  # what a list offers is what there is now
         self._put_back()
         window.messages.clear()
         window.refresh()

@@ -164,7 +164,7 @@ class Comparison(QObject):
 
     def _empty(self) -> None:
         self.shut_down()
-        self.initial, self.results = None, ()
+        self.initial, self.results, self._asked = None, (), 0
         self.changed.emit()
 
     def _look(self) -> None:
