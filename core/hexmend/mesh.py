@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
@@ -14,9 +14,6 @@ from hexmend.errors import MeshError
 from hexmend.hexahedron import EDGES
 from hexmend.kernels import elements
 from hexmend.topology import Topology
-
-if TYPE_CHECKING:
-    from hexmend.surface import Skin
 
 #: By what factor the longest edges may raise the mean length of all.
 SPOILED = 4.0
@@ -38,6 +35,17 @@ class Cells:
     kind: str
     nodes: np.ndarray
     data: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+
+class Target(Protocol):
+    """A surface that the boundary of a mesh can slide on; `hexmend.surface.Skin` is one."""
+
+    points: np.ndarray
+    faces: np.ndarray
+    name: str
+
+    def check_near(self, mesh: Mesh) -> None:
+        """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,18 +176,18 @@ class Mesh:
         return self.__dict__.get("_surface", self.points)
 
     @property
-    def target(self) -> Skin | None:
+    def target(self) -> Target | None:
         """The surface that the boundary slides on where that is not the boundary itself; see `sliding_on`."""
         return self.__dict__.get("_target")
 
-    def sliding_on(self, surface: Skin) -> Mesh:
+    def sliding_on(self, surface: Target) -> Mesh:
         """The same mesh, whose boundary slides on another surface, such as `hexmend.read_surface` gives.
 
         Methods that let the boundary slide put its nodes on that surface first; others do as ever.
 
         Parameters
         ----------
-        surface : Skin
+        surface : hexmend.surface.Skin
 
         Raises
         ------

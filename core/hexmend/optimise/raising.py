@@ -155,8 +155,7 @@ class Raising:
             low = np.flatnonzero(self._raised().ravel() < least + NARROWEST)[: self._most]
             _, points, moved = self._step(low, NARROWEST, self._strayed())
             old, self.points = self.points, points
-            turned = self.sliding.turned(old, points).size > 0
-            if turned or self.furthest() > far - BRINGS * (far - self.room):
+            if self.furthest() > far - BRINGS * (far - self.room):
                 self.points = old
                 self._radius *= SHRINK
                 continue
@@ -247,6 +246,8 @@ class Raising:
         slide = nodes[self._slides(nodes)]
         if slide.size:
             points[slide] = self.sliding.put_back(points[slide], slide)
+        if self.sliding is not None:
+            points = self.sliding.unturned(self.points, points)
         return float(solved.x[-1]), points, nodes
 
     def _slides(self, nodes: np.ndarray) -> np.ndarray:
@@ -302,10 +303,6 @@ class Raising:
         self._looked = points, seen
         return False
 
-    def _turns(self, points: np.ndarray) -> bool:
-        """Whether a quad of the boundary would be turned over."""
-        return self.sliding is not None and self.sliding.turned(self.points, points).size > 0
-
     def _ways(self, nodes: np.ndarray, size: np.ndarray) -> Ways:
         """Ways of nodes: both senses of each axis; of those that slide on a patch eight around, on a curve two."""
         axes = np.concatenate([np.eye(3), -np.eye(3)])
@@ -341,7 +338,7 @@ class Raising:
         before, self.values[hexes] = self.values[hexes], scaled_jacobians(points, self.mesh.hexes[hexes])
         gain = self.least - least
         fallen = self.settled[hexes] & (self.values[hexes] < self._floor[hexes] - NOTHING)
-        if fallen.any() or (gain > BRINGS * promised and (self._turns(points) or self._leaves(points, moved))):
+        if fallen.any() or (gain > BRINGS * promised and self._leaves(points, moved)):
             gain = -np.inf
         share = gain / promised
         if share > GOOD:

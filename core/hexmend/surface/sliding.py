@@ -267,6 +267,14 @@ class Sliding:
         kernels.turned(before, after, self.boundary.faces, self.outward, found)
         return np.flatnonzero(found)
 
+    def unturned(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+        """The points after a step, of which those nodes stay whose quads it would turn over, until none is."""
+        while (faces := self.turned(before, after)).size:
+            nodes = np.unique(self.boundary.faces[faces])
+            after = after.copy()
+            after[nodes] = before[nodes]
+        return after
+
     def refused(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
         """Nodes that a step must not take where it does, (k,) int: it would turn a quad over, or leave the room."""
         turned = self.boundary.faces[self.turned(before, after)].ravel()
