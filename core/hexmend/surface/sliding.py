@@ -12,8 +12,9 @@ from hexmend.kernels import sliding as kernels
 from hexmend.mesh import Mesh
 from hexmend.quality import corner_determinants
 from hexmend.surface.boundary import Boundary, Kind, boundary_of, classify
-from hexmend.surface.change import NEAR, Skin
+from hexmend.surface.change import NEAR
 from hexmend.surface.features import DEGREES, given_corners
+from hexmend.surface.room import NOBODY, Room
 from hexmend.surface.surface import Surface
 from hexmend.surface.trees import Closest, triangulated
 from hexmend.surface.vectors import unit, vertex_normals
@@ -22,13 +23,9 @@ from hexmend.topology import Rows
 #: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
 #: is the tangent, at its edges the mean of those around.
 _INNER = 1e-3
-#: The least room, in mean edge lengths: what is on the surface is off it by rounding.
-_ROUNDING = 1e-9
-
-NOBODY = np.empty(0, dtype=np.int64)
 
 
-class Sliding:
+class Sliding(Room):
     """A mesh whose boundary nodes slide: those of curves along them, those of patches on them; corners stay.
 
     Parameters
@@ -55,7 +52,6 @@ class Sliding:
     """
 
     def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
-        self.room, self._points = max(room, _ROUNDING * mesh.mean_edge_length), mesh.surface
         original = mesh.with_points(mesh.surface)
         self.boundary = boundary_of(original, degrees)
         bends = kept_bends(original, self.boundary)
@@ -76,10 +72,10 @@ class Sliding:
         self._group = self.surface.group_of(self.nodes)
         self._number = np.full(mesh.n_nodes, -1, dtype=np.int64)
         self._number[self.nodes] = np.arange(self.nodes.size)
+        start = mesh.surface
         if target is not None:
-            points = mesh.points.copy()
-            points[self.nodes] = self.put_back(points[self.nodes])
-            mesh = mesh.with_points(points)
+            start, mesh = self._put_on(start), mesh.with_points(self._put_on(mesh.points))
+        super().__init__(mesh.surface, self.boundary.faces, start, target, room)
         self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
@@ -141,7 +137,7 @@ class Sliding:
     def outward(self) -> np.ndarray:
         """The normal of the boundary at each of its faces as it was, that of the faces around it too, (k, 3)."""
         faces = self.boundary.faces
-        vertices, triangles, face = triangulated(self._points, faces)
+        vertices, triangles, face = triangulated(self.points, faces)
         normals = vertex_normals(vertices, triangles, self.boundary.patch_of_face[face])
         return unit(normals[:, :2].mean(axis=1).reshape(len(faces), 4, 3).mean(axis=1))
 
@@ -158,101 +154,6 @@ class Sliding:
         ways = ways[np.lexsort((ways[:, 1], ways[:, 0]))]
         start = np.searchsorted(ways[:, 0], np.arange(self.mesh.n_nodes + 1))
         return Rows(start.astype(np.int32), np.ascontiguousarray(ways[:, 1], dtype=np.int32))
-
-    @cached_property
-    def skin(self) -> Skin:
-        """The boundary as it was, as a whole."""
-        return Skin(self._points, self.boundary.faces)
-
-    @property
-    def target(self) -> Skin:
-        """The surface, as a whole: that of the mesh's target, or else the boundary as it was."""
-        return self.mesh.target or self.skin
-
-    @cached_property
-    def middles(self) -> np.ndarray:
-        """Nodes whose means are the middles of the boundary's edges and faces, (s, 4) int: an edge's nodes twice."""
-        nodes = np.tile(self.skin.nodes[:, None], 4)
-        return np.concatenate([np.tile(self.skin.edges.nodes, 2), self.boundary.faces, nodes])
-
-    def middles_at(self, nodes: np.ndarray) -> np.ndarray:
-        """Which of `middles` move with some nodes, (k,) int64."""
-        moved = np.zeros(self.mesh.n_nodes, dtype=bool)
-        moved[nodes] = True
-        return np.flatnonzero(moved[self.middles].any(axis=1))
-
-    def off(self, points: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """How far some of `middles` are from the surface, (k,), and the unit vectors that lead away from it, (k, 3)."""
-        x = points[self.middles[which]].mean(axis=1)
-        away = x - self.target.closest(x)
-        far = np.linalg.norm(away, axis=1)
-        return far, away / np.maximum(far, np.finfo(float).tiny)[:, None]
-
-    def behind(
-        self, points: np.ndarray, which: np.ndarray | slice = slice(None)
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """How far the surface's nodes and middles, or some of them, are from the boundary as it is now.
-
-        Returns
-        -------
-        far : (s,)
-        away : (s, 3)
-            Unit vectors from the boundary to them.
-        nodes, weights : (s, 4)
-            What makes the closest places of the boundary.
-        """
-        x = self._samples[which]
-        places, nodes, weights = self.skin.with_points(points).closest_on(x)
-        far = np.linalg.norm(x - places, axis=1)
-        return far, (x - places) / np.maximum(far, np.finfo(float).tiny)[:, None], nodes, weights
-
-    def leaves_behind(self, points: np.ndarray, room: float) -> bool:
-        """Whether the boundary may have left a place of the surface by more: not where each node is that near."""
-        if self.mesh.target is not None:
-            return True
-        nodes = self.skin.nodes
-        return bool((np.square(points[nodes] - self._points[nodes]).sum(axis=1) > max(room, 0.0) ** 2).any())
-
-    @cached_property
-    def _samples(self) -> np.ndarray:
-        if self.mesh.target is not None:
-            return self.mesh.target.samples()
-        return self._points[self.middles].mean(axis=1)
-
-    @cached_property
-    def _at_first(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Where `middles` are before anything slides, and how far from the surface; how far its samples are from the
-        boundary, and the nodes that make what is closest.
-        """
-        points = self._points.copy()
-        points[self.nodes] = self.put_back(points[self.nodes])
-        places = points[self.middles].mean(axis=1)
-        if self.mesh.target is None:
-            return places, np.zeros(len(places)), np.zeros(len(places)), self.middles
-        far, _, nodes, _ = self.behind(points)
-        return places, self.off(points, np.arange(len(places)))[0], far, nodes
-
-    def beyond(self, points: np.ndarray) -> np.ndarray:
-        """The nodes at which the boundary has left its room, further than it was at first, (k,) int.
-
-        Where it is far from a place of the surface these are the nodes that are closest to it, and that were at first.
-        What has not moved as far as its room is wide need not be asked for its distance.
-        """
-        if not np.isfinite(self.room):
-            return NOBODY
-        places, far_at_first, behind_at_first, nodes_at_first = self._at_first
-        moved = np.linalg.norm(points[self.middles].mean(axis=1) - places, axis=1)
-        which = np.flatnonzero(moved + far_at_first > self.room)
-        if not which.size:
-            return which
-        most = np.maximum(far_at_first[which], self.room) * (1 + _ROUNDING)
-        beyond = [self.middles[which[self.off(points, which)[0] > most]].ravel()]
-        if self.mesh.target is not None:
-            which = np.arange(len(self._samples))
-        far, _, nodes, _ = self.behind(points, which)
-        most = np.maximum(behind_at_first[which], self.room) * (1 + _ROUNDING)
-        beyond += [nodes[far > most].ravel(), nodes_at_first[which[far > most]].ravel()]
-        return np.unique(np.concatenate(beyond))
 
     def turned(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
         """Faces of the boundary with a corner that is turned over after a step and was not before, (k,) int.
@@ -298,6 +199,11 @@ class Sliding:
                 return after
             after = after.copy()
             after[nodes] = before[nodes]
+
+    def _put_on(self, points: np.ndarray) -> np.ndarray:
+        points = points.copy()
+        points[self.nodes] = self.put_back(points[self.nodes])
+        return points
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
         return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
