@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from hexmend import energy, gallery
     from hexmend.advice import advise
     from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
-    from hexmend.io import read, read_recipe, write, write_recipe
+    from hexmend.io import read, read_recipe, read_surface, write, write_recipe
     from hexmend.mesh import Cells, Mesh
     from hexmend.optimise import Iteration, Outcome, Result, Step
     from hexmend.parameters import parameter
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "advice": ("advise",),
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
-    "io": ("read", "read_recipe", "write", "write_recipe"),
+    "io": ("read", "read_recipe", "read_surface", "write", "write_recipe"),
     "mesh": ("Cells", "Mesh"),
     "optimise": ("Iteration", "Outcome", "Result", "Step"),
     "parameters": ("parameter",),
@@ -74,6 +74,7 @@ __all__ = [
     "parameter",
     "read",
     "read_recipe",
+    "read_surface",
     "smooth",
     "summarise",
     "write",

@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -34,6 +35,17 @@ class Cells:
     kind: str
     nodes: np.ndarray
     data: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+
+class Target(Protocol):
+    """A surface that the boundary of a mesh can slide on; `hexmend.surface.Skin` is one."""
+
+    points: np.ndarray
+    faces: np.ndarray
+    name: str
+
+    def check_near(self, mesh: Mesh) -> None:
+        """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,6 +175,31 @@ class Mesh:
         """Places of nodes, (n, 3), at which the boundary is the surface that it slides on; see `keeping_surface`."""
         return self.__dict__.get("_surface", self.points)
 
+    @property
+    def target(self) -> Target | None:
+        """The surface that the boundary slides on where that is not the boundary itself; see `sliding_on`."""
+        return self.__dict__.get("_target")
+
+    def sliding_on(self, surface: Target) -> Mesh:
+        """The same mesh, whose boundary slides on another surface, such as `hexmend.read_surface` gives.
+
+        Methods that let the boundary slide put its nodes on that surface first; others do as ever.
+
+        Parameters
+        ----------
+        surface : hexmend.surface.Skin
+
+        Raises
+        ------
+        MeshError
+            Where the surface is far from the boundary.
+        """
+        surface.check_near(self)
+        copy = self._copy()
+        copy._set(**{known: self.__dict__[known] for known in ("fixed", "free", "_surface") if known in self.__dict__})
+        copy._set(_target=surface)
+        return copy
+
     def keeping_surface(self) -> Mesh:
         """The same mesh, whose boundary slides on the surface of now wherever `with_points` puts its nodes."""
         copy = self._copy()
@@ -197,6 +234,7 @@ class Mesh:
         """A copy that shares everything; nothing is checked."""
         copy = object.__new__(Mesh)
         copy._set(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self)})
+        copy._set(**{known: self.__dict__[known] for known in ("_target",) if known in self.__dict__})
         return copy
 
 

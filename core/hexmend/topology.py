@@ -37,6 +37,12 @@ class Rows:
         before = np.cumsum(count) - count
         return self.items[np.arange(count.sum()) + np.repeat(self.start[rows] - before, count)]
 
+    def without(self, left_out: np.ndarray) -> Rows:
+        """The same rows without the items i of which left_out[i]; (n,) bool."""
+        kept = ~left_out[self.items]
+        start = np.concatenate([[0], np.cumsum(kept)])[self.start]
+        return Rows(start.astype(np.int32), self.items[kept])
+
 
 class Topology:
     """Incidences of a hexahedral mesh.

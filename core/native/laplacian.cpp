@@ -17,7 +17,7 @@ inline Point ring_mean(Points points, Indices ring_start, Indices ring, Node i) 
 // Where node i goes: to the mean, put back if it slides.
 inline Point goal(Points points, Indices ring_start, Indices ring, Node i, const Ground *ground) {
     Point mean = ring_mean(points, ring_start, ring, i);
-    return ground && ground->slides(i) ? ground->put_back(i, mean) : mean;
+    return ground && ground->slides(i) ? ground->led(points, i, mean) : mean;
 }
 
 // What is asked of a hex; never inlined, so that a hex that did not move is what it was to the last bit.

@@ -9,17 +9,20 @@ namespace {
 
 // How far a node is led to see where that is, in mean edge lengths of its patch.
 constexpr double NEAR = 1e-5;
+// How many quads a thread looks at in one go.
+constexpr std::int64_t QUADS = 4096;
 // Less descent than this share of the value cannot be told from rounding.
 constexpr double ROUNDING = 1e-15;
 
 // One node on its patch, as a function of where it is on the surface.
 class Slider {
   public:
-    Slider(Patch<Lanes> &patch, const Ground &ground, Node node, const Point &from, double scale, const Tangents &along)
+    Slider(Patch<Lanes> &patch, const Ground &ground, Points points, Node node, double scale, const Tangents &along)
         : patch_(patch),
+          points_(points),
           ground_(ground),
           node_(node),
-          from_(from),
+          from_(points[node]),
           scale_(scale),
           t_{along[0], along[1], along[2]},
           u_{along[3], along[4], along[5]},
@@ -53,12 +56,14 @@ class Slider {
         return size > 0 ? dot(gradient, way(led(d, NEAR / size))) * (size / NEAR) : 0.0;
     }
 
-    // Algorithm A.5 with every trial on the surface: the place that is accepted, or where the node is.
+    // Algorithm A.5 with every trial on the surface, none that turns a quad: the place that is accepted, or where the
+    // node is.
     template <bool soft>
     Point searched(const Visit &at, const V3<double> &d, double slope, const LocalStep &how, Mover &mover) const {
         double alpha = how.first;
         for (int cut = 0; cut <= how.cuts && -alpha * slope > ROUNDING * at.value; ++cut, alpha *= how.shrink) {
             Point place = led(d, alpha);
+            if (ground_.quads.turns(points_, ground_.slots[node_], node_, place)) continue;
             patch_.aim(way(place));
             double trial = patch_.template value_along<soft>(1, how.delta, how.p);
             double bound = at.value + how.c1 * alpha * slope;
@@ -70,6 +75,7 @@ class Slider {
 
   private:
     Patch<Lanes> &patch_;
+    Points points_;
     const Ground &ground_;
     Node node_;
     Point from_;
@@ -91,7 +97,7 @@ void slide(Patch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star star,
     Visit at = patch.value_and_gradient<soft>(how.delta, how.p);
     if (scale == 0 || at.value == 0 || !(at.value < INF)) return;
     Node node = node_of(hexes, star);
-    Slider slider(patch, ground, node, points[node], scale, tangents[ground.slots[node]]);
+    Slider slider(patch, ground, points, node, scale, tangents[ground.slots[node]]);
     V3<double> gradient = slider.tangential(at.gradient);
     if (gradient.x == 0 && gradient.y == 0) return;
     V3<double> d{};
@@ -135,8 +141,9 @@ std::int64_t sweep_sliding(std::span<Point> points, Hexes hexes, Indices start, 
 std::int64_t sliding_local(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
                            Indices nodes, int direction, double delta, double p, double first, double shrink, double c1,
                            int cuts, std::span<const Tangents> tangents, Indices slots, Indices roots, Points vertices,
-                           std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const Link> links) {
-    Ground ground{slots, roots, {vertices, pieces, boxes, links}};
+                           std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const Link> links,
+                           Indices quads_start, Indices quads_at, std::span<const Quad> quads, Points outward) {
+    Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
     LocalStep how{direction, delta, p, first, shrink, c1, cuts};
     return (delta != 0 ? sweep_sliding<true> : sweep_sliding<false>)(points, hexes, start, corners, groups, nodes, how,
                                                                      ground, tangents);
@@ -144,16 +151,18 @@ std::int64_t sliding_local(std::span<Point> points, Hexes hexes, Indices start, 
 
 void sliding_laplacian(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, Indices slots,
                        Indices roots, Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                       std::span<const Link> links) {
-    Ground ground{slots, roots, {vertices, pieces, boxes, links}};
+                       std::span<const Link> links, Indices quads_start, Indices quads_at, std::span<const Quad> quads,
+                       Points outward) {
+    Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
     in_place_on(&ground, points, ring_start, ring, nodes);
 }
 
 std::int64_t sliding_guarded(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
                              Indices ring, Indices nodes, bool keep_least_quality, Indices slots, Indices roots,
                              Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                             std::span<const Link> links) {
-    Ground ground{slots, roots, {vertices, pieces, boxes, links}};
+                             std::span<const Link> links, Indices quads_start, Indices quads_at,
+                             std::span<const Quad> quads, Points outward) {
+    Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
     return guarded_on(&ground, points, hexes, start, corners, ring_start, ring, nodes, keep_least_quality);
 }
 
@@ -161,9 +170,21 @@ std::int64_t sliding_worst_first(std::span<Point> points, Hexes hexes, Indices s
                                  std::span<const bool> free, Indices candidates, std::span<double> q,
                                  std::span<bool> sound, double s, double rho, double penalty, double setback,
                                  Indices slots, Indices roots, Points vertices, std::span<const Piece> pieces,
-                                 std::span<const Box> boxes, std::span<const Link> links) {
-    Ground ground{slots, roots, {vertices, pieces, boxes, links}};
+                                 std::span<const Box> boxes, std::span<const Link> links, Indices quads_start,
+                                 Indices quads_at, std::span<const Quad> quads, Points outward) {
+    Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
     return sweep_on(&ground, points, hexes, start, corners, free, candidates, q, sound, s, rho, penalty, setback);
+}
+
+void turned(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> is) {
+    parallel_chunks(quads.size(), QUADS, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t f = begin; f < end; ++f) {
+            is[f] = false;
+            for (int c = 0; c < 4; ++c)
+                is[f] = is[f] || (!is_turned(corners_of(before, quads[f], c), outward[f]) &&
+                                  is_turned(corners_of(after, quads[f], c), outward[f]));
+        }
+    });
 }
 
 }  // namespace hexmend

@@ -75,8 +75,8 @@ std::int64_t sweep_on(const Ground *ground, std::span<Point> points, Hexes hexes
             Node i = hexes[h][c];
             if (!free[i]) continue;
             moves.push_back({i, points[i]});
-            points[i] = {y.at[c].x, y.at[c].y, y.at[c].z};
-            if (ground && ground->slides(i)) points[i] = ground->put_back(i, points[i]);
+            Point aim{y.at[c].x, y.at[c].y, y.at[c].z};
+            points[i] = ground && ground->slides(i) ? ground->led(points, i, aim) : aim;
             for (auto r = start[i]; r < start[i + 1]; ++r) {
                 auto g = corners[r] / 8;
                 if (touched_in[g] == static_cast<std::int32_t>(step)) continue;

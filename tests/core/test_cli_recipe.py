@@ -62,8 +62,8 @@ def test_what_is_run_is_saved_and_does_the_same_again(mesh, tmp_path):
 
 
 @pytest.mark.parametrize(("words", "status", "said"), [
-    (["--recipe", "{recipe}", "--method", "mend"], 2, "leave out --method, --set and --boundary"),
-    (["--recipe", "{recipe}", "--set", "p=3"], 2, "leave out --method, --set and --boundary"),
+    (["--recipe", "{recipe}", "--method", "mend"], 2, "leave out --method, --set, --boundary"),
+    (["--recipe", "{recipe}", "--set", "p=3"], 2, "leave out --method, --set, --boundary"),
     (["--recipe", "missing.toml"], 3, "missing.toml: there is no such file"),
     (["--recipe", "{mesh}"], 3, "mesh.vtu: is not TOML"),
     (["--save-recipe", "{folder}/no/such.toml"], 3, "such.toml: cannot be written"),

@@ -12,18 +12,19 @@ class Smooth:
     help = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run; what was reached is written."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.method import add_method
+        from hexmend.cli.command.method import add_method, add_surface
 
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
         parser.add_argument("-o", "--output", metavar="OUT", required=True, help="where to write the smoothed mesh")
         add_method(parser)
+        add_surface(parser)
         parser.add_argument("--save-recipe", metavar="FILE.toml", help="write what is run as a recipe")
         parser.add_argument("--json", metavar="FILE", help="write a report")
         parser.add_argument("--history", metavar="FILE.csv", help="write a row an iteration")
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.advice import advise
-        from hexmend.cli.command.method import chosen
+        from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
         from hexmend.cli.tables import print_summaries
         from hexmend.io import read, write_recipe, writer_for
@@ -32,7 +33,7 @@ class Smooth:
 
         what, stop = chosen(args)
         write = writer_for(args.output)  # an unknown suffix is said before the work, not after
-        run = iterate(read(args.mesh), what, stop)
+        run = iterate(on_surface(args, read(args.mesh), what), what, stop)
         if args.save_recipe:
             write_recipe(args.save_recipe, run.recipe)
         follow(run)

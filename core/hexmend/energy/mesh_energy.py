@@ -110,9 +110,9 @@ class MeshEnergy:
         """The slope of `value` along a step (k, 3) of the free nodes, `gradient` (k, 3) being its derivative at x."""
         return dot(step, gradient)
 
-    def strayed(self, x: np.ndarray) -> np.ndarray:
-        """Which nodes are where they may not be whatever their energy, (n,) bool; x (n, 3)."""
-        return np.zeros(len(x), dtype=bool)
+    def strayed(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
+        """Which nodes may not go from x (n, 3) to `there`, whatever their energy, (n,) bool; None where all may."""
+        return None
 
     def _gathered(self) -> np.ndarray:
         """What the shares of the hexes come to at each free node, (k, 3)."""

@@ -59,9 +59,13 @@ class SlidingEnergy(MeshEnergy):
         inside[rows] = False
         return float((step[inside] * gradient[inside]).sum() + slopes[slopes < 0].sum())
 
-    def strayed(self, x: np.ndarray) -> np.ndarray:
-        strayed = super().strayed(x)
-        strayed[self.sliding.beyond(x * self.unit)] = True
+    def strayed(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
+        nodes = self.sliding.refused(x * self.unit, there * self.unit)
+        nodes = nodes[(x[nodes] != there[nodes]).any(axis=1)]
+        if not nodes.size:
+            return None
+        strayed = np.zeros(len(x), dtype=bool)
+        strayed[nodes] = True
         return strayed
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:

@@ -13,6 +13,7 @@ from hexmend.io.format import FORMATS, Format
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from hexmend.io.recipes import read_recipe, write_recipe
+    from hexmend.io.surfaces import read_surface
 
 __all__ = [
     "FORMATS",
@@ -20,6 +21,7 @@ __all__ = [
     "left_out",
     "read",
     "read_recipe",
+    "read_surface",
     "readable_suffixes",
     "writable_suffixes",
     "write",
@@ -33,4 +35,8 @@ def __getattr__(name: str) -> object:
         from hexmend.io import recipes
 
         return getattr(recipes, name)
+    if name == "read_surface":
+        from hexmend.io.surfaces import read_surface
+
+        return read_surface
     raise AttributeError(f"module 'hexmend.io' has no attribute {name!r}")

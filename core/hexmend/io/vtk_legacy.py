@@ -18,7 +18,7 @@ from hexmend.mesh import Mesh
 _TYPES = {
     "bit": "u1", "char": "i1", "signed_char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2",
     "int": "i4", "unsigned_int": "u4", "long": "i8", "unsigned_long": "u8", "vtktypeint64": "i8", "vtktypeuint64": "u8",
-    "vtkidtype": "i8", "float": "f4", "double": "f8",
+    "vtkidtype": "i4", "float": "f4", "double": "f8",
 }  # fmt: skip
 _NAMES = {
     code: name
@@ -26,12 +26,18 @@ _NAMES = {
     if name not in ("bit", "char", "vtktypeint64", "vtktypeuint64", "vtkidtype")
 }
 _NAMES["i1"] = "char"
+_DATASETS = {"UNSTRUCTURED_GRID": "an unstructured grid of hexahedra", "POLYDATA": "PolyData, or write it as STL"}
 _WIDTHS = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9, "GLOBAL_IDS": 1, "PEDIGREE_IDS": 1}
 
 
 def read(path: Path) -> Mesh:
     """Read a legacy file."""
     return to_mesh(path, _Reader(path).grid())
+
+
+def read_polygons(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The points (n, 3) of a file of the dataset POLYDATA, where each polygon's nodes begin (k + 1,), and these."""
+    return _Reader(path).polygons()
 
 
 class _Reader:
@@ -45,6 +51,18 @@ class _Reader:
         self.rows = 0
 
     def grid(self) -> Grid:
+        self._read("UNSTRUCTURED_GRID", ("POINTS", "CELLS", "CELL_TYPES"))
+        types = self.found["CELL_TYPES"]
+        start, nodes = self._cells(types)
+        return Grid(self.found["POINTS"], types, start, nodes, self.data["POINT_DATA"], self.data["CELL_DATA"])
+
+    def polygons(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        self._read("POLYDATA", ("POINTS",))
+        if "CELL_TYPES" not in self.found:  # points or lines alone
+            return self.found["POINTS"], np.zeros(1, np.int64), np.empty(0, np.int64)
+        return self.found["POINTS"], *self._cells(self.found["CELL_TYPES"])
+
+    def _read(self, dataset: str, needed: tuple[str, ...]) -> None:
         source = self.source
         head = source.raw_line()
         if not re.match(r"#\s*vtk\s+datafile", head, re.IGNORECASE):
@@ -57,19 +75,18 @@ class _Reader:
             raise source.error(f"line 3 is {shown(kind)}: expected ASCII or BINARY")
         source.text = kind == "ASCII"
         words = source.line().upper().split()
-        if words != ["DATASET", "UNSTRUCTURED_GRID"]:
+        if words != ["DATASET", dataset]:
             what = words[1] if len(words) > 1 and words[0] == "DATASET" else "missing"
-            raise source.error(
-                f"its dataset is {what}: expected UNSTRUCTURED_GRID", "Convert it to an unstructured grid of hexahedra."
-            )
+            remedy = f"Convert it to {_DATASETS[dataset]}."
+            raise source.error(f"its dataset is {what}: expected {dataset}", remedy)
         while not source.ended:
-            self._section(source.line().split())
-        for name in ("POINTS", "CELLS", "CELL_TYPES"):
+            words = source.line().split()
+            if dataset == "POLYDATA" and words[0].upper() in self.data:
+                break
+            self._section(words)
+        for name in needed:
             if name not in self.found:
                 raise source.error(f"has no section {name}")
-        types = self.found["CELL_TYPES"]
-        start, nodes = self._cells(types)
-        return Grid(self.found["POINTS"], types, start, nodes, self.data["POINT_DATA"], self.data["CELL_DATA"])
 
     def _section(self, words: list[str]) -> None:
         source, key = self.source, words[0].upper()
@@ -81,6 +98,15 @@ class _Reader:
                 )
             elif key == "CELLS":
                 self._cells_section(source.whole(words[1], "the number of cells"), source.whole(words[2], "their size"))
+            elif key == "POLYGONS":
+                count = source.whole(words[1], "the number of polygons")
+                self._cells_section(count, source.whole(words[2], "their size"))
+                self.found["CELL_TYPES"] = np.zeros(count - ("OFFSETS" in self.found), np.uint8)
+            elif key in ("VERTICES", "LINES"):
+                self._cells_section(source.whole(words[1], "the number of cells"), source.whole(words[2], "their size"))
+                self.found.pop("OFFSETS", None)  # they are left out
+            elif key == "TRIANGLE_STRIPS":
+                raise source.error("holds triangle strips: expected polygons", "Convert them to triangles.")
             elif key == "CELL_TYPES":
                 self.found[key] = self._array(key, source.whole(words[1], "the number of cells"), 1, "int")[:, 0]
             elif key in self.data:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -90,9 +90,20 @@ def descend(
         if np.isfinite(reach):
             restrain(energy, x, delta, found.p)
         slope = energy.descending(x, delta, found.p, gradient)
-    alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
-    return Descent(energy.moved(x, found.p, alpha), value, slope, length, found, alpha, cuts)
+    for trial in range(TRIALS):
+        alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
+        there = energy.moved(x, found.p, alpha)
+        strayed = energy.strayed(x, there)
+        if strayed is None:
+            return Descent(there, value, slope, length, found, alpha, cuts)
+        found.p[strayed[energy.nodes]] *= 0.5 if trial < TRIALS // 2 else 0.0
+        slope, search = energy.descending(x, delta, found.p, gradient), replace(search, first=alpha)
+    return Descent(x, value, slope, length, found, 0.0, cuts)
 
+
+#: How often nodes that stray are held back before there is no step; half of these times their way is halved, then they
+#: stay.
+TRIALS = 6
 
 #: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others.
 WORSE, MORE, HALVINGS = 2.0, 1.0, 8
@@ -105,13 +116,15 @@ def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) 
     for _ in range(HALVINGS):
         there = energy.moved(x, share[energy.nodes, None] * step)
         spoilt = ~(energies(there, hexes, delta, energy.left_out) <= limit)
-        halved = energy.strayed(there)
+        strayed = energy.strayed(x, there)
+        halved = np.zeros(len(x), dtype=bool) if strayed is None else strayed.copy()
         halved[hexes[spoilt]] = True
         if not halved.any():
             break
         share[halved] *= 0.5
     else:
-        share[energy.strayed(there)] = 0.0  # step by step they would go out of their room all the same
+        if strayed is not None:
+            share[strayed] = 0.0  # step by step they would go out of their room all the same
     step *= share[energy.nodes, None]
 
 

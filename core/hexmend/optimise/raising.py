@@ -246,6 +246,8 @@ class Raising:
         slide = nodes[self._slides(nodes)]
         if slide.size:
             points[slide] = self.sliding.put_back(points[slide], slide)
+        if self.sliding is not None:
+            points = self.sliding.unturned(self.points, points)
         return float(solved.x[-1]), points, nodes
 
     def _slides(self, nodes: np.ndarray) -> np.ndarray:

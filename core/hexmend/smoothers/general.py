@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Generator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -54,14 +55,17 @@ class General(SlidingSmoother):
         inverted = f"{count:,} inverted hex{'es' * (count != 1)}" if count else "no inverted hexes"
         chosen = METHODS["global-nr" if ratio <= self.similar and not count else "local-sd"]
         decision = f"After GETMe: {sizes}, {inverted}: {chosen.title}."
-        rest = chosen(boundary=self.boundary, feature_angle=self.feature_angle).steps(mesh.with_points(points))
+        rest = chosen(**self._sliding_values()).steps(mesh.with_points(points))
         next(rest)
         return (yield from _beginning_with(decision, rest))
+
+    def _sliding_values(self) -> dict[str, Any]:
+        return {one.name: getattr(self, one.name) for one in dataclasses.fields(SlidingSmoother)}
 
     def _getme(self, mesh: Mesh) -> Generator[Step, None, np.ndarray]:
         """GETMe to its end; returns the points."""
         points, unit = mesh.points, mesh.mean_edge_length or 1.0
-        getme = METHODS["getme"](boundary=self.boundary, feature_angle=self.feature_angle).steps(mesh)
+        getme = METHODS["getme"](**self._sliding_values()).steps(mesh)
         yield dataclasses.replace(next(getme), more=True)
         for _, step in zip(range(self.getme_iterations), getme, strict=False):
             move = float(np.sqrt(np.square(step.points - points).sum(axis=1).max())) / unit

@@ -85,16 +85,13 @@ def _without_harm(
     """The moved points, relaxed where a hex that was sound would be inverted; their figures; how many were relaxed."""
     after = measure(moved, mesh.hexes)
     harmed = np.flatnonzero(after.inverted & ~figures.inverted).astype(np.int32)
-    if not harmed.size:
+    if not harmed.size and (sliding is None or not sliding.refused(points, moved).size):
         return moved, after, 0
     attached = mesh.topology.node_corners
     relaxed = kernels.relax(points, mesh.hexes, attached.start, attached.items, ~figures.inverted, harmed, moved)
     if sliding is None:
         return moved, measure(moved, mesh.hexes), relaxed
     moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
-    while True:  # a relaxed step that is put back may harm again: then it is not taken at all
-        after = measure(moved, mesh.hexes)
-        nodes = mesh.hexes[after.inverted & ~figures.inverted]
-        if not nodes.size:
-            return moved, after, relaxed
-        moved[nodes] = points[nodes]
+    # A relaxed step that is put back may harm again: then it is not taken at all.
+    moved = sliding.held(points, moved, lambda x: mesh.hexes[measure(x, mesh.hexes).inverted & ~figures.inverted])
+    return moved, measure(moved, mesh.hexes), relaxed

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -11,10 +12,11 @@ from hexmend.kernels import worst_first as kernels
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import parameter
-from hexmend.quality import measure
+from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.getme import standing
-from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
 from hexmend.smoothers.smoother import Steps, method
+from hexmend.surface import Sliding
 
 #: A sweep that raises q_min by less than this has not raised it.
 RISE = 1e-4
@@ -47,26 +49,33 @@ class SequentialGETMe(SlidingSmoother):
     def steps(self, mesh: Mesh) -> Steps:
         sliding = self.sliding(mesh)
         mesh = mesh if sliding is None else sliding.mesh
-        attached = mesh.topology.node_corners
-        candidates = np.flatnonzero(mesh.free[mesh.hexes].any(axis=1)).astype(np.int32)
+        sweeps = Sweeps(sliding, mesh.n_nodes)
         points, figures = mesh.points, measure(mesh.points, mesh.hexes)
         relaxation = self.relaxation
         yield Step(points)
         while relaxation >= self.relaxation / 2**HALVINGS:
-            moved = points.copy()
-            sweep_of = (
-                moved, mesh.hexes, attached.start, attached.items, mesh.free, candidates,
-                figures.q.copy(), ~figures.inverted,
-                self.scaling, relaxation, self.penalty, self.setback,
-            )  # fmt: skip
-            if sliding is None:
-                taken_back = kernels.sweep(*sweep_of)
-            else:
-                taken_back = on_surface.worst_first(*sweep_of, *sliding.ground)
-            before, figures = figures, measure(moved, mesh.hexes)
-            points = moved
+            points, taken_back = sweeps(points, partial(self._sweep, mesh, sliding, figures, relaxation))
+            before, figures = figures, measure(points, mesh.hexes)
             # Algorithm A.1 does not apply: a sweep may end where it began, and a finer one still raise q_min.
             yield Step(points, {"relaxation": relaxation, "taken back": taken_back}, more=True, figures=figures)
             if not np.any((standing(figures) - standing(before))[:2] > RISE):
                 relaxation /= 2
         return Outcome.NO_IMPROVEMENT
+
+    def _sweep(
+        self,
+        mesh: Mesh,
+        sliding: Sliding | None,
+        figures: ElementQuality,
+        relaxation: float,
+        moved: np.ndarray,
+        stays: np.ndarray,
+    ) -> int:
+        """Move the points, those apart that have to stay; returns how many steps were taken back."""
+        attached, free = mesh.topology.node_corners, mesh.free & ~stays
+        sweep_of = (
+            moved, mesh.hexes, attached.start, attached.items, free,
+            np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32), figures.q.copy(), ~figures.inverted,
+            self.scaling, relaxation, self.penalty, self.setback,
+        )  # fmt: skip
+        return kernels.sweep(*sweep_of) if sliding is None else on_surface.worst_first(*sweep_of, *sliding.ground)

@@ -52,7 +52,8 @@ class GlobalDescent(SlidingSmoother):
         energy = MeshEnergy(mesh, self.p) if sliding is None else SlidingEnergy(sliding, self.p)
         search = BackLineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
         find = self.direction()
-        x, points = energy.scaled(mesh.points), mesh.points
+        points = energy.mesh.points
+        x = energy.scaled(points)
         yield Step(points)
         while True:
             delta = policy.at(measure(points, mesh.hexes), energy.unit)  # zero in the feasible region, 3.2.4

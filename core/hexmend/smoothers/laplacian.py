@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from hexmend.kernels import laplacian as kernels
 from hexmend.kernels import sliding as on_surface
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
 from hexmend.smoothers.order import ORDERS
-from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
 from hexmend.smoothers.smoother import Steps, method
+from hexmend.surface import Sliding
+from hexmend.topology import Rows
 
 
 @method
@@ -39,20 +43,31 @@ class Laplacian(SlidingSmoother):
         sliding, ring = self.sliding(mesh), mesh.topology.rings
         if sliding is not None:
             mesh, ring = sliding.mesh, sliding.rings
-        sequence = ORDERS[self.order](mesh)
+        sequence, sweeps = ORDERS[self.order](mesh), Sweeps(sliding, mesh.n_nodes)
         points, sweep = mesh.points, 0
         yield Step(points)
         while True:
             nodes = sequence(points, sweep)
-            moved = points.copy()
             if self.update == "simultaneous":
-                kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
-                if sliding is not None:
-                    moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
-            elif sliding is None:
-                kernels.in_place(moved, ring.start, ring.items, nodes)
+                points = self._at_once(points, ring, nodes, sliding)
             else:
-                on_surface.laplacian(moved, ring.start, ring.items, nodes, *sliding.ground)
-            points = moved
+
+                def one_by_one(moved: np.ndarray, stays: np.ndarray, nodes: np.ndarray = nodes) -> None:
+                    nodes = nodes[~stays[nodes]]
+                    if sliding is None:
+                        kernels.in_place(moved, ring.start, ring.items, nodes)
+                    else:
+                        on_surface.laplacian(moved, ring.start, ring.items, nodes, *sliding.ground)
+
+                points, _ = sweeps(points, one_by_one)
             yield Step(points)
             sweep += 1
+
+    @staticmethod
+    def _at_once(points: np.ndarray, ring: Rows, nodes: np.ndarray, sliding: Sliding | None) -> np.ndarray:
+        moved = points.copy()
+        kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
+        if sliding is None:
+            return moved
+        moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
+        return sliding.held(points, moved)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -14,7 +15,10 @@ from hexmend.optimise import Step
 from hexmend.parameters import parameter
 from hexmend.smoothers.local_optimiser import LocalOptimiser
 from hexmend.smoothers.order import ORDERS, Visits
+from hexmend.smoothers.sliding_smoother import Sweeps
 from hexmend.smoothers.smoother import Steps
+from hexmend.surface import Sliding
+from hexmend.topology import Rows
 
 
 @dataclass(frozen=True)
@@ -35,19 +39,24 @@ class LocalDescent(LocalOptimiser):
         mesh = mesh if sliding is None else sliding.mesh
         corners, visits = mesh.topology.node_corners, Visits(mesh, self.order)
         derivatives = int(np.diff(corners.start)[mesh.free].sum())  # each visit asks the hexes at its node
-        points, sweep = mesh.points, 0
+        points, sweep, sweeps = mesh.points, 0, Sweeps(sliding, mesh.n_nodes)
         visits.groups(points, sweep)
         yield Step(points)
         while True:
             delta, groups = self.delta_at(mesh, points), visits.groups(points, sweep)
-            points = points.copy()
-            sweep_of = (
-                points, mesh.hexes, corners.start, corners.items, groups.start, groups.items, self.direction,
-                delta, self.p, self.first_step, self.shrink, self.c1, self.max_cuts,
-            )  # fmt: skip
-            if sliding is None:
-                energies = local.sweep(*sweep_of)
-            else:
-                energies = on_surface.local(*sweep_of, sliding.tangents(points), *sliding.ground)
+            points, energies = sweeps(points, partial(self._sweep, mesh, sliding, groups, delta))
             yield Step(points, {"delta": delta, "energies": energies, "derivatives": derivatives})
             sweep += 1
+
+    def _sweep(
+        self, mesh: Mesh, sliding: Sliding | None, groups: Rows, delta: float, points: np.ndarray, stays: np.ndarray
+    ) -> int:
+        """Move the points, those apart that have to stay; returns how often a hex was asked for its energy."""
+        corners, visited = mesh.topology.node_corners, groups.without(stays)
+        sweep_of = (
+            points, mesh.hexes, corners.start, corners.items, visited.start, visited.items, self.direction,
+            delta, self.p, self.first_step, self.shrink, self.c1, self.max_cuts,
+        )  # fmt: skip
+        if sliding is None:
+            return local.sweep(*sweep_of)
+        return on_surface.local(*sweep_of, sliding.tangents(points), *sliding.ground)

@@ -13,6 +13,7 @@ from hexmend.optimise import Step
 from hexmend.parameters import parameter
 from hexmend.patches import grown
 from hexmend.smoothers.local_optimiser import LocalOptimiser
+from hexmend.smoothers.sliding_smoother import Sweeps
 from hexmend.smoothers.smoother import Steps, method
 
 
@@ -41,7 +42,17 @@ class LocalPatch(LocalOptimiser):
         if sliding is not None:
             corners, alone = mesh.topology.node_corners, mesh.topology.colouring(~sliding.mesh.fixed & mesh.fixed)
             derived = int(np.diff(corners.start)[sliding.nodes].sum())
-        points = mesh.points
+            mesh = sliding.mesh
+        points, sweeps = mesh.points, Sweeps(sliding, mesh.n_nodes)
+
+        def slide(moved: np.ndarray, stays: np.ndarray) -> int:
+            groups = alone.without(stays)
+            return on_surface.local(
+                moved, mesh.hexes, corners.start, corners.items, groups.start, groups.items, local.NEWTON,
+                delta, self.p, self.first_step, self.shrink, self.c1, self.max_cuts,
+                sliding.tangents(moved), *sliding.ground,
+            )  # fmt: skip
+
         yield Step(points)
         while True:
             delta = self.delta_at(mesh, points)
@@ -63,10 +74,6 @@ class LocalPatch(LocalOptimiser):
                 self.max_cuts,
             )
             if sliding is not None:
-                energies += on_surface.local(
-                    points, mesh.hexes, corners.start, corners.items, alone.start, alone.items, local.NEWTON,
-                    delta, self.p, self.first_step, self.shrink, self.c1, self.max_cuts,
-                    sliding.tangents(points), *sliding.ground,
-                )  # fmt: skip
-                derivatives += derived
+                points, more = sweeps(points, slide)
+                energies, derivatives = energies + more, derivatives + derived
             yield Step(points, {"delta": delta, "energies": energies, "derivatives": derivatives})

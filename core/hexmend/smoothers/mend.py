@@ -68,13 +68,6 @@ class Mend(SlidingSmoother):
         choices=("shape", "scaled-jacobian"),
         help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
     )
-    surface_tolerance: float = parameter(
-        0.3,
-        low=0,
-        high=10,
-        unit="mean edge length",
-        help="How far the boundary may leave where it was; 0: nodes slide, without a limit.",
-    )
     p: float = parameter(
         2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
     )
@@ -98,6 +91,8 @@ class Mend(SlidingSmoother):
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
         slides, raises = self.slides, self.goal != "shape"
+        if slides and mesh.target is not None:
+            mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
         points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), slides or raises)
         places, sliding = [mesh.points, points], None
         if slides:

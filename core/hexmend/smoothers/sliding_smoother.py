@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -10,6 +12,11 @@ from hexmend.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.smoother import Smoother
 from hexmend.surface import Sliding
+
+T = TypeVar("T")
+
+#: Sweeps in which a node would leave the room around the surface before it is not tried any more.
+PATIENCE = 3
 
 
 @dataclass(frozen=True)
@@ -23,6 +30,14 @@ class SlidingSmoother(Smoother):
         40.0, low=1, high=180, unit="degrees", help="Along edges at which the boundary turns by more nodes only slide."
     )
 
+    surface_tolerance: float = parameter(
+        0.3,
+        low=0,
+        high=10,
+        unit="mean edge length",
+        help="How far the boundary may leave the surface; 0: nodes slide, without a limit.",
+    )
+
     @property
     def slides(self) -> bool:
         return self.boundary == "slide"
@@ -33,4 +48,46 @@ class SlidingSmoother(Smoother):
 
     def sliding(self, mesh: Mesh) -> Sliding | None:
         """What the nodes of a mesh's boundary slide on; None where they stay."""
-        return Sliding(mesh, self.feature_angle) if self.slides else None
+        if not self.slides:
+            return None
+        return Sliding(mesh, self.feature_angle, self.surface_tolerance * mesh.mean_edge_length or np.inf)
+
+
+class Sweeps:
+    """Sweeps that move node after node, each sweep without the nodes that would leave the room around the surface.
+
+    Where a sweep has left the room, it is made again with the nodes staying at which it did. A node that had to stay in
+    `PATIENCE` sweeps stays for good.
+
+    Parameters
+    ----------
+    sliding : Sliding or None
+        None where the boundary stays: a sweep is a sweep.
+    n : int
+        Number of nodes.
+    """
+
+    def __init__(self, sliding: Sliding | None, n: int):
+        self.sliding, self._often = sliding, np.zeros(n, dtype=np.int64)
+
+    def __call__(self, points: np.ndarray, sweep: Callable[[np.ndarray, np.ndarray], T]) -> tuple[np.ndarray, T]:
+        """The points after a sweep from points (n, 3), and what it returned.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Stay as they are.
+        sweep : callable
+            Takes points that it moves, and which nodes have to stay, (n,) bool.
+        """
+        stays = self._often >= PATIENCE
+        while True:
+            moved = points.copy()
+            told = sweep(moved, stays)
+            beyond = np.empty(0, dtype=np.int64) if self.sliding is None else self.sliding.beyond(moved)
+            beyond = beyond[(moved[beyond] != points[beyond]).any(axis=1)]
+            if not beyond.size:
+                return moved, told
+            stays = stays.copy()
+            stays[beyond] = True
+            self._often[beyond] += 1

@@ -11,7 +11,7 @@ from hexmend.kernels import sliding as on_surface
 from hexmend.mesh import Mesh
 from hexmend.optimise import Step
 from hexmend.parameters import parameter
-from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
 from hexmend.smoothers.smoother import Steps, method
 
 
@@ -37,16 +37,16 @@ class SmartLaplacian(SlidingSmoother):
             mesh, ring = sliding.mesh, sliding.rings
         corners = mesh.topology.node_corners
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
-        points = mesh.points
-        yield Step(points)
-        while True:
-            points = points.copy()
+        points, sweeps = mesh.points, Sweeps(sliding, mesh.n_nodes)
+
+        def sweep(moved: np.ndarray, stays: np.ndarray) -> int:
             sweep_of = (
-                points, mesh.hexes, corners.start, corners.items, ring.start, ring.items, nodes,
+                moved, mesh.hexes, corners.start, corners.items, ring.start, ring.items, nodes[~stays[nodes]],
                 self.guard == "quality",
             )  # fmt: skip
-            if sliding is None:
-                taken_back = kernels.guarded(*sweep_of)
-            else:
-                taken_back = on_surface.guarded(*sweep_of, *sliding.ground)
+            return kernels.guarded(*sweep_of) if sliding is None else on_surface.guarded(*sweep_of, *sliding.ground)
+
+        yield Step(points)
+        while True:
+            points, taken_back = sweeps(points, sweep)
             yield Step(points, {"taken_back": taken_back})

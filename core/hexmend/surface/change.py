@@ -16,13 +16,16 @@ from hexmend.surface.trees import Trees, triangulated
 
 #: A node that has moved less, in mean edge lengths, has been put back where it was.
 _MOVED = 1e-9
+#: A surface lies near a boundary if nine in ten of this one's nodes are within so many mean edge lengths of it.
+NEAR = 2.0
 
 
 @dataclass(frozen=True)
 class SurfaceChange:
     """What became of a mesh's boundary.
 
-    Distances are those of the nodes, edge middles and face middles of each boundary from the other.
+    Distances are those of the nodes, edge middles and face middles of each surface from the other: of the boundary as
+    it is from the boundary as it was, or from the surface that it slides on if that is another.
 
     Parameters
     ----------
@@ -38,6 +41,8 @@ class SurfaceChange:
         Number of boundary nodes that are elsewhere.
     features, features_kept : int
         Number of edges in which the boundary was sharp, and how many of these still are.
+    of : str
+        What the distances are from: "" of where the boundary was, else the name of another surface.
     """
 
     furthest: float
@@ -48,6 +53,7 @@ class SurfaceChange:
     moved: int
     features: int
     features_kept: int
+    of: str = ""
 
     @property
     def max(self) -> float:
@@ -69,9 +75,9 @@ class SurfaceChange:
         """What became of it, in a sentence."""
         return (
             f"The boundary slid: {self.moved:,} of its nodes moved; it is at most {self.max:.2g} mean edge lengths "
-            f"({self.max_percent_of_diagonal:.2g} % of the diagonal) from where it was, {self.mean:.2g} in the mean; "
-            f"its volume changed by {100 * self.volume_change:+.2g} %; {self.features_kept:,} of {self.features:,} "
-            "sharp edges are kept."
+            f"({self.max_percent_of_diagonal:.2g} % of the diagonal) from {self.of or 'where it was'}, "
+            f"{self.mean:.2g} in the mean; its volume changed by {100 * self.volume_change:+.2g} %; "
+            f"{self.features_kept:,} of {self.features:,} sharp edges are kept."
         )
 
     def to_dict(self) -> dict[str, float | int]:
@@ -87,6 +93,8 @@ class Skin:
     ----------
     points : (n, 3) float64
     faces : (k, 4) or (k, 3) int32
+    name : str
+        What to call it; of one that was read the file's name.
 
     Attributes
     ----------
@@ -95,8 +103,8 @@ class Skin:
     edges : Edges
     """
 
-    def __init__(self, points: np.ndarray, faces: np.ndarray):
-        self.points, self.faces = points, faces
+    def __init__(self, points: np.ndarray, faces: np.ndarray, name: str = ""):
+        self.points, self.faces, self.name = points, faces, name
         self.nodes, self.edges = np.unique(faces), Edges(faces, len(points))
         self._trees = _one_tree(points, faces)
 
@@ -139,6 +147,21 @@ class Skin:
     def closest(self, x: np.ndarray) -> np.ndarray:
         """The places of the surface that are closest to x (k, 3), (k, 3)."""
         return self._trees.closest(x, np.zeros(len(x), dtype=np.int64)).places
+
+    def check_near(self, mesh: Mesh) -> None:
+        """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
+        on = np.flatnonzero(mesh.topology.boundary)
+        far = float(np.quantile(self.distances(mesh.surface[on]), 0.9)) / (mesh.mean_edge_length or 1.0)
+        if far <= NEAR:
+            return
+        boxes = (
+            " x ".join(f"{side:.3g}" for side in np.ptp(x, axis=0)) for x in (self.points[self.nodes], mesh.surface[on])
+        )
+        raise MeshError(
+            f"{self.name or 'the surface'}: one in ten nodes of the mesh's boundary is {far:.3g} mean edge lengths "
+            f"or more from it: expected at most {NEAR:g}. It measures {next(boxes)}, the boundary {next(boxes)}: scale "
+            "or shift it if its unit or place is another, or name the surface of this mesh."
+        )
 
     def volume(self) -> float:
         """What the surface encloses, if it is closed."""
@@ -184,7 +207,7 @@ def surface_change(before: Mesh, after: Mesh, degrees: float = DEGREES) -> Surfa
         raise MeshError(f"{before.n_hexes} and {after.n_hexes} hexes that are not the same: expected one mesh, moved")
     old = Skin(before.points, before.topology.boundary_faces)
     new = old.with_points(after.points)
-    ways = distances(old, new)
+    ways = distances(after.target or old, new)
     was, now = old.points[old.nodes], new.points[old.nodes]
     sharp = np.isin(old.edges.key, old.edges.keys_of(boundary_of(before, degrees).segments))
     sharp &= angles(old.points, old.edges) > degrees
@@ -198,4 +221,5 @@ def surface_change(before: Mesh, after: Mesh, degrees: float = DEGREES) -> Surfa
         moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > _MOVED * before.mean_edge_length)),
         features=int(np.count_nonzero(sharp)),
         features_kept=int(np.count_nonzero(sharp & (angles(new.points, new.edges) > degrees))),
+        of="" if after.target is None else after.target.name or "the surface",
     )

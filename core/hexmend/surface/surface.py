@@ -61,6 +61,7 @@ class Surface:
         plain = triangle_normals(vertices, triangles), segment_tangents(points, segments)
         smooth = vertex_normals(vertices, triangles, patch), curve_tangents(points, boundary)[:, [0, 1, 1]]
         self._plain, self._smooth = (np.concatenate(both)[self.trees.order] for both in (plain, smooth))
+        self._group = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])[self.trees.order]
 
     def project(self, x: np.ndarray, nodes: np.ndarray, smooth: bool = True) -> tuple[np.ndarray, np.ndarray]:
         """Put nodes back on their own curves and patches.
@@ -114,27 +115,33 @@ class Surface:
         size = np.linalg.norm(mean, axis=1, keepdims=True)
         return np.where(size > _OPPOSED, mean / np.maximum(size, _OPPOSED), plain)
 
-    def attached(self, points: np.ndarray, boundary: Boundary) -> Surface:
+    def attached(self, points: np.ndarray, boundary: Boundary, reach: float = np.inf) -> Surface:
         """This surface for the nodes of another boundary: each slides on the nearest patch or curve of this one.
 
-        Curve nodes are given to curves while there are any, else to patches; corners stay what they are.
+        Curve nodes are given to curves that are within a quarter of the reach, else to patches. Corners stay what they
+        are, and what is out of reach of all patches is a corner.
 
         Parameters
         ----------
         points : (n, 3) float64
         boundary : Boundary
+        reach : float
+            In the unit of the points.
         """
         kind, part = boundary.kind.copy(), np.full(len(boundary.kind), -1, dtype=np.int32)
+        curve = self._group >= self.n_patches
+        nearest = Trees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
         if not self.n_curves:
             kind[kind == Kind.CURVE] = Kind.PATCH
-        for of, first, count in (Kind.PATCH, 0, self.n_patches), (Kind.CURVE, self.n_patches, self.n_curves):
+        for of, other, most in (Kind.CURVE, Kind.PATCH, reach / 4), (Kind.PATCH, Kind.CORNER, reach):
             nodes = np.flatnonzero(kind == of)
-            furthest = np.full(len(nodes), np.inf)
-            for group in range(count):
-                found = self.trees.closest(points[nodes], np.full(len(nodes), first + group))
-                distance = np.linalg.norm(found.places - points[nodes], axis=1)
-                nearer = distance < furthest
-                part[nodes[nearer]], furthest[nearer] = group, distance[nearer]
+            if not nodes.size:
+                continue
+            found = nearest.closest(points[nodes], np.full(len(nodes), int(of == Kind.CURVE)))
+            near = np.linalg.norm(found.places - points[nodes], axis=1) <= most
+            kind[nodes[~near]] = other
+            group = self._group[nearest.order[found.pieces[near]]]
+            part[nodes[near]] = group - (self.n_patches if of == Kind.CURVE else 0)
         other = copy.copy(self)
         other.kind, other.part = kind, part
         return other

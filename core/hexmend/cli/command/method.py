@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from hexmend.cli.command.limits import add_limits, given_limits, limits
 
 if TYPE_CHECKING:
+    from hexmend.mesh import Mesh
     from hexmend.recipe import Recipe
     from hexmend.run import Stop
     from hexmend.smoothers import Smoother
@@ -36,29 +37,66 @@ def add_boundary(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def with_boundary(args: argparse.Namespace, methods: Iterable[str]) -> dict[str, str]:
-    """The settings of --set, with what --boundary says, which every one of the methods must know.
+def add_surface(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that names what the boundary slides on, and that for how far it may leave it."""
+    parser.add_argument(
+        "--surface",
+        metavar="FILE",
+        help="the surface that the boundary slides on, if not itself: STL, OBJ, PLY, VTP or VTK; --boundary slide goes "
+        "without saying",
+    )
+    parser.add_argument(
+        "--surface-tolerance",
+        metavar="X",
+        help="how far the boundary may leave the surface, in mean edge lengths; as --set surface_tolerance=X",
+    )
+
+
+def on_surface(args: argparse.Namespace, mesh: Mesh, what: Smoother | Recipe) -> Mesh:
+    """The mesh, sliding on the surface that --surface names, if it does.
 
     Raises
     ------
     ParameterError
-        Naming the methods that do not, or where --set says it too.
+        Where nothing slides.
+    """
+    from hexmend.errors import ParameterError
+    from hexmend.io import read_surface
+
+    if args.surface is None:
+        return mesh
+    if not any(stage.slides for stage in ([one.smoother for one in what.stages] if args.recipe else [what])):
+        raise ParameterError("--surface names what the boundary slides on, and it is fixed: say boundary = slide")
+    return mesh.sliding_on(read_surface(args.surface))
+
+
+def with_boundary(args: argparse.Namespace, methods: Iterable[str]) -> dict[str, str]:
+    """The settings of --set, with what --boundary and --surface-tolerance say.
+
+    Raises
+    ------
+    ParameterError
+        Naming the methods that do not know them, or where --set says it too.
     """
     from hexmend.cli.command import settings
     from hexmend.errors import ParameterError
     from hexmend.parameters import declared
     from hexmend.smoothers import METHODS
 
-    words = settings(args.set)
-    if args.boundary is None:
-        return words
-    if "boundary" in words:
-        raise ParameterError("--boundary and --set boundary=... say the same thing: leave out one of them")
-    without = [name for name in methods if "boundary" not in {one.name for one in declared(METHODS[name])}]
-    if without:
-        knows = "knows" if len(without) == 1 else "know"
-        raise ParameterError(f"--boundary {args.boundary}: {', '.join(without)} {knows} fixed boundaries alone")
-    return words | {"boundary": args.boundary}
+    words, said = settings(args.set), {"boundary": args.boundary}
+    said["surface_tolerance"] = getattr(args, "surface_tolerance", None)
+    if getattr(args, "surface", None) is not None and args.boundary is None and "boundary" not in words:
+        said["boundary"] = "slide"
+    said = {key: value for key, value in said.items() if value is not None}
+    for key, value in said.items():
+        option = f"--{key.replace('_', '-')}"
+        if key in words:
+            raise ParameterError(f"{option} and --set {key}=... say the same thing: leave out one of them")
+        without = [name for name in methods if key not in {one.name for one in declared(METHODS[name])}]
+        if without:
+            knows = "knows" if len(without) == 1 else "know"
+            raise ParameterError(f"{option} {value}: {', '.join(without)} {knows} fixed boundaries alone")
+    return words | said
 
 
 def chosen(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop | None]:
@@ -69,10 +107,10 @@ def chosen(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop | None]:
     from hexmend.smoothers import DEFAULT_METHOD, METHODS
 
     if args.recipe:
-        if args.method or args.set or args.boundary:
+        if args.method or args.set or args.boundary or getattr(args, "surface_tolerance", None):
             raise ParameterError(
-                "--recipe names its methods and their values: leave out --method, --set and --boundary, or change the "
-                "recipe"
+                "--recipe names its methods and their values: leave out --method, --set, --boundary and "
+                "--surface-tolerance, or change the recipe"
             )
         return read_recipe(args.recipe).limited(**given_limits(args)), None
     name = args.method or DEFAULT_METHOD

@@ -1,0 +1,33 @@
+"""Wavefront's OBJ, parsed by meshlane."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+
+from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_meshlane, parsed
+
+
+def read(path: Path) -> Polygons:
+    """Read an OBJ file: its vertices and faces."""
+    from meshlane.obj import _obj
+
+    text = path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ")
+    return parsed(path, "OBJ", lambda: of_meshlane(_obj.read_buffer(io.StringIO(_in_form(text)))))
+
+
+def _in_form(text: str) -> str:
+    """Places of vertices, and faces that count them from the first: a negative number counts from the last so far."""
+    lines, count = [], 0
+    for line in text.splitlines():
+        word, _, rest = line.strip().partition(" ")
+        if word == "v":
+            count += 1
+            lines.append(" ".join(["v", *rest.split()[:3]]))
+        elif word == "f":
+            lines.append("f " + re.sub(r"(?<!\S)-(\d+)\S*", lambda found, n=count: str(n + 1 - int(found[1])), rest))
+    return "\n".join(lines)
+
+
+SURFACES.add("obj", SurfaceFormat("obj", "OBJ", (".obj",), read))

@@ -1,0 +1,28 @@
+"""Stanford's PLY, in decimals and binary, parsed by meshlane."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+from hexmend.errors import FileError
+from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_meshlane, parsed
+
+_END = b"end_header"
+
+
+def read(path: Path) -> Polygons:
+    """Read a PLY file: its vertices and faces."""
+    from meshlane.ply import _ply
+
+    data = path.read_bytes()
+    head, end, rest = data.partition(_END)
+    if not head.startswith(b"ply") or not end:
+        raise FileError(path, "has no head from 'ply' to 'end_header'", "Is it a PLY file? Check its suffix.")
+    # The list has two names, and other programs read both.
+    head = head.replace(b"\r\n", b"\n").replace(b" vertex_index\n", b" vertex_indices\n")
+    rest = b"\n" + rest.lstrip(b"\r")[1:]
+    return parsed(path, "PLY", lambda: of_meshlane(_ply.read_buffer(io.BytesIO(head + end + rest))))
+
+
+SURFACES.add("ply", SurfaceFormat("ply", "PLY", (".ply",), read))

@@ -1,0 +1,199 @@
+"""Surfaces from files that other programs write, and what is said of those that hold none."""
+
+import numpy as np
+import pytest
+
+from hexmend.errors import FileError
+from hexmend.io import read_surface
+from hexmend.io.surfaces import SURFACES
+from hexmend.surface.trees import triangulated
+
+pv = pytest.importorskip("pyvista")
+
+
+def sphere():
+    return pv.Sphere(radius=2, center=(1, 2, 3), theta_resolution=12, phi_resolution=9)
+
+
+def by_vtk(writer, path, data, **options):
+    """Write by one of VTK's own writers, with its methods called by name."""
+    writer.SetInputData(data)
+    writer.SetFileName(str(path))
+    for name, value in options.items():
+        getattr(writer, name)(*value)
+    assert writer.Write()
+
+
+def xml(mode, *, compressed, encoded=True):
+    def write(path, data):
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+        kind = "SetCompressorTypeToZLib" if compressed else "SetCompressorTypeToNone"
+        options = {f"SetDataModeTo{mode}": (), kind: (), "SetEncodeAppendedData": (encoded,)}
+        by_vtk(vtkXMLPolyDataWriter(), path, data, **options)
+
+    return write
+
+
+def legacy(version, kind):
+    def write(path, data):
+        from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
+
+        by_vtk(vtkPolyDataWriter(), path, data, SetFileVersion=(version,), **{f"SetFileTypeTo{kind}": ()})
+
+    return write
+
+
+def obj(path, data):
+    from vtkmodules.vtkIOGeometry import vtkOBJWriter
+
+    by_vtk(vtkOBJWriter(), path, data)
+
+
+def edited(write, edit):
+    """What a writer writes, changed as another program has it."""
+
+    def write_and_edit(path, data):
+        write(path, data)
+        path.write_text(edit(path.read_text()))
+
+    return write_and_edit
+
+
+def in_text(path, data):
+    data.save(path, binary=False)
+
+
+def turned_numbers(text):
+    """Faces that count their nodes from the last."""
+    count = text.count("\nv ")
+    lines = [
+        " ".join(["f", *(str(int(word.split("/")[0]) - count - 1) for word in line.split()[1:])])
+        if line.startswith("f ")
+        else line
+        for line in text.splitlines()
+    ]
+    return "\n".join(lines)
+
+
+WRITERS = {
+    "binary.stl": lambda path, data: data.save(path),
+    "text.stl": in_text,
+    "blank-lines.stl": edited(in_text, lambda text: text.replace("facet n", "\n  facet n") + "\n\n"),
+    "capitals.stl": edited(in_text, str.upper),
+    "two-solids.stl": edited(in_text, lambda text: text.replace("  facet", "endsolid a\nsolid b\n facet", 1)),
+    "binary.ply": lambda path, data: data.save(path),
+    "text.ply": in_text,
+    "index.ply": edited(in_text, lambda text: text.replace("vertex_indices", "vertex_index")),
+    "plain.obj": obj,
+    "negative.obj": edited(obj, turned_numbers),
+    "text.vtp": xml("Ascii", compressed=False),
+    "binary.vtp": xml("Binary", compressed=False),
+    "zlib.vtp": xml("Binary", compressed=True),
+    "appended.vtp": xml("Appended", compressed=True),
+    "raw.vtp": xml("Appended", compressed=False, encoded=False),
+    "raw-zlib.vtp": xml("Appended", compressed=True, encoded=False),
+    "text-42.vtk": legacy(42, "ASCII"),
+    "binary-42.vtk": legacy(42, "Binary"),
+    "text-51.vtk": legacy(51, "ASCII"),
+    "binary-51.vtk": legacy(51, "Binary"),
+}
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_what_other_programs_write_is_read(name, tmp_path):
+    path, data = tmp_path / name, sphere()
+    WRITERS[name](path, data)
+    skin = read_surface(path)
+    assert skin.name == name
+    assert len(skin.faces) == data.n_cells
+    assert len(skin.nodes) == len(skin.points) == data.n_points  # corners at one place are one
+    assert (skin.edges.count == 2).all()
+    assert skin.volume() == pytest.approx(data.volume, rel=1e-5)
+    np.testing.assert_allclose(np.ptp(skin.points, axis=0), np.ptp(data.points, axis=0), rtol=1e-5)
+
+
+@pytest.mark.parametrize("suffix", [".vtp", ".vtk", ".ply"])
+def test_quads_are_quads(suffix, tmp_path):
+    path = tmp_path / f"cube{suffix}"
+    cube = pv.Cube(clean=True)
+    pv.PolyData(cube.points, faces=cube.faces).save(path)
+    skin = read_surface(path)
+    assert skin.faces.shape == (6, 4)
+    assert skin.volume() == pytest.approx(1)
+
+
+def test_polygons_and_triangles_beside_quads_keep_their_places(tmp_path):
+    path = tmp_path / "prism.obj"
+    angle = np.arange(5) * 2 * np.pi / 5
+    ring = np.column_stack([np.cos(angle), np.sin(angle)])
+    lines = [f"v {x} {y} {z}" for z in (0, 1) for x, y in ring]
+    lines += [
+        "f 5 4 3 2 1",
+        "f 6 7 8 9 10",
+        *(f"f {k + 1} {(k + 1) % 5 + 1} {(k + 1) % 5 + 6} {k + 6}" for k in range(5)),
+    ]
+    path.write_text("\n".join(lines))
+    skin = read_surface(path)
+    assert skin.volume() == pytest.approx(2.5 * np.sin(2 * np.pi / 5))
+    assert (skin.edges.count == 2).all()
+    _, triangles, _ = triangulated(skin.points, skin.faces)
+    assert triangles.max() < len(skin.points) + len(skin.faces)
+
+
+TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+BAD = {
+    "empty.stl": (b"", "is empty"),
+    "no-facets.stl": (b"solid a\nendsolid a\n", "holds no surface"),
+    "junk.stl": (b"\0" * 200, "is no STL"),
+    "cut-short.stl": (
+        b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n",
+        "cannot be read as STL",
+    ),
+    "points.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "holds no surface"),
+    "flat.obj": (b"v 0 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\n", "holds no surface"),
+    "nan.obj": (TETRAHEDRON.replace("v 1 0 0", "v nan 0 0").encode(), "point 1 .counted from 0. is at .nan"),
+    "range.obj": (TETRAHEDRON.replace("f 1 3 2", "f 1 3 9").encode(), "uses the point 8: expected numbers from 0 to 3"),
+    "junk.ply": (b"nothing", "no head"),
+    "short.ply": (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n", "cannot be read as PLY"),
+    "junk.vtp": (b"nothing", "no VTKFile"),
+    "grid.vtp": (b'<VTKFile type="UnstructuredGrid">', "no VTKFile of the type PolyData"),
+    "cut.vtp": (b'<VTKFile type="PolyData"><PolyData><Piece', "cannot be read as VTP"),
+    "grid.vtk": (b"# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n", "expected POLYDATA"),
+    "part.step": (b"ISO-10303-21;", "the suffix '.step' is none of a surface"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_what_is_no_surface_is_said(name, tmp_path):
+    content, words = BAD[name]
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(FileError, match=words) as error:
+        read_surface(path)
+    assert str(error.value).startswith(f"{name}: ")
+    assert error.value.remedy
+
+
+def test_points_lines_and_strips(tmp_path):
+    cloud = pv.PolyData(np.random.default_rng(0).random((5, 3)))
+    for suffix in (".vtp", ".vtk", ".ply"):
+        path = tmp_path / f"cloud{suffix}"
+        cloud.save(path)
+        with pytest.raises(FileError, match="holds no surface"):
+            read_surface(path)
+    for suffix in (".vtp", ".vtk"):
+        path = tmp_path / f"strips{suffix}"
+        sphere().strip().save(path)
+        with pytest.raises(FileError, match="triangle strips"):
+            read_surface(path)
+
+
+def test_what_is_not_there(tmp_path):
+    with pytest.raises(FileError, match="there is no such file"):
+        read_surface(tmp_path / "part.stl")
+
+
+def test_every_format_is_tried():
+    suffixes = {suffix for one in SURFACES.values() for suffix in one.suffixes}
+    assert suffixes == {"." + name.rpartition(".")[2] for name in WRITERS}
