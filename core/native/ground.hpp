@@ -8,24 +8,21 @@ namespace hexmend {
 
 using Quad = std::array<Node, 4>;
 
-// A corner of a quad between the node before it and the one after.
-struct QuadCorner {
-    Point before, at, after;
-};
+using QuadPoints = std::array<Point, 4>;
 
-inline QuadCorner corners_of(Points points, const Quad &quad, int c) {
-    return {points[quad[(c + 3) % 4]], points[quad[c]], points[quad[(c + 1) % 4]]};
+inline QuadPoints points_of(Points points, const Quad &quad) {
+    return {points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]};
 }
 
-// A corner whose sine is no more than this is flat to rounding.
-constexpr double FLAT_CORNER = 1e-9;
+// A quad whose diagonals are at a sine of no more than this to each other, seen along the normal, is flat to rounding.
+constexpr double FLAT_QUAD = 1e-9;
 
-// Whether a corner's normal is against that of the surface, or the corner is flat. Where there is no normal none is.
-inline bool is_turned(const QuadCorner &of, const Point &outward) {
+// Whether a quad's own normal is against that of the surface, or has no part along it. Where there is none none is.
+inline bool is_turned(const QuadPoints &x, const Point &outward) {
     V3<double> n{outward[0], outward[1], outward[2]};
-    V3<double> a{of.after[0] - of.at[0], of.after[1] - of.at[1], of.after[2] - of.at[2]};
-    V3<double> b{of.before[0] - of.at[0], of.before[1] - of.at[1], of.before[2] - of.at[2]};
-    return dot(n, n) > 0 && !(dot(cross(a, b), n) > FLAT_CORNER * std::sqrt(dot(a, a) * dot(b, b)));
+    V3<double> a{x[2][0] - x[0][0], x[2][1] - x[0][1], x[2][2] - x[0][2]};
+    V3<double> b{x[3][0] - x[1][0], x[3][1] - x[1][1], x[3][2] - x[1][2]};
+    return dot(n, n) > 0 && !(dot(cross(a, b), n) > FLAT_QUAD * std::sqrt(dot(a, a) * dot(b, b)));
 }
 
 // The quads of the boundary at nodes that slide, and the normals that they had at first.
@@ -35,18 +32,13 @@ struct Quads {
     std::span<const Quad> quads;
     Points outward;  // of each quad
 
-    // Whether a corner that is not turned would be if node i, of that slot, were at `place`.
-    bool turns(Points points, Node slot, Node i, const Point &place) const {
+    // Whether a quad that is not turned would be if the node of that slot were at `place`.
+    bool turns(Points points, Node slot, const Point &place) const {
         for (auto r = start[slot]; r < start[slot + 1]; ++r) {
-            auto quad = quads[corners[r] / 4];
-            const auto &normal = outward[corners[r] / 4];
-            for (int c = corners[r] % 4 + 3, end = c + 3; c < end; ++c) {  // that opposite stays
-                auto now = corners_of(points, quad, c % 4), then = now;
-                if (quad[(c + 3) % 4] == i) then.before = place;
-                if (quad[c % 4] == i) then.at = place;
-                if (quad[(c + 1) % 4] == i) then.after = place;
-                if (!is_turned(now, normal) && is_turned(then, normal)) return true;
-            }
+            auto f = corners[r] / 4;
+            auto now = points_of(points, quads[f]), then = now;
+            then[corners[r] % 4] = place;
+            if (!is_turned(now, outward[f]) && is_turned(then, outward[f])) return true;
         }
         return false;
     }
@@ -69,7 +61,7 @@ struct Ground {
     // The same, or where the node is if it would turn a quad from there.
     Point led(Points points, Node i, const Point &x) const {
         Point place = put_back(i, x);
-        return quads.turns(points, slots[i], i, place) ? points[i] : place;
+        return quads.turns(points, slots[i], place) ? points[i] : place;
     }
 };
 

@@ -63,7 +63,7 @@ class Slider {
         double alpha = how.first;
         for (int cut = 0; cut <= how.cuts && -alpha * slope > ROUNDING * at.value; ++cut, alpha *= how.shrink) {
             Point place = led(d, alpha);
-            if (ground_.quads.turns(points_, ground_.slots[node_], node_, place)) continue;
+            if (ground_.quads.turns(points_, ground_.slots[node_], place)) continue;
             patch_.aim(way(place));
             double trial = patch_.template value_along<soft>(1, how.delta, how.p);
             double bound = at.value + how.c1 * alpha * slope;
@@ -179,10 +179,8 @@ std::int64_t sliding_worst_first(std::span<Point> points, Hexes hexes, Indices s
 void turned(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> is) {
     parallel_chunks(quads.size(), QUADS, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t f = begin; f < end; ++f) {
-            is[f] = false;
-            for (int c = 0; c < 4; ++c)
-                is[f] = is[f] || (!is_turned(corners_of(before, quads[f], c), outward[f]) &&
-                                  is_turned(corners_of(after, quads[f], c), outward[f]));
+            is[f] = !is_turned(points_of(before, quads[f]), outward[f]) &&
+                    is_turned(points_of(after, quads[f]), outward[f]);
         }
     });
 }

@@ -32,7 +32,7 @@ std::int64_t sliding_worst_first(std::span<Point> points, Hexes hexes, Indices s
                                  std::span<const Box> boxes, std::span<const Link> links, Indices quads_start,
                                  Indices quads_at, std::span<const Quad> quads, Points outward);
 
-// Whether a quad has a corner that was not turned before and is now, of each.
+// Whether a quad was not turned before and is now, of each.
 void turned(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> is);
 
 }  // namespace hexmend

@@ -246,7 +246,7 @@ class Raising:
         slide = nodes[self._slides(nodes)]
         if slide.size:
             points[slide] = self.sliding.put_back(points[slide], slide)
-        if self.sliding is not None:
+        if self.sliding is not None and not self.lifted.any():
             points = self.sliding.unturned(self.points, points)
         return float(solved.x[-1]), points, nodes
 

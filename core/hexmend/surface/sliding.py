@@ -156,9 +156,9 @@ class Sliding(Room):
         return Rows(start.astype(np.int32), np.ascontiguousarray(ways[:, 1], dtype=np.int32))
 
     def turned(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
-        """Faces of the boundary with a corner that is turned over after a step and was not before, (k,) int.
+        """Faces of the boundary that are turned over after a step and were not before, (k,) int.
 
-        A corner of a quad is turned over if its normal is against that of the boundary there as it was, or it is flat.
+        A quad is turned over if its normal is against that of the boundary there as it was, or it is flat.
 
         Parameters
         ----------

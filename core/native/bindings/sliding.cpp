@@ -13,7 +13,7 @@ void bind_sliding(nb::module_ &m) {
         "pieces, boxes, links those of `hexmend.kernels.closest`. quads (f, 4) int32 are the boundary's, outward (f, "
         "3)\n"
         "their normals at first, or 0; quads_at holds 4 * quad + corner of each node that slides, from quads_start\n"
-        "(k + 1,) on. A step that turns a corner of a quad against that normal is none; one that is turned may be.";
+        "(k + 1,) on. A step that turns a quad against that normal is none; one that is turned may be.";
     m.def("local", &sliding_local, "points"_a, "hexes"_a, "start"_a, "corners"_a, "groups"_a, "nodes"_a, "direction"_a,
           "delta"_a, "p"_a, "first"_a, "shrink"_a, "c1"_a, "cuts"_a, "tangents"_a, "slots"_a, "roots"_a, "vertices"_a,
           "pieces"_a, "boxes"_a, "links"_a, "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a, Unlocked(),
@@ -32,7 +32,7 @@ void bind_sliding(nb::module_ &m) {
           "boxes"_a, "links"_a, "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a, Unlocked(),
           "`hexmend.kernels.worst_first.sweep`, each element's step put back before it is judged.");
     m.def("turned", &turned, "before"_a, "after"_a, "quads"_a, "outward"_a, "is"_a, Unlocked(),
-          "Whether a quad has a corner that is turned after and was not before: is (f,).");
+          "Whether a quad is turned after and was not before: is (f,).");
 }
 
 }  // namespace hexmend
