@@ -58,16 +58,27 @@ def test_normals_are_those_of_the_sides():
 
 
 @pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "local-sd", "global-nr", "mend"])
-def test_a_quad_that_is_turned_may_be_turned_back(name):
+def test_a_node_beyond_its_neighbour_finds_its_way_back(name):
     cube = grid(4)
     points = cube.points.copy()
     node = int(np.flatnonzero((cube.points == [2, 2, 0]).all(axis=1))[0])
-    points[node, :2] += 1.4  # beyond the opposite corner of a quad
+    points[node, 0] += 1.4  # two quads lie over each other, none is turned as a whole
     mesh = cube.with_points(points)
-    assert (sides(mesh.points, Sliding(mesh)) < 0).any()
     result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=0.0), Stop(max_iterations=200))
-    assert (sides(result.mesh.points, Sliding(cube)) > 0).all()
+    assert (sides(result.mesh.points, Sliding(cube)) > 0.5).all()
+    assert np.linalg.norm(result.mesh.points[node] - cube.points[node]) < 0.5
     np.testing.assert_array_equal(result.mesh.points[:, 2][cube.points[:, 2] == 0], 0)
+
+
+def test_a_quad_that_is_turned_may_stay_so_and_be_turned_back():
+    mesh = grid(4)
+    sliding, folded = Sliding(mesh), mesh.points.copy()
+    node = int(np.flatnonzero((folded == [2, 2, 0]).all(axis=1))[0])
+    folded[node, :2] += 1.4  # beyond the opposite corner of a quad
+    assert sliding.turned(mesh.points, folded).size == 1
+    assert not sliding.turned(folded, folded).size
+    assert not sliding.turned(folded, mesh.points).size
+    np.testing.assert_array_equal(sliding.unturned(mesh.points, folded), mesh.points)
 
 
 @settings(max_examples=60)

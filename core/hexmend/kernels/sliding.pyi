@@ -5,7 +5,7 @@ patch first.
 slots (n,) int32 numbers the nodes that slide, -1 of others; roots (k,) int32 are their trees, and vertices,
 pieces, boxes, links those of `hexmend.kernels.closest`. quads (f, 4) int32 are the boundary's, outward (f, 3)
 their normals at first, or 0; quads_at holds 4 * quad + corner of each node that slides, from quads_start
-(k + 1,) on. A step that turns a corner of a quad against that normal is none; one that is turned may be.
+(k + 1,) on. A step that turns a quad against that normal is none; one that is turned may be.
 """
 
 from typing import Annotated
@@ -35,6 +35,4 @@ def worst_first(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), 
     """
 
 def turned(before: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], is: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
-    """
-    Whether a quad has a corner that is turned after and was not before: is (f,).
-    """
+    """Whether a quad is turned after and was not before: is (f,)."""
