@@ -30,6 +30,7 @@ class FeatureOutcome(Feature):
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
         panel.show_requested.connect(self._show_elements)
+        panel.visit_requested.connect(self._visit_elements)
         panel.suggestion_chosen.connect(lambda at: self._choose(self._shown.suggestions[at]))
         session.smoothing.ended.connect(self._on_ended)
         session.document.mesh_replaced.connect(self._on_another)
@@ -113,6 +114,10 @@ class FeatureOutcome(Feature):
         self.session.view.isolate(hexes)
         if len(hexes) == 1:
             self.session.selection.visit(hexes[0])
+
+    def _visit_elements(self, hexes: list[int]) -> None:
+        self.session.view.isolate(hexes)
+        self.session.selection.visit(*hexes)
 
     def _choose(self, suggestion: Suggestion) -> None:
         """Go to where the suggestion begins, and choose its method; whatever it costs to run it is left to the user."""
