@@ -36,6 +36,11 @@ _COLOURS = [
         "Colour each hex by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
         "hexes have colours of their own.",
     ),
+    (
+        "surface-distance",
+        MOVEMENTS["surface-distance"].label,
+        "Colour each hex by how far its boundary nodes are from the surface as it was: where the boundary slides.",
+    ),
 ]
 _ARROWS = [
     (Arrows.NONE.value, "None", "No arrows."),
