@@ -134,8 +134,16 @@ def _locked(now: Situation) -> str:
     which = ("It is" if one else "All of them are") if every else f"{many:,} of them {'is' if one else 'are'}"
     said = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion"
     if now.result.surface is None:
-        said += ", and no method moves these unless the boundary slides."
-        remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
+        freed = now.freed
+        if not freed:
+            said += ", even where the boundary slides."
+            remedy = " Correct the boundary where the mesh was made."
+        else:
+            said += ", and no method moves these unless the boundary slides: "
+            said += (
+                f"then {freed:,} can be freed, {many - freed:,} cannot." if freed < many else "then it can free them."
+            )
+            remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
     else:
         said += " where the boundary is fixed, and sliding has not freed these."
         remedy = " Correct the boundary where the mesh was made."

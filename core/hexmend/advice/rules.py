@@ -54,6 +54,21 @@ def untangle(now: Situation) -> Suggestion | None:
     )
 
 
+def slide(now: Situation) -> Suggestion | None:
+    """Locked hexes that are free to be mended once the boundary slides."""
+    if not now.locked.size or now.result.surface is not None or now.smoother.slides or not now.freed:
+        return None
+    many = now.locked.size
+    which = "The locked hex can" if many == 1 else f"{now.freed:,} of the {many:,} locked hexes can"
+    return Suggestion(
+        "Mend, boundary slides",
+        f"Run Mend with boundary = slide. {which} be freed where nodes of the boundary slide on its surface, which "
+        "keeps its edges and corners.",
+        "inverted",
+        Mend(p=now.p, boundary="slide"),
+    )
+
+
 def undo_harm(now: Situation) -> Suggestion | None:
     """A method that inverted hexes of a sound mesh."""
     if now.result.before.inverted or not now.loose.size:
@@ -188,7 +203,7 @@ def soften(now: Situation) -> Suggestion | None:
 
 
 RULES: tuple[Rule, ...] = (
-    unpin, untangle, soften, undo_harm, go_on, faster, tighten, guard, optimum, lift_the_worst, raise_p,
+    unpin, untangle, slide, soften, undo_harm, go_on, faster, tighten, guard, optimum, lift_the_worst, raise_p,
 )  # fmt: skip
 
 
