@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.advice import advise
+from hexmend.advice.situation import Situation
 from hexmend.gallery import make
 from hexmend.optimise import Stop
 from hexmend.quality import measure
@@ -11,6 +12,7 @@ from hexmend.recipe import Recipe, Stage
 from hexmend.run import iterate, smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
+from tests.core.surface.solids import ball, slid
 from tests.core.test_mend import with_locked_corner
 
 MESHES = {
@@ -197,22 +199,14 @@ def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(met
     assert (finished.suggestions, finished.nothing) == ((), "Nothing is known that would better this mesh.")
 
 
-def overtaken():
-    """A grid of which a node on an edge has slid beyond the next: hexes there are locked until it slides back."""
-    mesh = grid(4)
-    points = mesh.points.copy()
-    points[1, 0] = 2.3
-    return mesh.with_points(points)
-
-
 def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
-    mesh = overtaken()
-    result = smooth(mesh, "mend")
+    result = smooth(slid(ball(3), 0.6, seed=0), "mend")
     advice = advise(result)
-    assert advice.locked.size
-    assert "Let it slide (boundary = slide)" in advice.left
+    now = Situation(result)
+    assert 0 < now.freed < advice.locked.size
+    assert f"{now.freed} can be freed, {advice.locked.size - now.freed} cannot. Let it slide" in advice.left
     chosen = next(one for one in advice.suggestions if one.title == "Mend, boundary slides")
-    assert "can be freed where nodes of the boundary slide" in chosen.text
+    assert f"{now.freed} of the {advice.locked.size} locked hexes can be freed" in chosen.text
     after = smooth(result.mesh, chosen.smoother, chosen.stop)
     assert after.after.inverted < result.after.inverted
     assert not any(one.title == chosen.title for one in advise(after).suggestions)
