@@ -105,7 +105,7 @@ class Viewport:
             self.chosen.move(frame.mesh)
         if pinned:
             self.structure.set_pins(frame.mesh.pinned)
-        if classed:
+        if classed or pinned:
             self.structure.set_kinds(frame.kinds)
         self.original.draw(frame)
         if measured:

@@ -12,8 +12,8 @@ from hexmend.quality import ElementQuality, locked
 from hexmend.surface import Kind, boundary_of, freed_by_sliding
 from hexmend_app.state.task import Task
 
-#: The kind, beside `Kind`, of nodes of sharp edges that are no curve: of a chain that ends amid a patch.
-WHISKER = 4
+#: Kinds beside `Kind`: nodes of sharp edges that are no curve, of a chain that ends amid a patch; and pinned ones.
+WHISKER, PIN = 4, 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +25,7 @@ class Classes:
     mesh : Mesh
         Whose it is.
     kinds : (n,) uint8
-        Of each node one of `hexmend.surface.Kind`, or `WHISKER`.
+        Of each node one of `hexmend.surface.Kind`, `WHISKER` or `PIN`.
     locked, freed : int
         Hexes that fixed nodes alone hold in inversion, and how many of them sliding can free.
     """
@@ -41,7 +41,7 @@ class Classes:
 
 
 def node_kinds(mesh: Mesh, degrees: float) -> np.ndarray:
-    """What each node is to the boundary, (n,) uint8: one of `hexmend.surface.Kind`, or `WHISKER`.
+    """What each node is to the boundary, (n,) uint8: one of `hexmend.surface.Kind`, `WHISKER` or `PIN`.
 
     Parameters
     ----------
@@ -52,7 +52,10 @@ def node_kinds(mesh: Mesh, degrees: float) -> np.ndarray:
     boundary = boundary_of(mesh, degrees)
     sharp = np.zeros(mesh.n_nodes, dtype=bool)
     sharp[boundary_of(mesh, degrees, whisker=0).segments] = True
-    return np.where(sharp & (boundary.kind == Kind.PATCH), WHISKER, boundary.kind).astype(np.uint8)
+    kinds = np.where(sharp & (boundary.kind == Kind.PATCH), WHISKER, boundary.kind).astype(np.uint8)
+    if mesh.pinned is not None:
+        kinds[mesh.pinned & (kinds != Kind.INSIDE)] = PIN
+    return kinds
 
 
 def classed(mesh: Mesh, figures: ElementQuality, degrees: float) -> Classes:

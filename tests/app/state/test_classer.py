@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.quality import measure
 from hexmend.surface import Kind, boundary_of
-from hexmend_app.state.classer import WHISKER, Classer, classed, node_kinds
+from hexmend_app.state.classer import PIN, WHISKER, Classer, classed, node_kinds
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, slid
 from tests.patience import PATIENCE
@@ -57,7 +57,7 @@ def test_of_several_questions_the_newest_is_answered(classer, qtbot):
         classer.ask(MESH, FIGURES, 40.0)
         classer.ask(pinned, FIGURES, 40.0)
     qtbot.waitUntil(lambda: not classer.busy, timeout=PATIENCE)
-    assert classer.of(MESH).count(Kind.CORNER) == MESH.topology.boundary.sum()
+    assert classer.of(MESH).count(PIN) == MESH.topology.boundary.sum()
     assert classer.of(ball(2)) is None
     answer = classer.classes
     classer.ask(pinned, FIGURES, 40.0)

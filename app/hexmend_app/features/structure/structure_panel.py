@@ -24,7 +24,7 @@ from hexmend_app.scene.layers.structure import (
     VALENCES,
 )  # fmt: skip
 from hexmend_app.scene.palette import ORIGINAL, RIM, Role
-from hexmend_app.state.classer import WHISKER, Classes
+from hexmend_app.state.classer import PIN, WHISKER, Classes
 from hexmend_app.state.look import Structure
 from hexmend_app.widgets.style import explain, note, tabular
 from hexmend_app.widgets.wording import counted
@@ -69,7 +69,7 @@ _LAYERS: dict[str, tuple[str, str, str]] = {
         "Kinds of nodes",
         "What nodes of the boundary may do where it slides (boundary = slide), by the method's feature angle: corners "
         "and pinned nodes stay, others slide along their curve or on their patch. A whisker is a sharp edge that ends "
-        "amid a patch: its nodes slide on that. A node can be pinned in the panel of its hex.",
+        "amid a patch: its nodes slide on that. Shift+P pins the chosen node.",
         "None: the mesh has no boundary.",
     ),
     "original": (
@@ -80,7 +80,9 @@ _LAYERS: dict[str, tuple[str, str, str]] = {
 }
 _EDGES = ("irregular", "boundary", "sharp")
 #: What nodes are called by what they are to the boundary.
-_CALLED = {Kind.CORNER: "corners", Kind.CURVE: "on curves", Kind.PATCH: "on patches", WHISKER: "on whiskers"}
+_CALLED = {
+    Kind.CORNER: "corners", Kind.CURVE: "on curves", Kind.PATCH: "on patches", WHISKER: "on whiskers", PIN: "pinned",
+}  # fmt: skip
 #: Layers that can be chosen before it is known what there is of them: somebody has to want it first.
 _AT_ONCE = ("kinds",)
 _NOT_YET = "Being counted."

@@ -16,7 +16,7 @@ from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.layers.marks import Marks
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.skin import Faces
-from hexmend_app.state.classer import WHISKER, node_kinds
+from hexmend_app.state.classer import PIN, WHISKER, node_kinds
 from hexmend_app.state.look import Look, Structure
 
 #: Colours by the number of elements around an edge, Okabe and Ito's; OTHER for numbers that are not here.
@@ -28,8 +28,10 @@ SHARP = "#11151c"
 #: Colours of nodes.
 BOUNDARY, PINNED, FREE, LOCKED = "#9aa5b4", "#e69f00", "#ffffff", "#f0e442"
 
-#: Colours of nodes by what they are to the boundary, and of those of whiskers.
-KINDS: dict[int, str] = {Kind.CORNER: "#d55e00", Kind.CURVE: "#56b4e9", Kind.PATCH: "#009e73", WHISKER: "#cc79a7"}
+#: Colours of nodes by what they are to the boundary.
+KINDS: dict[int, str] = {
+    Kind.CORNER: "#d55e00", Kind.CURVE: "#56b4e9", Kind.PATCH: "#009e73", WHISKER: "#cc79a7", PIN: PINNED,
+}  # fmt: skip
 
 #: Marks of one sort that are drawn in full. More of them are drawn thinner, and paler inside, or nothing else is seen;
 #: in fast frames without rims and not inside, or 26,000 would cost a tenth of a second without a graphics card.
@@ -219,8 +221,6 @@ def node_marks(
     if wanted.kinds and kinds is not None:
         boundary = kinds > 0
         marks[boundary] = _LOCKED + kinds[boundary]
-        if mesh.pinned is not None:
-            marks[boundary & mesh.pinned] = _PINNED
     if wanted.free:
         marks[mesh.free] = _FREE
     if wanted.locked and figures.n_inverted:

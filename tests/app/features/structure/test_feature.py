@@ -18,6 +18,7 @@ from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.scene.layers.structure import KINDS, LOCKED, PINNED, SHARP, VALENCES
 from hexmend_app.shell.palette import CommandPalette
 from hexmend_app.shell.program import application
+from hexmend_app.state.classer import PIN
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Look, Structure
 from hexmend_app.state.task import running
@@ -193,7 +194,7 @@ def test_a_pin_makes_a_node_of_the_boundary_stay(five, qtbot):
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
     node = int(np.flatnonzero(five.session.classer.classes.kinds == Kind.PATCH)[0])
     five.session.commands.pin(node, True)
-    qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == Kind.CORNER, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == PIN, timeout=PATIENCE)
     five.session.commands.undo()
     qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == Kind.PATCH, timeout=PATIENCE)
 
