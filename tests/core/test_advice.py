@@ -212,6 +212,24 @@ def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
     assert not any(one.title == chosen.title for one in advise(after).suggestions)
 
 
+def test_a_mend_cut_short_on_a_detour_is_begun_again():
+    mesh = slid(ball(3), 0.6, seed=0)
+    result = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), Stop(max_iterations=7))
+    advice = advise(result)
+    assert result.kept < result.iterations
+    assert "sliding has not freed these so far." in advice.left
+    longer = next(one for one in advice.suggestions if one.title == "The same from before the run, longer")
+    assert longer.undo
+    assert longer.smoother == METHODS["mend"](goal="scaled-jacobian", boundary="slide")
+    assert longer.stop == Stop(max_iterations=100)
+    after = smooth(mesh, longer.smoother, longer.stop)
+    assert after.after.inverted < result.after.inverted
+    stopped = iterate(mesh, longer.smoother)
+    next(stopped)
+    stopped.close()
+    assert not any(one.title == longer.title for one in advise(stopped.result()).suggestions)
+
+
 def test_a_locked_hex_that_sliding_has_not_freed_is_not_told_to_slide():
     result = smooth(with_locked_corner(grid(1)), METHODS["local-nr"](boundary="slide"))
     left = advise(result).left

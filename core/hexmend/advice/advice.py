@@ -140,13 +140,12 @@ def _locked(now: Situation) -> str:
             remedy = " Correct the boundary where the mesh was made."
         else:
             said += ", and no method moves these unless the boundary slides: "
-            said += (
-                f"then {freed:,} can be freed, {many - freed:,} cannot." if freed < many else "then it can free them."
-            )
+            rest = f", {many - freed:,} cannot" if freed < many else ""
+            said += f"then {freed:,} can be freed{rest}."
             remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
     else:
-        said += " where the boundary is fixed, and sliding has not freed these."
-        remedy = " Correct the boundary where the mesh was made."
+        said += f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
+        remedy = "" if now.cut_short else " Correct the boundary where the mesh was made."
     if not now.pins_of(now.locked).size:
         said += remedy
     return said
