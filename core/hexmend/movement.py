@@ -213,6 +213,7 @@ class Movement:
         change = self.values("q-change")
         return Counts(
             int(np.count_nonzero(moved)),
+            int(np.count_nonzero(moved & self.mesh.topology.boundary)),
             float(distances[moved].mean()) if moved.any() else 0.0,
             float(distances.max(initial=0.0)),
             int(np.count_nonzero(change > NOTHING)),
@@ -230,6 +231,8 @@ class Counts:
     ----------
     moved : int
         Nodes that are elsewhere.
+    slid : int
+        Those of the boundary among them.
     mean, largest : float
         How far they are, in mean edge lengths.
     better, worse : int
@@ -239,6 +242,7 @@ class Counts:
     """
 
     moved: int
+    slid: int
     mean: float
     largest: float
     better: int

@@ -48,6 +48,8 @@ def test_what_slides_within_a_face_stays_on_the_surface():
     movement = moved(slid(MESH, 0.3, seed=1).points)
     assert movement.distances[MESH.topology.boundary].max() > 0.2
     assert movement.values("surface-distance").max() < 1e-12
+    assert 0 < movement.counts.slid == movement.counts.moved - 64
+    assert moved(scrambled(MESH, 0.3).points).counts.slid == 0
 
 
 def test_distance_from_the_surface_is_that_of_boundary_nodes_alone():

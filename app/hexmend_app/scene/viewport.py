@@ -107,10 +107,10 @@ class Viewport:
             self.structure.set_pins(frame.mesh.pinned)
         if classed or pinned:
             self.structure.set_kinds(frame.kinds)
-        self.original.draw(frame)
         if measured:
             self.colours.measure(frame)
         keep = self.kept()
+        self.original.draw(frame, keep)
         if looked or not same_mask(keep, self._keep):
             self._keep = keep
             self._rebuild()

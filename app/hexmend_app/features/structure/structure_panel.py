@@ -89,7 +89,7 @@ _NOT_YET = "Being counted."
 _COLUMNS = 2
 
 #: Letters up to which texts stand beside each other: two more and they are cut off in a narrow column.
-_WIDEST = 8
+_WIDEST = 6
 
 #: What one mark of a layer stands for: its colour, or None for a remark without a mark, whether it is a line, and the
 #: text beside it.

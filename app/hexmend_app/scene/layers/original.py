@@ -6,6 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from hexmend_app.scene.filters import same_mask
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.flat import flat_actor
 from hexmend_app.scene.palette import ORIGINAL, rgb
@@ -30,7 +31,7 @@ class Original:
 
     def __init__(self, renderer: vtkRenderer, pen: float = 1.0):
         self._points: np.ndarray | None = None
-        self._faces: np.ndarray | None = None
+        self._keep: np.ndarray | None = None
         self.poly = pv.PolyData()
         self._actors = flat_actor(renderer, opacity=_FACES), flat_actor(renderer, pen, _EDGES)
         for actor in self._actors:
@@ -55,15 +56,28 @@ class Original:
         for actor in self._actors:
             actor.GetProperty().SetColor(rgb(ORIGINAL.of(dark)))
 
-    def draw(self, frame: Frame) -> None:
-        """Draw what a frame wants of it; what is drawn already stays."""
+    def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
+        """Draw what a frame wants of it; what is drawn already stays.
+
+        Parameters
+        ----------
+        frame : Frame
+        keep : (m,) bool, optional
+            Hexes that are shown, in whole or in part, to whose faces it is confined; None for all.
+        """
         on = frame.look.structure.original and frame.original is not None
-        if on and (frame.original is not self._points or frame.mesh.topology.boundary_faces is not self._faces):
-            self._take(frame.original, frame.mesh.topology.boundary_faces)
+        if on and (frame.original is not self._points or not same_mask(keep, self._keep)):
+            self._points, self._keep = frame.original, keep
+            topology = frame.mesh.topology
+            hexes = np.nonzero(topology.face_neighbours < 0)[0]
+            self._take(frame.original, topology.boundary_faces[slice(None) if keep is None else keep[hexes]])
         for actor in self._actors:
-            actor.SetVisibility(on)
+            actor.SetVisibility(on and self.poly.n_cells > 0)
 
     def _take(self, points: np.ndarray, faces: np.ndarray) -> None:
+        if not len(faces):
+            self.poly = pv.PolyData()
+            return
         nodes, quads = np.unique(faces, return_inverse=True)
         quads = quads.reshape(faces.shape)
         self.poly = pv.PolyData.from_regular_faces(points[nodes], quads)
@@ -73,4 +87,3 @@ class Original:
         lines.lines = np.column_stack([np.full(len(edges), 2), edges]).ravel()
         for actor, poly in zip(self._actors, (self.poly, lines), strict=True):
             actor.GetMapper().SetInputData(poly)
-        self._points, self._faces = points, faces

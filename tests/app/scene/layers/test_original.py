@@ -8,6 +8,7 @@ from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
+from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Look, Structure
 from tests.core.grids import grid
 
@@ -64,6 +65,18 @@ def test_it_stays_while_the_nodes_move(drawn):
     assert drawn.viewport.original.poly is poly
     drawn(Frame(MESH, measure(MESH.points, MESH.hexes), look=ON))  # nothing is known of the opened mesh
     assert not drawn.viewport.original.shown
+
+
+def test_of_hexes_that_are_hidden_nothing_is_drawn(drawn):
+    half = Look(clip=PlaneClip.at((0, 0, 1), (2, 2, 1.9)), structure=Structure(original=True))
+    drawn(frame(MESH.points))
+    assert len(drawn.viewport.original.places) == MESH.topology.boundary.sum()
+    drawn(frame(MESH.points, half))
+    assert 0 < np.ptp(drawn.viewport.original.places, axis=0)[2] < 3
+    drawn(frame(MESH.points, Look(peel=1, structure=Structure(original=True))))
+    assert not drawn.viewport.original.shown
+    drawn(frame(MESH.points))
+    assert drawn.viewport.original.shown
 
 
 def test_beside_it_stands_too_where_the_hexes_are_the_same():
