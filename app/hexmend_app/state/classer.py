@@ -1,4 +1,4 @@
-"""What the nodes of a boundary may do where it slides, found beside the window: seconds at a million elements."""
+"""What the nodes of a boundary may do where it slides, found beside the window."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ class Classer(QObject):
 
     def _begin(self) -> None:
         self._asked = question = self._wanted
-        self._task = Task(f"reading {question[0].name}: its boundary", lambda _: classed(*question), yields=True)
+        self._task = Task(f"reading {question[0].name}: its boundary", lambda _: classed(*question))
         self._task.ended.connect(self._finish)
         self._task.start()
 
