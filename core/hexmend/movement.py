@@ -11,6 +11,7 @@ import numpy as np
 from hexmend.kernels import corner_values
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementFigure, ElementQuality
+from hexmend.surface import Skin
 
 #: Changes of q, and ways in mean edge lengths, that are rounding.
 NOTHING = 1e-9
@@ -38,8 +39,13 @@ class Change(ElementFigure):
 
 
 def _moved(movement: Movement, of_corners: Callable[..., None]) -> np.ndarray:
+    return _of_nodes(movement, movement.distances, of_corners)
+
+
+def _of_nodes(movement: Movement, distances: np.ndarray, of_corners: Callable[..., None]) -> np.ndarray:
+    """What becomes of distances of nodes, (n,) in the unit of the mesh, in each hex, (m,) in mean edge lengths."""
     values = np.empty(movement.mesh.n_hexes)
-    of_corners(movement.mesh.hexes, movement.distances / movement.unit, values)
+    of_corners(movement.mesh.hexes, distances / movement.unit, values)
     return values
 
 
@@ -88,6 +94,21 @@ MOVEMENTS: dict[str, Change] = {
             meaning="Which hexes have paid for what others have gained.",
             of=lambda movement: movement.figures.q - movement.before.figures.q,
         ),
+        Change(
+            name="surface-distance",
+            title="Distance from the surface",
+            label="Off surface",
+            since="mean edge lengths off the surface",
+            formula="greatest distance, over the boundary nodes of a hex, from the boundary as it was, in mean edge "
+            "lengths of the mesh as it was opened",
+            source="Hexmend",
+            full_range=(0.0, np.inf),
+            acceptable=(0.0, np.inf),
+            better=0,
+            meaning="Where a boundary that slides has left the surface.",
+            unit="mean edge lengths",
+            of=lambda movement: _of_nodes(movement, movement.off_surface, corner_values.largest),
+        ),
     )
 }
 
@@ -115,6 +136,13 @@ class Moment:
     points: np.ndarray
     figures: ElementQuality
     name: str
+    _skins: dict[str, Skin] = field(default_factory=dict)
+
+    def skin(self, mesh: Mesh) -> Skin:
+        """The boundary of the mesh as it was; found once."""
+        if "whole" not in self._skins:
+            self._skins["whole"] = Skin(self.points, mesh.topology.boundary_faces)
+        return self._skins["whole"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,6 +180,15 @@ class Movement:
         return np.sqrt(np.square(self.points - self.before.points).sum(axis=1))
 
     @cached_property
+    def off_surface(self) -> np.ndarray:
+        """How far each boundary node is from the boundary as it was, (n,) float64 in the unit of the mesh; others 0."""
+        off = np.zeros(len(self.points))
+        moved = np.flatnonzero(self.mesh.topology.boundary & (self.distances > 0))
+        if moved.size:
+            off[moved] = self.before.skin(self.mesh).distances(self.points[moved])
+        return off
+
+    @cached_property
     def unit(self) -> float:
         """The mean edge length of the mesh."""
         return self.mesh.mean_edge_length or 1.0
@@ -176,6 +213,7 @@ class Movement:
         change = self.values("q-change")
         return Counts(
             int(np.count_nonzero(moved)),
+            int(np.count_nonzero(moved & self.mesh.topology.boundary)),
             float(distances[moved].mean()) if moved.any() else 0.0,
             float(distances.max(initial=0.0)),
             int(np.count_nonzero(change > NOTHING)),
@@ -193,6 +231,8 @@ class Counts:
     ----------
     moved : int
         Nodes that are elsewhere.
+    slid : int
+        Those of the boundary among them.
     mean, largest : float
         How far they are, in mean edge lengths.
     better, worse : int
@@ -202,6 +242,7 @@ class Counts:
     """
 
     moved: int
+    slid: int
     mean: float
     largest: float
     better: int

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.advice import advise
+from hexmend.advice.situation import Situation
 from hexmend.gallery import make
 from hexmend.optimise import Stop
 from hexmend.quality import measure
@@ -11,6 +12,7 @@ from hexmend.recipe import Recipe, Stage
 from hexmend.run import iterate, smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
+from tests.core.surface.solids import ball, slid
 from tests.core.test_mend import with_locked_corner
 
 MESHES = {
@@ -144,7 +146,8 @@ def test_locked_hexes_are_named_and_nothing_vain_is_suggested():
     assert advice.locked.tolist() == [mesh.topology.node_corners.items[0] // 8]
     assert advice.loose.size == 0
     assert "1 of 300 hexes is inverted. It is locked: fixed nodes alone hold it in inversion" in advice.left
-    assert "Let it slide (boundary = slide)" in advice.left
+    assert "even where the boundary slides. Correct the boundary" in advice.left
+    assert "Let it slide" not in advice.left
     assert advice.suggestions == ()
 
 
@@ -194,6 +197,37 @@ def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(met
     assert advice.nothing == ""
     finished = advise(smooth(make("cube", size=27), "mend"))
     assert (finished.suggestions, finished.nothing) == ((), "Nothing is known that would better this mesh.")
+
+
+def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
+    result = smooth(slid(ball(3), 0.6, seed=0), "mend")
+    advice = advise(result)
+    now = Situation(result)
+    assert 0 < now.freed < advice.locked.size
+    assert f"{now.freed} can be freed, {advice.locked.size - now.freed} cannot. Let it slide" in advice.left
+    chosen = next(one for one in advice.suggestions if one.title == "Mend, boundary slides")
+    assert f"{now.freed} of the {advice.locked.size} locked hexes can be freed" in chosen.text
+    after = smooth(result.mesh, chosen.smoother, chosen.stop)
+    assert after.after.inverted < result.after.inverted
+    assert not any(one.title == chosen.title for one in advise(after).suggestions)
+
+
+def test_a_mend_cut_short_on_a_detour_is_begun_again():
+    mesh = slid(ball(3), 0.6, seed=0)
+    result = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), Stop(max_iterations=7))
+    advice = advise(result)
+    assert result.kept < result.iterations
+    assert "sliding has not freed these so far." in advice.left
+    longer = next(one for one in advice.suggestions if one.title == "The same from before the run, longer")
+    assert longer.undo
+    assert longer.smoother == METHODS["mend"](goal="scaled-jacobian", boundary="slide")
+    assert longer.stop == Stop(max_iterations=100)
+    after = smooth(mesh, longer.smoother, longer.stop)
+    assert after.after.inverted < result.after.inverted
+    stopped = iterate(mesh, longer.smoother)
+    next(stopped)
+    stopped.close()
+    assert not any(one.title == longer.title for one in advise(stopped.result()).suggestions)
 
 
 def test_a_locked_hex_that_sliding_has_not_freed_is_not_told_to_slide():

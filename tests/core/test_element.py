@@ -62,7 +62,10 @@ def test_a_node_says_what_the_mesh_says_of_it():
         np.testing.assert_allclose(one.downhill, -gradient[k] * units, atol=1e-12)
         assert one.energy == pytest.approx(np.square(measure(mesh.points, mesh.hexes).eta[one.ring]).sum())
     assert node(mesh, int(inner[3])).kind == "pinned"
-    assert node(mesh, 0).kind == "boundary"
+    assert node(mesh, int(inner[3])).pinned
+    assert node(mesh, 0).kind == node(mesh.replace(pinned=mesh.topology.boundary), 0).kind == "boundary"
+    assert not node(mesh, 0).pinned
+    assert node(mesh.replace(pinned=mesh.topology.boundary), 0).pinned
     tangled = scrambled(grid(4), 2.0, 1)
     one = node(tangled, int(tangled.hexes[measure(tangled.points, tangled.hexes).inverted][0, 0]))
     assert one.energy == np.inf

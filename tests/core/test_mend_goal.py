@@ -78,7 +78,29 @@ def test_what_limits_the_least_is_told():
     movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
     least = scaled_jacobians(result.mesh.points, mesh.hexes)[movable].min()
     assert f"The least scaled Jacobian of the corners that can be moved is {least:.4f}" in result.message
-    assert "The least scaled Jacobian" not in smooth(mesh, Mend()).message
+    held = np.unique(result.limits.hexes)
+    assert held.size
+    assert ", ".join(f"{h}" for h in dict.fromkeys(result.limits.hexes[:8].tolist())) in result.message
+    values = scaled_jacobians(result.mesh.points, mesh.hexes)
+    corner = mesh.hexes[result.limits.hexes] == result.limits.nodes[:, None]
+    assert corner.sum() == result.limits.hexes.size
+    np.testing.assert_allclose(values[result.limits.hexes][corner], least, atol=1e-3)
+    assert (values[result.limits.locked].min(axis=1) < least).all()
+    shaped = smooth(mesh, Mend())
+    assert "The least scaled Jacobian" not in shaped.message
+    assert shaped.limits is None
+
+
+def test_a_corner_that_is_locked_below_the_others_is_told():
+    cube = grid(2)
+    points = cube.points.copy()
+    points[cube.topology.boundary & (points == 0).all(axis=1)] += 0.35  # the apex of a corner of the cube
+    mesh = scrambled(cube.with_points(points), 0.2)
+    result = smooth(mesh, Mend(goal="scaled-jacobian"))
+    assert result.limits.locked.tolist() == [0]
+    values = scaled_jacobians(result.mesh.points, mesh.hexes)
+    assert "One corner is locked below that" in result.message or "corners are locked below that" in result.message
+    assert f"{values.min():.4f} at the lowest, in hex 0." in result.message
 
 
 def test_cad4_is_raised_to_its_optimum(real_mesh):

@@ -6,6 +6,7 @@ import pytest
 from hexmend.movement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Moment, Movement
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
+from tests.core.surface.solids import slid
 
 MESH = grid(5)
 
@@ -41,3 +42,24 @@ def test_where_nothing_has_moved_all_is_zero():
     for name in MOVEMENTS:
         assert not movement.values(name).any()
     assert not any(vars(movement.counts).values())
+
+
+def test_what_slides_within_a_face_stays_on_the_surface():
+    movement = moved(slid(MESH, 0.3, seed=1).points)
+    assert movement.distances[MESH.topology.boundary].max() > 0.2
+    assert movement.values("surface-distance").max() < 1e-12
+    assert 0 < movement.counts.slid == movement.counts.moved - 64
+    assert moved(scrambled(MESH, 0.3).points).counts.slid == 0
+
+
+def test_distance_from_the_surface_is_that_of_boundary_nodes_alone():
+    points = MESH.points.copy()
+    on_face = (points[:, 0] == 0) & ((points[:, 1:] > 0) & (points[:, 1:] < 5)).all(axis=1)
+    points[np.flatnonzero(on_face)[0]] += (-0.25, 0.1, 0)  # across the face, and along it
+    points[np.flatnonzero(MESH.free)[-1]] += 0.3
+    movement = moved(points)
+    values = movement.values("surface-distance")
+    beside = (MESH.hexes == np.flatnonzero(on_face)[0]).any(axis=1)
+    np.testing.assert_allclose(values[beside], 0.25, rtol=1e-12)
+    assert not values[~beside].any()
+    assert movement.until(points, movement.figures).before.skin(MESH) is movement.before.skin(MESH)

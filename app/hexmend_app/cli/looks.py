@@ -43,7 +43,8 @@ def add_arguments(parser: argparse.ArgumentParser, size: str) -> None:
     parser.add_argument(
         "--structure",
         metavar="NAMES",
-        help="draw irregular, boundary or sharp edges, fixed, free or locked nodes; several separated by commas",
+        help="draw irregular, boundary or sharp edges, fixed, free or locked nodes, kinds of boundary nodes; several "
+        "separated by commas",
     )
     parser.add_argument("--neutral", action="store_true", help="white outside and one colour inside, no values")
     parser.add_argument("--no-shading", action="store_true", help="do not darken what little light reaches")
@@ -89,7 +90,7 @@ def look_of(args: argparse.Namespace, mesh: Mesh) -> Look:
 def _structure(text: str) -> Structure:
     from hexmend_app.state.look import Structure
 
-    names, known = text.split(","), [one.name for one in fields(Structure)]
+    names, known = text.split(","), [one.name for one in fields(Structure) if one.name != "original"]
     for name in names:
         if name not in known:
             raise wrong("--structure", text, f"names among {', '.join(known)}, separated by commas")

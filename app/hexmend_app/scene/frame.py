@@ -27,12 +27,19 @@ class Frame:
     movement : Movement, optional
         What colours and arrows of a movement show; None where nothing of a movement is looked at.
     look : Look
+    original : (n, 3) float64, optional
+        Where the nodes were when the mesh was opened, for a look that shows that boundary.
+    kinds : (n,) uint8, optional
+        What each node is to the boundary, see `hexmend_app.state.classer.node_kinds`, for a look that shows that; where
+        there are none, they are found.
     """
 
     mesh: Mesh
     figures: ElementQuality
     movement: Movement | None = None
     look: Look = field(default_factory=Look)
+    original: np.ndarray | None = None
+    kinds: np.ndarray | None = None
 
     def is_of(self, other: Frame | None) -> bool:
         """Whether it shows the very mesh of another frame, its nodes elsewhere or not."""
@@ -44,14 +51,14 @@ class Frame:
         It compares with the same moment.
         """
         movement = first.movement
-        if movement is not None and not same_hexes(movement.mesh, self.mesh):
-            movement = None
-        elif movement is not None:
+        if not same_hexes(first.mesh, self.mesh):
+            return Frame(self.mesh, self.figures, None, first.look)
+        if movement is not None:
             known = self.movement
             then = movement.before
             alike = known is not None and known.before.points is then.points and known.before.name == then.name
             movement = known if alike else movement.until(self.mesh.points, self.figures)
-        return Frame(self.mesh, self.figures, movement, first.look)
+        return Frame(self.mesh, self.figures, movement, first.look, first.original, first.kinds)
 
 
 def same_hexes(one: Mesh, other: Mesh) -> bool:

@@ -97,6 +97,7 @@ RIM = Role("#11151c", "#8b95a3")  # of what shows a colour of the view
 BACKGROUND = Role("#eef1f5", "#323943")  # one colour: a gradient costs software rendering a fifth of the frame
 AXES = Role("#39414d", "#d5dae1", on=(BACKGROUND,))
 GHOST = Role("#6f7b8b", "#aab4c1")
+ORIGINAL = Role("#0072b2", "#6cb9f0")  # the boundary as it was opened
 SHARP = Role("#1b1f2a", "#0c0e13")
 SILHOUETTE = Role("#7d8797", "#8d97a5")
 SHADE = Role("#d9dfe8", "#3e4651")  # a little apart from the background

@@ -17,6 +17,7 @@ from hexmend_app.scene.layers.axes import Axes
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.chosen import Chosen
 from hexmend_app.scene.layers.ghosts import Ghosts
+from hexmend_app.scene.layers.original import Original
 from hexmend_app.scene.layers.silhouette import Silhouette
 from hexmend_app.scene.layers.structure import StructureLayers
 from hexmend_app.scene.palette import BACKGROUND
@@ -42,6 +43,7 @@ class Viewport:
     outline : Silhouette or None
         What a part is cut from, once there is a mesh.
     structure : StructureLayers
+    original : Original
     arrow_layer : ArrowLayer
 
     Parameters
@@ -65,6 +67,7 @@ class Viewport:
         self.colours = ElementColours()
         self.body = Body(pane, pen)
         self._ghosts = Ghosts(pane.renderer, pen)
+        self.original = Original(pane.renderer, pen)
         self.outline: Silhouette | None = None
         self.structure = StructureLayers(pane, pen)
         self.arrow_layer = ArrowLayer(pane, pen)
@@ -81,6 +84,7 @@ class Viewport:
             self.axes.set_dark(dark)
         self.chosen.set_dark(dark)
         self._ghosts.set_dark(dark)
+        self.original.set_dark(dark)
         if self.outline is not None:
             self.outline.set_dark(dark)
 
@@ -92,6 +96,7 @@ class Viewport:
         another = not frame.is_of(last)
         moved = another or frame.mesh.points is not last.mesh.points or frame.figures is not last.figures
         pinned = not another and frame.mesh.pinned is not last.mesh.pinned
+        classed = another or frame.kinds is not last.kinds
         looked = another or frame.look != last.look
         measured = moved or frame.movement is not last.movement or not frame.look.coloured_as(last.look)
         if another:
@@ -100,13 +105,16 @@ class Viewport:
             self.chosen.move(frame.mesh)
         if pinned:
             self.structure.set_pins(frame.mesh.pinned)
+        if classed or pinned:
+            self.structure.set_kinds(frame.kinds)
         if measured:
             self.colours.measure(frame)
         keep = self.kept()
+        self.original.draw(frame, keep)
         if looked or not same_mask(keep, self._keep):
             self._keep = keep
             self._rebuild()
-        elif measured or pinned:
+        elif measured or pinned or classed:
             self._move()
 
     def _take_mesh(self) -> None:

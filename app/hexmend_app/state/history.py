@@ -18,6 +18,26 @@ from hexmend_app.state.settings import HISTORY_MEGABYTES
 LIMIT = HISTORY_MEGABYTES.default << 20
 
 
+@dataclass(frozen=True, eq=False)
+class Offsets:
+    """How far nodes are from where a run started.
+
+    Parameters
+    ----------
+    nodes : (k,) int32
+        All others are where they were.
+    ways : (k, 3) float32
+    """
+
+    nodes: np.ndarray
+    ways: np.ndarray
+
+    @property
+    def nbytes(self) -> int:
+        """What it takes; the nodes, which many share, are not counted."""
+        return self.ways.nbytes
+
+
 class Record:
     """What is kept of one run.
 
@@ -50,8 +70,9 @@ class Record:
         self.end: State | None = None
         self.message = ""
         self.pauses: dict[int, str] = {}
-        self._free = np.flatnonzero(start.mesh.free).astype(np.int32)
-        self._offsets: dict[int, np.ndarray] = {}  # of free nodes from the start, float32, by number
+        self._moved = start.mesh.free  # so far: where the boundary slides, there are others than the free ones
+        self._nodes = np.flatnonzero(self._moved).astype(np.int32)
+        self._offsets: dict[int, Offsets] = {}  # from the start, by number
 
     @property
     def newest(self) -> int:
@@ -63,9 +84,13 @@ class Record:
         numbers = np.array([0, *self._offsets])  # a dict keeps the order of adding
         return numbers if self.end is None or self.result in self._offsets else np.union1d(numbers, self.result)
 
-    def compact(self, points: np.ndarray) -> np.ndarray:
-        """How far the free nodes are from where they started, (free nodes, 3) float32."""
-        return (points[self._free] - self.start.mesh.points[self._free]).astype(np.float32)
+    def compact(self, points: np.ndarray) -> Offsets:
+        """How far the nodes that have moved by now are from where they started."""
+        way = points - self.start.mesh.points
+        moved = self._moved | way.any(axis=1)
+        if np.count_nonzero(moved) > self._nodes.size:
+            self._moved, self._nodes = moved, np.flatnonzero(moved).astype(np.int32)
+        return Offsets(self._nodes, way[self._nodes].astype(np.float32))
 
     def points(self, number: int) -> np.ndarray:
         """Where the nodes were, (n, 3) float64: as they were at the start and the result, else within rounding.
@@ -82,7 +107,8 @@ class Record:
         if number == self.result and self.end is not None:
             return self.end.mesh.points
         points = self.start.mesh.points.copy()
-        points[self._free] += self._offsets[number]
+        offsets = self._offsets[number]
+        points[offsets.nodes] += offsets.ways
         return points
 
 

@@ -126,6 +126,10 @@ class Structure:
         Nodes that no method moves, and those that methods may move, of the elements in sight.
     locked : bool
         The nodes in sight of elements that fixed nodes alone keep inverted.
+    kinds : bool
+        What the nodes of the boundary in sight may do where it slides: corners, those of curves, those of patches.
+    original : bool
+        The boundary as it was when the mesh was opened, see-through.
     """
 
     irregular: bool = False
@@ -134,6 +138,8 @@ class Structure:
     fixed: bool = False
     free: bool = False
     locked: bool = False
+    kinds: bool = False
+    original: bool = False
 
     @property
     def edges(self) -> bool:

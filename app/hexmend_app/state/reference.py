@@ -21,6 +21,7 @@ class References:
     def __init__(self, document: Document, records: History):
         self._document, self._history = document, records
         self._last: tuple[tuple, Movement] | None = None
+        self._before: tuple[State, Moment] | None = None
         self._measured: tuple[history.Moment, State] | None = None
 
     def movement(self, since: Since) -> Movement:
@@ -30,9 +31,15 @@ class References:
         asked = (now, since, shown)
         if self._last is None or self._last[0] != asked:
             state, name = self._find(since, shown)
-            before = Moment(state.mesh.points, state.figures, name)
+            before = self._moment(state, name)
             self._last = asked, Movement(self._document.start.mesh, before, now.mesh.points, now.figures)
         return self._last[1]
+
+    def _moment(self, state: State, name: str) -> Moment:
+        """A state to compare with: the same as long as it is the one, with what is known of its surface."""
+        if self._before is None or self._before[0] is not state or self._before[1].name != name:
+            self._before = state, Moment(state.mesh.points, state.figures, name)
+        return self._before[1]
 
     def _find(self, since: Since, shown: history.Moment | None) -> tuple[State, str]:
         if since is Since.OPENED or shown is None:

@@ -9,6 +9,7 @@ from functools import partial
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from hexmend.advice import Advice
 from hexmend.optimise import Result
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
@@ -43,6 +44,8 @@ class Smoothing(QObject):
         What the run does that goes on or went on last.
     record : Record or None
         The history's of the run that goes on or went on last.
+    advice : Advice or None
+        Why the run that went on last ended, and what to do.
     following : bool
         Whether iterations are shown as they come; the user may look at earlier ones meanwhile.
 
@@ -76,6 +79,7 @@ class Smoothing(QObject):
         self._breakpoints = Breakpoints()
         self.work: Smoother | Recipe | None = None
         self.record: Record | None = None
+        self.advice: Advice | None = None
         self.following = True
         self.phase = Phase.IDLE
         self._timer = QTimer(self)
@@ -222,6 +226,7 @@ class Smoothing(QObject):
         if last is not None:
             self._document.commit(self._title, last.state, show=self.following)
             self.iterated.emit(last)
+        self.advice = worker.advice
         self._set_phase(Phase.FINISHED)
         self.ended.emit(worker.task.result)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.chain import Chain
+from hexmend_app.state.classer import Classer
 from hexmend_app.state.commands import Commands
 from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
@@ -44,6 +45,7 @@ class Session(QObject):
     references : References
     opener : Opener
     finder : Finder
+    classer : Classer
     explainer : Explainer
     stepping : Stepping
     comparison : Comparison
@@ -67,6 +69,7 @@ class Session(QObject):
         self.references = References(self.document, self.history)
         self.opener = Opener(self.document, self)
         self.finder = Finder(self.document, self)
+        self.classer = Classer(self)
         self.explainer = Explainer(self)
         self.stepping = Stepping(self.document, self)
         self.comparison = Comparison(self.document, self)
@@ -88,6 +91,7 @@ class Session(QObject):
         self.smoothing.shut_down()
         self.opener.shut_down()
         self.finder.shut_down()
+        self.classer.shut_down()
         self.explainer.shut_down()
         self.comparison.shut_down()
 

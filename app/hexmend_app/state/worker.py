@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from hexmend.advice import Advice, advise
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result
 from hexmend.quality import summarise
@@ -70,6 +71,8 @@ class Worker:
         The newest.
     prepared : threading.Event
         The method has been set up, or has failed to be.
+    advice : Advice or None
+        Why the run ended and what to do, once it has.
     """
 
     def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None, keep: Callable[[Iteration], object]):
@@ -77,6 +80,7 @@ class Worker:
         self.mailbox = Mailbox()
         self.last: Frame | None = None
         self.prepared = threading.Event()
+        self.advice: Advice | None = None
         self.metrics: frozenset[str] = frozenset()  # what the window will ask of every iteration
         self.breakpoints = Breakpoints()
         self._order = (mesh, smoother, stop)
@@ -129,7 +133,9 @@ class Worker:
             run.close()
             if run.reached is not run.last:
                 self._report(run.reached)
-            return run.result()
+            result = run.result()
+            self.advice = advise(result)
+            return result
         finally:
             self.prepared.set()
 

@@ -28,6 +28,11 @@ class Advice:
         In what that is worse than what the run was given, as a sentence; "" where it is not.
     locked, loose : (k,) int64
         Numbers, from 0, of the inverted hexes that fixed nodes hold in inversion, and of the other inverted ones.
+    surface : str
+        How far its boundary is from where it was, as a sentence; "" where no method let it slide.
+    holding, held : (k,) int64
+        Hexes whose corners hold each other, so that the least rises no further, and those with a corner that is lower
+        yet, whose nodes are all fixed.
     suggestions : tuple of Suggestion
         The most urgent first; empty where nothing is known to help.
     nothing : str
@@ -39,6 +44,9 @@ class Advice:
     worse: str
     locked: np.ndarray
     loose: np.ndarray
+    surface: str
+    holding: np.ndarray
+    held: np.ndarray
     suggestions: tuple[Suggestion, ...]
     nothing: str
 
@@ -52,7 +60,19 @@ def advise(result: Result) -> Advice:
     untried = result.outcome is Outcome.STOPPED and not result.iterations
     nothing = "" if untried else "Nothing is known that would better this mesh."
     fallen = worse_in_words(result.before, result.after)
-    return Advice(_why(now), _left(now), fallen, now.locked, now.loose, tuple(told), nothing)
+    limits, none = result.limits, np.empty(0, dtype=np.int64)
+    return Advice(
+        why=_why(now),
+        left=_left(now),
+        worse=fallen,
+        locked=now.locked,
+        loose=now.loose,
+        surface="" if result.surface is None else result.surface.words,
+        holding=none if limits is None else np.unique(limits.hexes),
+        held=none if limits is None else limits.locked[~now.figures.inverted[limits.locked]],
+        suggestions=tuple(told),
+        nothing=nothing,
+    )
 
 
 def _why(now: Situation) -> str:
@@ -92,7 +112,10 @@ def _left(now: Situation) -> str:
         done = " It can hardly be better." if after.q_min >= 0.99 else ""
         count = before.inverted
         mended = f" {count:,} {'was' if count == 1 else 'were'} inverted at the start." if count else ""
-        return f"No hex is inverted; the worst has q = {after.q_min:.3f}.{mended}{done}"
+        least = f"{after.q_min:.3f}"
+        if now.result.limits is not None:
+            least += f", the least scaled Jacobian is {after.scaled_jacobian_min:.4f}"
+        return f"No hex is inverted; the worst has q = {least}.{mended}{done}"
     words = [f"{after.inverted:,} of {after.hexes:,} hexes {'is' if after.inverted == 1 else 'are'} inverted."]
     if before.inverted != after.inverted:
         words.append(f"{_inverted(before.inverted)} at the start.")
@@ -111,11 +134,18 @@ def _locked(now: Situation) -> str:
     which = ("It is" if one else "All of them are") if every else f"{many:,} of them {'is' if one else 'are'}"
     said = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion"
     if now.result.surface is None:
-        said += ", and no method moves these unless the boundary slides."
-        remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
+        freed = now.freed
+        if not freed:
+            said += ", even where the boundary slides."
+            remedy = " Correct the boundary where the mesh was made."
+        else:
+            said += ", and no method moves these unless the boundary slides: "
+            rest = f", {many - freed:,} cannot" if freed < many else ""
+            said += f"then {freed:,} can be freed{rest}."
+            remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
     else:
-        said += " where the boundary is fixed, and sliding has not freed these."
-        remedy = " Correct the boundary where the mesh was made."
+        said += f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
+        remedy = "" if now.cut_short else " Correct the boundary where the mesh was made."
     if not now.pins_of(now.locked).size:
         said += remedy
     return said

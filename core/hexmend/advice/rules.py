@@ -54,6 +54,21 @@ def untangle(now: Situation) -> Suggestion | None:
     )
 
 
+def slide(now: Situation) -> Suggestion | None:
+    """Locked hexes that are free to be mended once the boundary slides."""
+    if not now.locked.size or now.result.surface is not None or now.smoother.slides or not now.freed:
+        return None
+    many = now.locked.size
+    which = "The locked hex can" if many == 1 else f"{now.freed:,} of the {many:,} locked hexes can"
+    return Suggestion(
+        "Mend, boundary slides",
+        f"Run Mend with boundary = slide. {which} be freed where nodes of the boundary slide on its surface, which "
+        "keeps its edges and corners.",
+        "inverted",
+        Mend(p=now.p, boundary="slide"),
+    )
+
+
 def undo_harm(now: Situation) -> Suggestion | None:
     """A method that inverted hexes of a sound mesh."""
     if now.result.before.inverted or not now.loose.size:
@@ -72,15 +87,7 @@ def go_on(now: Situation) -> Suggestion | None:
     """An optimiser that was cut short while it still gained."""
     if not now.cut_short or not now.smoother.optimises or (now.loose.size and not _is_mend(now)) or not now.improving:
         return None
-    limit, stop = now.result.outcome, now.stop
-    if limit is Outcome.MAX_ITERATIONS:
-        stop = replace(stop, max_iterations=min(max(2 * stop.max_iterations, 100), 1_000_000))
-    elif limit is Outcome.MAX_SECONDS:
-        stop = replace(stop, max_seconds=min(2 * stop.max_seconds, 1e7))
-    more = {
-        Outcome.MAX_ITERATIONS: f" with a limit of {stop.max_iterations:,} iterations",
-        Outcome.MAX_SECONDS: f" with a limit of {stop.max_seconds:g} s",
-    }.get(limit, "")
+    stop, more = _longer(now)
     gain = "inverted" if now.loose.size else now.aim
     gained = {
         "inverted": "fewer hexes were inverted",
@@ -90,6 +97,24 @@ def go_on(now: Situation) -> Suggestion | None:
     }
     text = f"Run the same again{more}: it goes on from here, and {gained[gain]} until its last iterations."
     return Suggestion("Go on", text, gain, now.smoother, stop)
+
+
+def begin_again(now: Situation) -> Suggestion | None:
+    """A mend that was cut short on a detour, of which nothing is kept that it could go on from."""
+    limited = now.result.outcome in (Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS)
+    detours = _is_mend(now) and (now.smoother.slides or now.smoother.goal != "shape")
+    if not (limited and detours) or go_on(now) is not None:
+        return None
+    stop, more = _longer(now)
+    return Suggestion(
+        "The same from before the run, longer",
+        f"Begin the same again from before the run{more}: it was cut short before it had raised the worst corners, and "
+        "what comes between is worse for a while, so that going on from here would do that once more.",
+        "inverted",
+        now.smoother,
+        stop,
+        undo=True,
+    )
 
 
 def faster(now: Situation) -> Suggestion | None:
@@ -188,8 +213,21 @@ def soften(now: Situation) -> Suggestion | None:
 
 
 RULES: tuple[Rule, ...] = (
-    unpin, untangle, soften, undo_harm, go_on, faster, tighten, guard, optimum, lift_the_worst, raise_p,
+    unpin, untangle, slide, soften, undo_harm, go_on, begin_again, faster, tighten, guard, optimum, lift_the_worst,
+    raise_p,
 )  # fmt: skip
+
+
+def _longer(now: Situation) -> tuple[Stop, str]:
+    """Limits that let it go on for longer, and the words for that."""
+    stop = now.stop
+    if now.result.outcome is Outcome.MAX_ITERATIONS:
+        stop = replace(stop, max_iterations=min(max(2 * stop.max_iterations, 100), 1_000_000))
+        return stop, f" with a limit of {stop.max_iterations:,} iterations"
+    if now.result.outcome is Outcome.MAX_SECONDS:
+        stop = replace(stop, max_seconds=min(2 * stop.max_seconds, 1e7))
+        return stop, f" with a limit of {stop.max_seconds:g} s"
+    return stop, ""
 
 
 def _is_mend(now: Situation) -> bool:

@@ -11,6 +11,8 @@ from hexmend.optimise import Outcome, Result, Stop
 from hexmend.quality import ElementQuality, measure
 from hexmend.quality.measure import locked
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.surface import freed_by_sliding
+from hexmend.surface.features import DEGREES
 
 #: Outcomes of a run that did not end by itself.
 CUT_SHORT = frozenset({Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS, Outcome.STOPPED})
@@ -90,6 +92,14 @@ class Situation:
         """Whether the worst hex that is not locked has a free node."""
         q = np.where(self.figures.inverted, np.inf, self.figures.q)
         return bool(self.mesh.free[self.mesh.hexes[int(q.argmin())]].any())
+
+    @cached_property
+    def freed(self) -> int:
+        """How many of the locked hexes can be freed where the boundary slides."""
+        which = np.zeros(self.mesh.n_hexes, dtype=bool)
+        which[self.locked] = True
+        degrees = self.smoother.values().get("feature_angle", DEGREES)
+        return int(np.count_nonzero(freed_by_sliding(self.mesh, which, degrees)))
 
     def pins_of(self, hexes: np.ndarray) -> np.ndarray:
         """Numbers of the nodes of these hexes that are fixed by nothing but a pin."""

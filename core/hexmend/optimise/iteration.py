@@ -36,6 +36,24 @@ class Outcome(Enum):
 
 
 @dataclass(frozen=True, eq=False)
+class Limits:
+    """What lets the least of a figure of corners rise no further.
+
+    Parameters
+    ----------
+    hexes, nodes : (k,) int64
+        Corners that hold each other, the heaviest first: no displacement raises all of them. Of each the hex, which may
+        have several, and the node at its apex.
+    locked : (l,) int64
+        Hexes with a corner that is lower yet, all of whose nodes are fixed, the lowest first.
+    """
+
+    hexes: np.ndarray
+    nodes: np.ndarray
+    locked: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class Step:
     """One step of a smoother.
 
@@ -53,6 +71,8 @@ class Step:
         `measure(points, hexes)`, where the method has needed it itself.
     detour : bool
         True where nodes are further than the method may leave them: such an iterate is no result.
+    limits : Limits, optional
+        What lets the method go no further, where it has found that out.
     """
 
     points: np.ndarray
@@ -61,6 +81,7 @@ class Step:
     more: bool = False
     figures: ElementQuality | None = None
     detour: bool = False
+    limits: Limits | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,6 +193,8 @@ class Result:
         of a run whose method was changed on the way.
     surface : SurfaceChange or None
         How far the boundary has left where it was; None where no method let it slide.
+    limits : Limits or None
+        What let the last method go no further, where it has found that out.
     """
 
     mesh: Mesh
@@ -188,6 +211,7 @@ class Result:
     history: tuple[dict[str, float | int | None], ...]
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
+    limits: Limits | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:

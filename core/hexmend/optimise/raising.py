@@ -123,6 +123,12 @@ class Raising:
         """The least scaled Jacobian of the corners that are raised; +inf where there is none."""
         return float(self._raised().min(initial=np.inf))
 
+    def locked_below(self, value: float) -> np.ndarray:
+        """Corners, 8 * hex + corner, lower than a value, all of whose nodes are fixed, the lowest first, (k,) int64."""
+        values = np.where(self._held, self.values, np.inf).ravel()
+        low = np.flatnonzero(values < value)
+        return low[np.argsort(values[low], kind="stable")]
+
     def steps(self, aim: float = np.inf) -> Iterator[Raised | Limit]:
         """Steps that raise the least, until none does any more, or it has reached `aim`; at last what limits it."""
         self._begin()

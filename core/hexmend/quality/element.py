@@ -89,6 +89,8 @@ class Node:
     downhill : (3,) float64
         Minus the gradient of that energy by the node's place, in mean edge lengths of those hexes; 0 where the energy
         is infinite.
+    pinned : bool
+        Whether it is, be it on the boundary or not.
     """
 
     number: int
@@ -97,6 +99,7 @@ class Node:
     ring: np.ndarray
     energy: float
     downhill: np.ndarray
+    pinned: bool = False
 
 
 def node(mesh: Mesh, number: int) -> Node:
@@ -124,7 +127,8 @@ def node(mesh: Mesh, number: int) -> Node:
         gradient(x, hexes, 0.0, 2.0, np.zeros(ring.size, np.uint8), shares)
         downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
     kind = "boundary" if mesh.topology.boundary[number] else "pinned" if mesh.fixed[number] else "free"
-    return Node(number, mesh.points[number], kind, ring, energy, downhill)
+    pinned = mesh.pinned is not None and bool(mesh.pinned[number])
+    return Node(number, mesh.points[number], kind, ring, energy, downhill, pinned)
 
 
 def worst(values: np.ndarray, figures: ElementQuality, count: int, better: int = 1) -> np.ndarray:

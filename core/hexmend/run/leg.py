@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.arrays import as_points, read_only
 from hexmend.mesh import Mesh
-from hexmend.optimise import Iteration, Outcome, StageResult, Stop
+from hexmend.optimise import Iteration, Limits, Outcome, StageResult, Stop
 from hexmend.quality import measure, objective
 from hexmend.recipe import Stage
 from hexmend.smoothers import Smoother
@@ -52,6 +52,8 @@ class Leg:
     setup_seconds : float
     decision : str
         What the method decided at its newest step.
+    limits : Limits or None
+        What lets the method go no further, as far as it has said so.
     """
 
     def __init__(
@@ -63,6 +65,7 @@ class Leg:
         self.last, self.at = after, start
         self.outcome: Outcome | None = None
         self.decision = ""
+        self.limits: Limits | None = None
         self._hexes, self._unit = mesh.hexes, mesh.mean_edge_length or 1.0
         self._origin = start if before is None else before._origin
         self._best = start if before is None else before._best
@@ -106,7 +109,7 @@ class Leg:
         figures = step.figures if step.figures is not None else measure(points, self._hexes)
         notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
         now = self.last = self.at = Iteration(self.last.number + 1, points, figures, seconds, move, notes)
-        self.decision = step.decision
+        self.decision, self.limits = step.decision, step.limits or self.limits
         if not step.detour:
             self._consider(now)
         if move < self.stage.stop.tolerance and not step.more and not self._falling(before, now):  # Algorithm A.1

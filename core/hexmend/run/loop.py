@@ -199,6 +199,7 @@ class Run(Iterator[Iteration]):
             history=tuple(self.history),
             stages=tuple(leg.result() for leg in self._legs),
             surface=self._surface_change(mesh),
+            limits=self._leg.limits,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:

@@ -19,7 +19,7 @@ from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.raising import Raising
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, corner_determinants, measure
-from hexmend.smoothers.raised import AIM, CLUSTERS, SOUND, SPARED, lifted, raise_least, what_limits
+from hexmend.smoothers.raised import AIM, CLUSTERS, SOUND, SPARED, lifted, limits_of, raise_least, what_limits
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.smoothers.smoother import Steps, method
 from hexmend.surface import Sliding
@@ -111,7 +111,8 @@ class Mend(SlidingSmoother):
                 limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
                 if slides and room and raising.least < (AIM if raises else SOUND):
                     raising, limit = yield from lifted(Raising(at, places[1], sliding), room, raising, limit)
-                yield Step(raising.points, {"least": raising.least}, what_limits(limit) if raises else "", more=True)
+                words, limits = (what_limits(raising, limit), limits_of(raising, limit)) if raises else ("", None)
+                yield Step(raising.points, {"least": raising.least}, words, more=True, limits=limits)
         return outcome
 
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:

@@ -7,7 +7,7 @@ from itertools import islice
 
 import numpy as np
 
-from hexmend.optimise import Step
+from hexmend.optimise import Limits, Step
 from hexmend.optimise.raising import Limit, Raising
 
 #: Least scaled Jacobian from which on a hex is sound enough for the energy's barrier, and below which one is so bad
@@ -82,11 +82,32 @@ def lifted(raising: Raising, room: float, other: Raising, limit: Limit) -> Gener
     return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
 
 
-def what_limits(limit: Limit) -> str:
-    """Which corners hold each other, in a sentence; "" where none does."""
+def limits_of(raising: Raising, limit: Limit) -> Limits:
+    """Which corners hold each other, and which are locked below them."""
+    nodes = raising.mesh.hexes[limit.hexes, limit.corners].astype(np.int64)
+    locked = _locked(raising, limit) // 8
+    return Limits(limit.hexes, nodes, np.array(list(dict.fromkeys(locked.tolist())), dtype=np.int64))
+
+
+def what_limits(raising: Raising, limit: Limit) -> str:
+    """Which corners hold each other, and which are locked below them, in sentences; "" where none does."""
     count = len(limit.hexes)
     if not count:
         return ""
-    hexes = ", ".join(f"{number:,}" for number in dict.fromkeys(limit.hexes[:8].tolist()))
     who = f"{count} of them hold each other there, in the hexes" if count > 1 else "it can go no further, in hex"
-    return f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}: {who} {hexes}."
+    found = f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}"
+    said = f"{found}: {who} {_named(limit.hexes)}."
+    locked = _locked(raising, limit)
+    if not locked.size:
+        return said
+    which = "One corner is locked below that" if locked.size == 1 else f"{locked.size:,} corners are locked below that"
+    return f"{said} {which}: {raising.values.ravel()[locked[0]]:.4f} at the lowest, in hex {_named(locked[:1] // 8)}."
+
+
+def _locked(raising: Raising, limit: Limit) -> np.ndarray:
+    return raising.locked_below(limit.least if limit.hexes.size else -np.inf)
+
+
+def _named(hexes: np.ndarray) -> str:
+    """The first few of some hexes, each once."""
+    return ", ".join(f"{number:,}" for number in dict.fromkeys(hexes[:8].tolist()))

@@ -6,11 +6,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.run import Stop, iterate
+from hexmend.smoothers import METHODS
 from hexmend_app.state.document import State
 from hexmend_app.state.history import History, Moment
 from tests.core.grids import grid, scrambled
+from tests.core.surface.solids import slid
 
 MESH = scrambled(grid(5), 0.4)
+SLANTED = slid(grid(4), 0.3, seed=3)
 FREE = 12 * int(MESH.free.sum())  # bytes of an iteration
 
 
@@ -40,6 +43,20 @@ def test_every_iteration_is_there_as_it_was():
         np.testing.assert_allclose(state.mesh.points, iteration.points, rtol=0, atol=way * 1.2e-7)
         np.testing.assert_array_equal(state.mesh.points[~MESH.free], MESH.points[~MESH.free])
         assert history.moment_of(state) == Moment(record, iteration.number)
+
+
+def test_a_boundary_that_slides_is_there_at_every_iteration():
+    history = History()
+    boundary = SLANTED.topology.boundary
+    record = history.begin("Mend", State.of(SLANTED))
+    run = iterate(SLANTED, METHODS["local-sd"](boundary="slide"), Stop(max_iterations=5, tolerance=0))
+    seen = [run.start, *run]
+    for iteration in seen:
+        history.add(record, iteration)
+    assert (seen[1].points != SLANTED.points)[boundary].any()
+    for iteration in seen:
+        state = history.state(Moment(record, iteration.number), SLANTED)
+        np.testing.assert_allclose(state.mesh.points, iteration.points, rtol=0, atol=1e-6)
 
 
 def test_a_result_is_exact():

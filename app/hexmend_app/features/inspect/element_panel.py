@@ -103,7 +103,10 @@ class ElementPanel(QWidget):
         )
         self._pin = QCheckBox("Pinned")
         explain(
-            self._pin, "Pinned", "Keep this node where it is, whatever smooths the mesh. Boundary nodes always are."
+            self._pin,
+            "Pinned",
+            "Keep this node where it is, whatever smooths the mesh. Nodes of the boundary stay anyway where that is "
+            "fixed; where it slides, pinned ones do.",
         )
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
         for corner, (node, _, _) in enumerate(self._corners):
@@ -204,18 +207,27 @@ class ElementPanel(QWidget):
         )
         self._neighbours.setText("Neighbours: " + " &nbsp;&nbsp;".join(links))
 
-    def show_node(self, one: Node | None, busy: bool = False) -> None:
-        """Show a node of the element, or how to choose one; nothing can be pinned while a run is `busy`."""
+    def show_node(self, one: Node | None, busy: bool = False, slides: str = "") -> None:
+        """Show a node of the element, or how to choose one; nothing can be pinned while a run is `busy`.
+
+        Parameters
+        ----------
+        one : Node, optional
+        busy : bool
+        slides : str
+            Of a node of the boundary, what it may do where that slides; "" where that is not known.
+        """
         self._node = one
         self._pin.setVisible(one is not None)
         if one is None:
             self._about_node.setText("Click nearer to a corner, or on a node's number, to see that node.")
             return
-        parts = [f"Node {one.number:,}: {one.kind}", counted(one.ring.size, "hex")]
+        kind = f"{one.kind}, pinned" if one.pinned and one.kind == "boundary" else one.kind
+        parts = [f"Node {one.number:,}: {kind}", slides, counted(one.ring.size, "hex")]
         if np.isfinite(one.energy):
             parts.append(f"energy {figure(one.energy)}, gradient {figure(float(np.linalg.norm(one.downhill)))}")
         else:
             parts.append("energy infinite: a hex here is inverted")
-        self._about_node.setText(", ".join(parts))
-        self._pin.setChecked(one.kind != "free")
-        self._pin.setEnabled(one.kind in ("free", "pinned") and not busy)
+        self._about_node.setText(", ".join(filter(None, parts)))
+        self._pin.setChecked(one.pinned)
+        self._pin.setEnabled(one.kind != "unused" and not busy)

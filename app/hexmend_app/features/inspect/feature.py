@@ -7,16 +7,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hexmend.quality import element, node
+from hexmend.surface import Kind
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.inspect.element_panel import ElementPanel
 from hexmend_app.features.inspect.file import write_worst
 from hexmend_app.features.inspect.worst_list import WorstList
+from hexmend_app.state.classer import WHISKER
 from hexmend_app.widgets.questions import ask_list
 from hexmend_app.widgets.wording import counted
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
+
+#: What nodes of the boundary may do where it slides.
+_SLIDES = {Kind.CORNER: "a corner", Kind.CURVE: "on a curve", Kind.PATCH: "on a patch", WHISKER: "on a whisker"}
 
 #: Panels that show what is chosen too, or do something with it: a click does not put another before them.
 _FOLLOWING = ("node", "tags")
@@ -46,6 +51,7 @@ class FeatureInspect(Feature):
 
     def actions(self) -> Sequence[Action]:
         """Through the list, and back."""
+        session = self.session
         return (
             Action(
                 id="next_worst",
@@ -74,6 +80,18 @@ class FeatureInspect(Feature):
                 help="Bring the chosen hex before the camera.",
                 handle=lambda: self._selection.visit(self._selection.hex),
                 enabled=lambda: self._selection.hex is not None,
+                in_view=True,
+            ),
+            Action(
+                id="pin",
+                text="&Pin the node",
+                menu="Hex",
+                keys="Shift+P",
+                icon="pin-outline",
+                help="Keep the chosen node where it is, whatever smooths the mesh, or let it go; undo takes that back.",
+                handle=lambda on: session.commands.pin(self._selection.node, on),
+                enabled=lambda: session.editable and self._can_be_pinned(),
+                checked=self._is_pinned,
                 in_view=True,
             ),
             Action(
@@ -127,7 +145,8 @@ class FeatureInspect(Feature):
             self.worst_list.set_figures(now.mesh, now.figures)
         self.worst_list.set_selected(chosen.hex)
         corners, editable = self.panel.corners_in_view, self.session.editable
-        if self._seen.another("chosen", now, chosen.hex, chosen.node, corners, editable, self.canvas):
+        classes = self.session.classer.classes
+        if self._seen.another("chosen", now, chosen.hex, chosen.node, corners, editable, self.canvas, classes):
             self._show_element()
 
     def _show_element(self) -> None:
@@ -138,9 +157,22 @@ class FeatureInspect(Feature):
             tags = [name for name, members in mesh.hex_sets.items() if (members == chosen.hex).any()]
             self.panel.show_element(element(mesh, chosen.hex), tags)
         at = None if chosen.node is None else node(mesh, chosen.node)
-        self.panel.show_node(at, not self.session.editable)
+        self.panel.show_node(at, not self.session.editable, self._slides(chosen.node))
         if self.canvas is not None:
             self.canvas.select(chosen.hex, self.panel.corners_in_view, at)
+
+    def _can_be_pinned(self) -> bool:
+        node = self._selection.node
+        return node is not None and bool(self._document.now.mesh.topology.used[node])
+
+    def _is_pinned(self) -> bool:
+        node, mesh = self._selection.node, self._document.now.mesh if self._document.is_open else None
+        return node is not None and mesh is not None and mesh.pinned is not None and bool(mesh.pinned[node])
+
+    def _slides(self, node: int | None) -> str:
+        """What a node of the boundary may do where that slides, as far as that is known."""
+        classes = self.session.classer.of(self._document.now.mesh)
+        return "" if node is None or classes is None else _SLIDES.get(int(classes.kinds[node]), "")
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))

@@ -15,6 +15,8 @@ from hexmend_app.state.look import Arrows, Look
 from hexmend_app.state.run import Phase
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from hexmend_app.canvas.canvas import Canvas
 
 
@@ -95,9 +97,11 @@ class FeatureLook(Feature):
         if self.canvas is None or not session.document.is_open:
             return
         now, movement, look = session.document.now, self._movement, self._drawable
-        if self._seen.another("frame", now, movement, look):
+        kinds = self._kinds if look.structure.kinds else None
+        original = session.document.start.mesh.points if look.structure.original else None
+        if self._seen.another("frame", now, movement, look, original, kinds):
             live = session.smoothing.phase is Phase.RUNNING and session.smoothing.following
-            self.canvas.draw(Frame(now.mesh, now.figures, movement, look), live)
+            self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, kinds), live)
         if self._seen.another("handles", look.clip, self._view.handles, self._view.plane_at):
             self.canvas.show_handles(self._view.handles, self._view.plane_at)
         if self._seen.another("phase", session.smoothing.phase) and session.smoothing.phase is Phase.PAUSED:
@@ -120,7 +124,17 @@ class FeatureLook(Feature):
 
     @property
     def _drawable(self) -> Look:
-        """The look, but for edges that are still being found: the view would wait for them."""
+        """The look, but for edges and kinds of nodes that are still being found: the view would wait for them."""
         look = self._view.look
-        known = self.session.finder.structure is not None
-        return look if known else dataclasses.replace(look, structure=look.structure.without_edges())
+        structure = look.structure
+        if self.session.finder.structure is None:
+            structure = structure.without_edges()
+        if self._kinds is None:
+            structure = dataclasses.replace(structure, kinds=False)
+        return dataclasses.replace(look, structure=structure)
+
+    @property
+    def _kinds(self) -> np.ndarray | None:
+        """What each node is to the boundary; None while that is not known."""
+        classes = self.session.classer.of(self.session.document.now.mesh)
+        return None if classes is None else classes.kinds

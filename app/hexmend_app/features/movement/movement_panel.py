@@ -36,14 +36,19 @@ _COLOURS = [
         "Colour each hex by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
         "hexes have colours of their own.",
     ),
+    (
+        "surface-distance",
+        MOVEMENTS["surface-distance"].label,
+        "Colour each hex by how far its boundary nodes are from the surface as it was: where the boundary slides.",
+    ),
 ]
 _ARROWS = [
     (Arrows.NONE.value, "None", "No arrows."),
     (
         Arrows.SIGHT.value,
         "In sight",
-        "An arrow from where a node was to where it is, for nodes of the faces in sight. Boundary nodes stay: cut "
-        "or peel the mesh. Pale where something is before it.",
+        "An arrow from where a node was to where it is, for nodes of the faces in sight. Boundary nodes stay "
+        "unless they slide: cut or peel the mesh. Pale where something is before it.",
     ),
     (Arrows.ALL.value, "All shown", "Arrows of all hexes that are shown, through whatever is before them."),
 ]
@@ -187,8 +192,9 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
 
 def _texts(counts: Counts, name: str, free: int) -> tuple[str, str, str, str]:
     way = f"{figure(counts.mean)} on average, {figure(counts.largest)} at most" if counts.moved else "–"
+    slid = f", {counts.slid:,} of the boundary slid" if counts.slid else ""
     return (
-        f"{counts.moved:,} of {free:,} free moved since {name}",
+        f"{counts.moved - counts.slid:,} of {free:,} free moved since {name}{slid}",
         way,
         f"{counts.better:,} better, {counts.worse:,} worse",
         f"{counts.newly_inverted:,} newly, {counts.mended:,} mended",

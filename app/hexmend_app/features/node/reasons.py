@@ -43,6 +43,8 @@ def why_no_step(session: Session, smoother: Smoother | None) -> str:
         return "Choose one of the hex's free nodes, below." if some_free else choose
     if not mesh.fixed[chosen.node]:
         return ""
+    if smoother.slides and mesh.topology.boundary[chosen.node]:
+        return f"Node {chosen.node:,} lies on the boundary, which slides: steps are shown of nodes inside. {choose}"
     where = "lies on the boundary" if mesh.topology.boundary[chosen.node] else "is pinned"
     return f"Node {chosen.node:,} {where}: no method moves it. {choose}"
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from weakref import WeakKeyDictionary
 
-from hexmend.advice import Advice, Suggestion, advise
-from hexmend.optimise import Result
+from hexmend.advice import Advice, Suggestion
 from hexmend.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, Place
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
@@ -30,8 +29,9 @@ class FeatureOutcome(Feature):
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
         panel.show_requested.connect(self._show_elements)
+        panel.visit_requested.connect(self._visit_elements)
         panel.suggestion_chosen.connect(lambda at: self._choose(self._shown.suggestions[at]))
-        session.smoothing.ended.connect(self._on_ended)
+        session.smoothing.ended.connect(lambda _: self._on_ended())
         session.document.mesh_replaced.connect(self._on_another)
 
     def actions(self) -> Sequence[Action]:
@@ -76,8 +76,8 @@ class FeatureOutcome(Feature):
         self.panel.say_where(self._where())
         self.panel.set_busy(not self.session.editable)
 
-    def _on_ended(self, result: Result) -> None:
-        record, advice = self.session.smoothing.record, advise(result)
+    def _on_ended(self) -> None:
+        record, advice = self.session.smoothing.record, self.session.smoothing.advice
         if record in self.session.history.records:
             self._advice[record] = advice
         else:
@@ -113,6 +113,10 @@ class FeatureOutcome(Feature):
         self.session.view.isolate(hexes)
         if len(hexes) == 1:
             self.session.selection.visit(hexes[0])
+
+    def _visit_elements(self, hexes: list[int]) -> None:
+        self.session.view.isolate(hexes)
+        self.session.selection.visit(*hexes)
 
     def _choose(self, suggestion: Suggestion) -> None:
         """Go to where the suggestion begins, and choose its method; whatever it costs to run it is left to the user."""

@@ -38,12 +38,15 @@ class OutcomePanel(QWidget):
         The user wants to try this suggestion, counted from 0.
     show_requested(list)
         The user wants to see these elements, and nothing else.
+    visit_requested(list)
+        The same, and before the camera: they are near each other.
     chosen(int)
         The user wants to see this element.
     """
 
     suggestion_chosen = Signal(int)
     show_requested = Signal(list)
+    visit_requested = Signal(list)
     chosen = Signal(int)
 
     def __init__(self, parent: QWidget | None = None):
@@ -58,9 +61,22 @@ class OutcomePanel(QWidget):
         self._title.setFont(font)
         self._locked = _Elements("Locked", "whose fixed nodes alone hold them in inversion")
         self._loose = _Elements("Inverted", "that are inverted, and not locked")
-        for elements in (self._locked, self._loose):
+        self._surface = self._text()
+        self._holding = _Elements(
+            "Holding each other",
+            "whose corners hold each other: the least scaled Jacobian rises no further, whatever moves",
+            "the hexes that hold each other",
+        )
+        self._held = _Elements(
+            "Locked lower",
+            "with a corner of fixed nodes alone that is lower than any that can be moved",
+            "the hexes that are locked lower",
+        )
+        for elements in (self._locked, self._loose, self._holding, self._held):
             elements.chosen.connect(self.chosen)
+        for elements in (self._locked, self._loose, self._held):
             elements.show_requested.connect(self.show_requested)
+        self._holding.show_requested.connect(self.visit_requested)
         self._next = QLabel("What to try next")
         self._next.setFont(font)
         self._nothing = note()
@@ -86,7 +102,8 @@ class OutcomePanel(QWidget):
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(6)
         heads = (self._title, self._where, self._why, self._left, self._worse)
-        parts = (*heads, self._locked, self._loose, self._next, self._nothing)
+        elements = (self._locked, self._loose, self._holding, self._held)
+        parts = (*heads, *elements, self._surface, self._next, self._nothing)
         for part in parts:
             column.addWidget(part)
         column.addLayout(self._rows)
@@ -120,6 +137,10 @@ class OutcomePanel(QWidget):
         tint(self._worse, WORSE)
         self._locked.show_elements(advice.locked)
         self._loose.show_elements(advice.loose)
+        self._holding.show_elements(advice.holding)
+        self._held.show_elements(advice.held)
+        self._surface.setText(advice.surface)
+        self._surface.setVisible(bool(advice.surface))
         self._nothing.setText(advice.nothing)
         self._show_suggestions(advice.suggestions)
         self._stack.setCurrentIndex(1)
@@ -137,7 +158,7 @@ class OutcomePanel(QWidget):
         self._buttons = []
         self._next.setVisible(bool(suggestions or self._nothing.text()))
         self._nothing.setVisible(not suggestions and bool(self._nothing.text()))
-        before: QWidget = self._loose.button
+        before: QWidget = self._held.button
         for at, one in enumerate(suggestions):
             text = self._text()
             text.setTextFormat(Qt.TextFormat.RichText)
@@ -159,8 +180,9 @@ class _Elements(QWidget):
     chosen = Signal(int)
     show_requested = Signal(list)
 
-    def __init__(self, title: str, which: str, parent: QWidget | None = None):
+    def __init__(self, title: str, which: str, called: str = "", parent: QWidget | None = None):
         super().__init__(parent)
+        called = called or f"the {title.lower()} hexes"
         self._name = title
         self._elements: list[int] = []
         self._numbers = QLabel()
@@ -175,7 +197,7 @@ class _Elements(QWidget):
         self.button.clicked.connect(lambda: self.show_requested.emit(self._elements))
         explain(
             self.button,
-            f"Show the {title.lower()} hexes",
+            f"Show {called}",
             f"Show nothing but the hexes {which}, and their neighbours; Esc brings back the rest.",
         )
         row = QHBoxLayout(self)

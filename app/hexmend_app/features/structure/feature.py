@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hexmend.surface.features import DEGREES
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.structure.structure_panel import StructurePanel
 
@@ -26,6 +27,8 @@ _LAYERS = {
     "fixed": ("Fixe&d nodes", "X", "Show nodes that no method moves."),
     "free": ("Free &nodes", "M", "Show nodes that methods may move."),
     "locked": ("&Locked nodes", "L", "Show the nodes of hexes that fixed nodes alone keep inverted."),
+    "kinds": ("&Kinds of boundary nodes", "J", "Show what nodes of the boundary may do where it slides."),
+    "original": ("&Original surface", "O", "Show the boundary as it was when the mesh was opened, see-through."),
 }
 
 
@@ -78,6 +81,7 @@ class FeatureStructure(Feature):
         self.panel.set_structure(self._view.look.structure)
         if not session.document.is_open:
             return
+        self._class()
         if self._seen.another("found", session.finder.structure, session.document.start):
             self.panel.set_found(session.finder.structure)
         now = session.document.now
@@ -88,6 +92,17 @@ class FeatureStructure(Feature):
             self.panel.set_nodes(
                 np.count_nonzero(boundary), pinned, now.summary.free_nodes, now.summary.locked_inverted
             )  # fmt: skip
+
+    def _class(self) -> None:
+        """Have the boundary classed that the next run begins with, where somebody looks at that."""
+        session = self.session
+        now, smoother = session.document.now, session.order.smoother
+        looked = self.panel.isVisible() or self._view.look.structure.kinds
+        if looked and smoother is not None and not session.smoothing.busy:
+            session.classer.ask(now.mesh, now.figures, smoother.values().get("feature_angle", DEGREES))
+        classes = session.classer.of(now.mesh)
+        if self._seen.another("classes", classes, session.document.start):
+            self.panel.set_classes(classes)
 
     def _switch(self, layer: str, on: bool) -> None:
         self._view.change(structure=dataclasses.replace(self._view.look.structure, **{layer: on}))

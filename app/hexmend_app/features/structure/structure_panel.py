@@ -11,8 +11,20 @@ from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
 
 from hexmend.structure import SHARP as DEGREES
 from hexmend.structure import Structure as Found
-from hexmend_app.scene.layers.structure import BOUNDARY, FREE, IRREGULAR_NODE, LOCKED, OTHER, PINNED, SHARP, VALENCES
-from hexmend_app.scene.palette import RIM
+from hexmend.surface import Kind
+from hexmend_app.scene.layers.structure import (
+    BOUNDARY,
+    FREE,
+    IRREGULAR_NODE,
+    KINDS,
+    LOCKED,
+    OTHER,
+    PINNED,
+    SHARP,
+    VALENCES,
+)  # fmt: skip
+from hexmend_app.scene.palette import ORIGINAL, RIM, Role
+from hexmend_app.state.classer import PIN, WHISKER, Classes
 from hexmend_app.state.look import Structure
 from hexmend_app.widgets.style import explain, note, tabular
 from hexmend_app.widgets.wording import counted
@@ -49,19 +61,39 @@ _LAYERS: dict[str, tuple[str, str, str]] = {
     "locked": (
         "Locked nodes",
         "Nodes of inverted hexes that fixed nodes alone keep inverted: no method that leaves these where they are "
-        "can mend them.",
+        "can mend them. How many of them can be freed where the boundary slides is counted too: nothing holds "
+        "these in inversion then.",
         "None: no hex is kept inverted by fixed nodes alone.",
+    ),
+    "kinds": (
+        "Kinds of nodes",
+        "What nodes of the boundary may do where it slides (boundary = slide), by the method's feature angle: corners "
+        "and pinned nodes stay, others slide along their curve or on their patch. A whisker is a sharp edge that ends "
+        "amid a patch: its nodes slide on that. Shift+P pins the chosen node.",
+        "None: the mesh has no boundary.",
+    ),
+    "original": (
+        "Original surface",
+        "The boundary as it was when the mesh was opened, see-through, where the boundary has left it.",
+        "None: the mesh has no boundary.",
     ),
 }
 _EDGES = ("irregular", "boundary", "sharp")
+#: What nodes are called by what they are to the boundary.
+_CALLED = {
+    Kind.CORNER: "corners", Kind.CURVE: "on curves", Kind.PATCH: "on patches", WHISKER: "on whiskers", PIN: "pinned",
+}  # fmt: skip
+#: Layers that can be chosen before it is known what there is of them: somebody has to want it first.
+_AT_ONCE = ("kinds",)
 _NOT_YET = "Being counted."
 _COLUMNS = 2
 
 #: Letters up to which texts stand beside each other: two more and they are cut off in a narrow column.
-_WIDEST = 8
+_WIDEST = 6
 
-#: What one mark of a layer stands for: its colour, whether it is a line, and the text beside it.
-_Entry = tuple[str, bool, str]
+#: What one mark of a layer stands for: its colour, or None for a remark without a mark, whether it is a line, and the
+#: text beside it.
+_Entry = tuple[str | Role | None, bool, str]
 
 
 class StructurePanel(QWidget):
@@ -84,7 +116,8 @@ class StructurePanel(QWidget):
         super().__init__(parent)
         self._structure = Structure()
         self._counts: tuple[int, ...] = ()
-        self.layers = {name: _Layer(*texts) for name, texts in _LAYERS.items()}
+        self._classes: Classes | None = None
+        self.layers = {name: _Layer(*texts, at_once=name in _AT_ONCE) for name, texts in _LAYERS.items()}
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(6)
@@ -130,8 +163,26 @@ class StructurePanel(QWidget):
             fixed.append((PINNED, False, f"{pinned:,} pinned"))
         self.layers["fixed"].set_entries(fixed)
         self.layers["free"].set_entries([(FREE, False, f"{free:,}")] if free else [])
-        of = f"of {counted(locked, 'locked hex')}"
-        self.layers["locked"].set_entries([(LOCKED, False, of)] if locked else [])
+        self.layers["original"].set_entries([(ORIGINAL, True, "as opened")] if boundary else [])
+        self._show_locked()
+
+    def set_classes(self, classes: Classes | None) -> None:
+        """Take what the nodes of the boundary are; None while that is being found."""
+        self._classes = classes
+        entries: list[_Entry] | None = None
+        if classes is not None:
+            counts = {kind: classes.count(kind) for kind in _CALLED}
+            entries = [(KINDS[kind], False, f"{count:,} {_CALLED[kind]}") for kind, count in counts.items() if count]
+        self.layers["kinds"].set_entries(entries)
+        self._show_locked()
+
+    def _show_locked(self) -> None:
+        """How many elements are locked, and, once it is known, how many of them sliding can free."""
+        locked, classes = self._counts[-1] if self._counts else 0, self._classes
+        entries = [(LOCKED, False, f"of {counted(locked, 'locked hex')}")] if locked else []
+        if locked and classes is not None and classes.locked == locked:
+            entries.append((None, False, f"{classes.freed:,} freed by sliding"))
+        self.layers["locked"].set_entries(entries)
 
     def _choose(self, name: str, on: bool) -> None:
         self._structure = dataclasses.replace(self._structure, **{name: on})
@@ -142,8 +193,8 @@ class StructurePanel(QWidget):
 class _Layer:
     """The check box of one layer, and beside it what its marks stand for."""
 
-    def __init__(self, name: str, help: str, reason: str):
-        self._name, self._help, self._reason = name, help, reason
+    def __init__(self, name: str, help: str, reason: str, at_once: bool = False):
+        self._name, self._help, self._reason, self._at_once = name, help, reason, at_once
         self._known: list[_Entry] | None = []
         self.box = QCheckBox(name)
         self.entries = QWidget()
@@ -174,23 +225,25 @@ class _Layer:
         self._enable()
 
     def _enable(self) -> None:
-        self.box.setEnabled(bool(self._known) or self.box.isChecked())  # what is on can be switched off
-        explain(self.box, self._name, self._help if self._known else _NOT_YET if self._known is None else self._reason)
+        waits = self._known is None and not self._at_once
+        there = bool(self._known) or (self._known is None and self._at_once)
+        self.box.setEnabled(there or self.box.isChecked())  # what is on can be switched off
+        explain(self.box, self._name, self._help if there else _NOT_YET if waits else self._reason)
 
 
 class _Mark(QWidget):
     """A line or a point as the view draws it: a colour with a rim."""
 
-    def __init__(self, colour: str, line: bool, parent: QWidget | None = None):
+    def __init__(self, colour: str | Role, line: bool, parent: QWidget | None = None):
         super().__init__(parent)
-        self._colour = QColor(colour)
+        self._colour = colour
         self.setFixedSize(QSize(11, 7) if line else QSize(9, 9))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Fill the rim."""
         painter = QPainter(self)
         painter.setPen(QColor(str(RIM)))
-        painter.setBrush(self._colour)
+        painter.setBrush(QColor(str(self._colour)))
         painter.drawRect(QRectF(0.5, 0.5, self.width() - 1, self.height() - 1))
 
 
@@ -206,12 +259,13 @@ def _by_valence(valence: np.ndarray) -> list[_Entry]:
     return own
 
 
-def _entry(colour: str, line: bool, text: str) -> QWidget:
+def _entry(colour: str | Role | None, line: bool, text: str) -> QWidget:
     entry = QWidget()
     layout = QHBoxLayout(entry)
     layout.setContentsMargins(0, 0, 0, 0)
     layout.setSpacing(4)
-    layout.addWidget(_Mark(colour, line))
+    if colour is not None:
+        layout.addWidget(_Mark(colour, line))
     layout.addWidget(_text(text), 1)
     return entry
 

@@ -10,10 +10,13 @@ from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
 from hexmend.structure import Structure as Found
 from hexmend.structure import structure
+from hexmend.surface import Kind
+from hexmend.surface.features import DEGREES
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.layers.marks import Marks
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.skin import Faces
+from hexmend_app.state.classer import PIN, WHISKER, node_kinds
 from hexmend_app.state.look import Look, Structure
 
 #: Colours by the number of elements around an edge, Okabe and Ito's; OTHER for numbers that are not here.
@@ -24,6 +27,11 @@ SHARP = "#11151c"
 
 #: Colours of nodes.
 BOUNDARY, PINNED, FREE, LOCKED = "#9aa5b4", "#e69f00", "#ffffff", "#f0e442"
+
+#: Colours of nodes by what they are to the boundary.
+KINDS: dict[int, str] = {
+    Kind.CORNER: "#d55e00", Kind.CURVE: "#56b4e9", Kind.PATCH: "#009e73", WHISKER: "#cc79a7", PIN: PINNED,
+}  # fmt: skip
 
 #: Marks of one sort that are drawn in full. More of them are drawn thinner, and paler inside, or nothing else is seen;
 #: in fast frames without rims and not inside, or 26,000 would cost a tenth of a second without a graphics card.
@@ -71,11 +79,15 @@ class StructureLayers:
 
     def set_mesh(self, mesh: Mesh) -> None:
         """Take another mesh; its structure is found when first wanted."""
-        self._mesh, self._found = mesh, None
+        self._mesh, self._found, self._kinds = mesh, None, None
 
     def set_pins(self, pinned: np.ndarray | None) -> None:
         """Take which nodes of the same mesh are pinned, (n,) bool; `move` draws them."""
         self._mesh = self._mesh.replace(pinned=pinned)
+
+    def set_kinds(self, kinds: np.ndarray | None) -> None:
+        """Take what each node of the same mesh is to the boundary, (n,) uint8; None finds it when it is wanted."""
+        self._kinds = kinds
 
     def choose(
         self, look: Look, points: np.ndarray, figures: ElementQuality, faces: Faces, keep: np.ndarray | None
@@ -155,15 +167,17 @@ class StructureLayers:
 
     def _choose_nodes(self, points: np.ndarray, figures: ElementQuality) -> None:
         wanted = self._look.structure
-        if not (wanted.fixed or wanted.free or wanted.locked):
+        if not (wanted.fixed or wanted.free or wanted.locked or wanted.kinds):
             self.nodes.hide()
             self._locked.hide()
             return
         places = self._faces.places(points)
-        kinds = node_kinds(self._mesh, points, figures, wanted)[self._faces.nodes]
+        if wanted.kinds and self._kinds is None:
+            self._kinds = node_kinds(self._mesh, DEGREES)
+        kinds = node_marks(self._mesh, points, figures, wanted, self._kinds)[self._faces.nodes]
         chosen = (kinds > 0) & uncut(self._look, places)
-        for marks, these in ((self.nodes, chosen & (kinds < 4)), (self._locked, chosen & (kinds == 4))):
-            marks.show(np.flatnonzero(these)[:, None], _KINDS[kinds[these]], places)
+        for marks, these in ((self.nodes, chosen & (kinds != _LOCKED)), (self._locked, chosen & (kinds == _LOCKED))):
+            marks.show(np.flatnonzero(these)[:, None], _COLOURS[kinds[these]], places)
 
     def _fit(self, *_: object) -> None:
         """Draw marks as large as the elements leave room for, where they are many."""
@@ -184,18 +198,34 @@ def valence_colours(valence: np.ndarray) -> np.ndarray:
     return table[np.minimum(valence, len(table) - 1)]
 
 
-def node_kinds(mesh: Mesh, points: np.ndarray, figures: ElementQuality, wanted: Structure) -> np.ndarray:
-    """What each node is among what is wanted, (n,) uint8: 0 nothing, 1 boundary, 2 pinned, 3 free, 4 locked."""
-    kinds = np.zeros(mesh.n_nodes, np.uint8)
+def node_marks(
+    mesh: Mesh, points: np.ndarray, figures: ElementQuality, wanted: Structure, kinds: np.ndarray | None = None
+) -> np.ndarray:
+    """What each node is among what is wanted, (n,) uint8: a place in `_COLOURS`, 0 for nothing.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    points : (n, 3) float64
+    figures : ElementQuality
+        Of the mesh at these points.
+    wanted : Structure
+    kinds : (n,) uint8, optional
+        What each node is to the boundary.
+    """
+    marks = np.zeros(mesh.n_nodes, np.uint8)
     if wanted.fixed:
         if mesh.pinned is not None:
-            kinds[mesh.pinned] = 2
-        kinds[mesh.topology.boundary] = 1
+            marks[mesh.pinned] = _PINNED
+        marks[mesh.topology.boundary] = _BOUNDARY
+    if wanted.kinds and kinds is not None:
+        boundary = kinds > 0
+        marks[boundary] = _LOCKED + kinds[boundary]
     if wanted.free:
-        kinds[mesh.free] = 3
+        marks[mesh.free] = _FREE
     if wanted.locked and figures.n_inverted:
-        kinds[mesh.hexes[locked(points, mesh.hexes, mesh.fixed, figures.inverted)]] = 4
-    return kinds
+        marks[mesh.hexes[locked(points, mesh.hexes, mesh.fixed, figures.inverted)]] = _LOCKED
+    return marks
 
 
 def uncut(look: Look, points: np.ndarray) -> np.ndarray | bool:
@@ -212,4 +242,6 @@ def _rgb(colour: str) -> np.ndarray:
     return np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)[None]
 
 
-_KINDS = np.concatenate([_rgb(colour) for colour in ("#000000", BOUNDARY, PINNED, FREE, LOCKED)])
+#: Colours of nodes by what they are among what is wanted; behind the locked those of `KINDS`.
+_COLOURS = np.concatenate([_rgb(colour) for colour in ("#000000", BOUNDARY, PINNED, FREE, LOCKED, *KINDS.values())])
+_BOUNDARY, _PINNED, _FREE, _LOCKED = range(1, 5)

@@ -8,13 +8,17 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QLineEdit
+from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit
 
+from hexmend import io
 from hexmend.quality import METRICS
 from hexmend.run import Stop
+from hexmend.surface import Kind
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.shell.palette import CommandPalette
-from tests.app.driving import LEFT, choose, click, drag, key
+from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
+from tests.core.grids import grid
+from tests.core.surface.solids import slid
 from tests.patience import PATIENCE
 
 
@@ -120,13 +124,49 @@ def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
     assert not pin.isChecked()
 
 
-def test_a_node_of_the_boundary_cannot_be_let_go(window):
+def test_a_node_of_the_boundary_is_pinned_by_its_key_and_does_not_slide(window, qtbot, tmp_path):
+    io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
+    open_and_wait(qtbot, window, tmp_path / "slid.vtu")
     mesh = window.session.document.now.mesh
-    window.session.selection.choose(0, int(mesh.hexes[0, 0]))
+    middle = (grid(4).points == (2, 2, 4)).all(axis=1)  # of the top
+    node = int(np.flatnonzero(middle)[0])
+    h = np.flatnonzero((mesh.hexes == node).any(axis=1))[0]
+    assert not window.actions["pin"].isEnabled()
+    window.session.selection.choose(int(h), node)
+    window.show_panel("hex")
     window.refresh()
     pin = next(b for b in window.features["inspect"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    assert pin.isEnabled()
+    assert not pin.isChecked()
+    key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ShiftModifier)
     assert pin.isChecked()
-    assert not pin.isEnabled()
+    assert window.actions["pin"].isChecked()
+    labels = window.features["inspect"].panel.findChildren(QLabel)
+    assert any(f"Node {node}: boundary, pinned" in label.text() for label in labels)
+    choose(window, "mend", boundary="slide")
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        click(window, "Run")
+    moved = (window.session.document.now.mesh.points != mesh.points).any(axis=1)
+    assert moved[mesh.topology.boundary].sum() > 20
+    assert not moved[node]
+    window.session.commands.save(tmp_path / "pinned.vtu")
+    assert io.read(tmp_path / "pinned.vtu").pinned[node]
+    window.session.commands.undo()
+    window.session.commands.undo()
+    window.refresh()
+    assert not pin.isChecked()
+
+
+def test_what_a_node_of_the_boundary_may_do_is_said(window, qtbot):
+    mesh = window.session.document.now.mesh
+    window.show_panel("show")
+    window.refresh()
+    qtbot.waitUntil(lambda: window.session.classer.of(mesh) is not None, timeout=PATIENCE)
+    node = int(np.flatnonzero(window.session.classer.classes.kinds == Kind.CORNER)[0])
+    window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
+    window.refresh()
+    said = [label.text() for label in window.features["inspect"].panel.findChildren(QLabel)]
+    assert any(f"Node {node:,}: boundary, a corner, " in text for text in said)
 
 
 def test_every_command_is_found_by_name(window, qtbot):

@@ -22,7 +22,7 @@ from hexmend_app.state.run import Phase
 from hexmend_app.state.task import running
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.theming import Choice
-from tests.app.driving import LEFT, choose_by_keys, click, key, named, phase, pixels, press, tick
+from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, press, tick
 from tests.patience import PATIENCE
 
 
@@ -157,6 +157,9 @@ def test_a_node_that_is_fixed_has_no_step_and_says_why(window, qtbot):
     assert window.session.selection.hex is not None
     assert window.in_front("node")  # a click does not bring another panel to the front
     said(window, qtbot, "lies on the boundary: no method moves it")
+    choose(window, "local-sd", boundary="slide")
+    said(window, qtbot, "lies on the boundary, which slides: steps are shown of nodes inside")
+    choose(window, "local-sd")
     assert shown(window) is None
     mesh = window.session.document.now.mesh
     inner = int(np.flatnonzero(mesh.free)[50])

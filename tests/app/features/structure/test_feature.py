@@ -13,20 +13,32 @@ from PySide6.QtWidgets import QLabel, QLineEdit
 from hexmend import gallery, io
 from hexmend.mesh import Mesh
 from hexmend.structure import structure
+from hexmend.surface import Kind
 from hexmend_app.features.structure.structure_panel import StructurePanel
-from hexmend_app.scene.layers.structure import LOCKED, PINNED, SHARP, VALENCES
+from hexmend_app.scene.layers.structure import KINDS, LOCKED, PINNED, SHARP, VALENCES
 from hexmend_app.shell.palette import CommandPalette
 from hexmend_app.shell.program import application
+from hexmend_app.state.classer import PIN
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Look, Structure
 from hexmend_app.state.task import running
 from tests.app.driving import LEFT, choose, click, key, open_and_wait, tick, turn
 from tests.app.driving import pixels as drawn
 from tests.core.grids import grid
+from tests.core.surface.solids import ball, slid
 from tests.core.test_structure import tetrahedron
 from tests.patience import PATIENCE
 
-KEYS = {"irregular": "S", "boundary": "B", "sharp": "H", "fixed": "X", "free": "M", "locked": "L"}
+KEYS = {
+    "irregular": "S",
+    "boundary": "B",
+    "sharp": "H",
+    "fixed": "X",
+    "free": "M",
+    "locked": "L",
+    "kinds": "J",
+    "original": "O",
+}
 
 
 @pytest.fixture
@@ -83,8 +95,9 @@ def count(image, colour):
 def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     assert texts(panel, "irregular") == []
     panel.set_found(None)
+    panel.set_classes(None)
     panel.set_nodes(8, 1, 3, 2)
-    assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked"]
+    assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked", "kinds", "original"]
     assert texts(panel, "irregular") == ["counting…"]
     assert "Being counted" in panel.layers["sharp"].box.toolTip()
     assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
@@ -118,6 +131,7 @@ def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off
     panel.set_nodes(26, 0, 1, 0)
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
+        "kinds": False, "original": True,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
     assert "four hexes share every edge" in panel.layers["irregular"].box.toolTip()
@@ -157,6 +171,59 @@ def test_a_key_shows_and_hides_a_layer(five, name):
     press_key(five, name)
     assert five.session.view.look == Look(shading=False)
     np.testing.assert_array_equal(pixels(five), before)
+
+
+def test_kinds_of_nodes_are_found_when_they_are_wanted_and_follow_the_feature_angle(five, qtbot):
+    press_key(five, "kinds")
+    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
+    panel = five.features["structure"].panel
+    classes = five.session.classer.classes
+    assert texts(panel, "kinds")[0] == f"{classes.count(Kind.CORNER)} corners"
+    assert count(pixels(five), KINDS[Kind.PATCH]) > 100
+    assert classes.count(Kind.CURVE)
+    with qtbot.waitSignal(five.session.classer.found, timeout=PATIENCE):
+        choose(five, "mend", feature_angle=180)
+    five.refresh()
+    assert five.session.classer.classes.count(Kind.CURVE) == 0
+    assert not any("curves" in text for text in texts(panel, "kinds"))
+    assert count(pixels(five), KINDS[Kind.CURVE]) == 0
+
+
+def test_a_pin_makes_a_node_of_the_boundary_stay(five, qtbot):
+    press_key(five, "kinds")
+    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
+    node = int(np.flatnonzero(five.session.classer.classes.kinds == Kind.PATCH)[0])
+    five.session.commands.pin(node, True)
+    qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == PIN, timeout=PATIENCE)
+    five.session.commands.undo()
+    qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == Kind.PATCH, timeout=PATIENCE)
+
+
+def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
+    io.write(tmp_path / "ball.vtu", slid(ball(3), 0.6, seed=0))
+    open_and_wait(qtbot, window, tmp_path / "ball.vtu")
+    window.show_panel("show")
+    window.refresh()
+    qtbot.waitUntil(lambda: window.session.classer.of(window.session.document.now.mesh) is not None, timeout=PATIENCE)
+    window.refresh()
+    classes = window.session.classer.classes
+    said = texts(window.features["structure"].panel, "locked")
+    assert said == [f"of {classes.locked} locked hexes", f"{classes.freed} freed by sliding"]
+
+
+def test_the_original_surface_is_that_of_the_opened_mesh(five):
+    press_key(five, "original")
+    window, opened = five, five.session.document.start.mesh.points
+    five.refresh()
+    assert window.canvas.viewport.original.shown
+    mesh = window.session.document.now.mesh
+    moved = mesh.with_points(mesh.points * 1.2)
+    window.session.commands.take("grow", State.of(moved))
+    five.refresh()
+    places = window.canvas.viewport.original.places
+    np.testing.assert_allclose(np.ptp(places, axis=0), np.ptp(opened, axis=0), rtol=1e-6)
+    press_key(five, "original")
+    assert not window.canvas.viewport.original.shown
 
 
 def test_a_mesh_without_them_offers_no_irregular_edges(five):

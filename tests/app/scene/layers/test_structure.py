@@ -8,11 +8,13 @@ import pytest
 from hexmend.gallery import make
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
+from hexmend.surface import Kind
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.structure import (
     BOUNDARY,
     FREE,
     IRREGULAR_NODE,
+    KINDS,
     LOCKED,
     OTHER,
     PINNED,
@@ -23,6 +25,7 @@ from hexmend_app.scene.layers.structure import (
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
+from hexmend_app.state.classer import WHISKER
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import Look, Structure
 from tests.core.grids import grid
@@ -165,3 +168,26 @@ def test_valences_without_a_colour_of_their_own_share_one():
     colours = valence_colours(np.array([1, 2, 3, 4, 5, 6, 7, 40]))
     expected = [VALENCES.get(n, OTHER) for n in (1, 2, 3, 4, 5, 6, 7, 40)]
     assert colours.tolist() == [list(bytes.fromhex(colour[1:])) for colour in expected]
+
+
+def test_nodes_of_the_boundary_have_colours_by_what_they_may_do(draw):
+    mesh = grid(3)
+    image = draw(mesh, Structure(kinds=True))
+    assert count(image, KINDS[Kind.CORNER]) > 100
+    assert count(image, KINDS[Kind.CURVE]) > count(image, KINDS[Kind.CORNER])
+    assert count(image, KINDS[Kind.PATCH]) > 100
+    assert count(image, KINDS[WHISKER]) == count(image, PINNED) == 0
+    pinned = np.zeros(mesh.n_nodes, bool)
+    pinned[np.flatnonzero((mesh.points[:, 2] == 3) & (mesh.points[:, 0] == 1))] = True
+    assert count(draw(mesh.replace(pinned=pinned), Structure(kinds=True)), PINNED) > 20
+    assert count(draw(mesh, Structure(kinds=True, fixed=True)), BOUNDARY) == 0
+
+
+def test_kinds_that_are_told_are_drawn(draw):
+    mesh = grid(3)
+    kinds = np.where(mesh.topology.boundary, WHISKER, 0).astype(np.uint8)
+    look = Look(edges=False, outline=False, structure=Structure(kinds=True))
+    draw(mesh, Structure(kinds=True))
+    draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look, kinds=kinds))
+    assert count(draw.pixels(), KINDS[WHISKER]) > 300
+    assert count(draw.pixels(), KINDS[Kind.PATCH]) == 0

@@ -1,0 +1,65 @@
+"""What the nodes of a boundary are, found beside the window."""
+
+import numpy as np
+import pytest
+
+from hexmend.quality import measure
+from hexmend.surface import Kind, boundary_of
+from hexmend_app.state.classer import PIN, WHISKER, Classer, classed, node_kinds
+from tests.core.grids import grid
+from tests.core.surface.solids import ball, slid
+from tests.patience import PATIENCE
+
+MESH = grid(4)
+FIGURES = measure(MESH.points, MESH.hexes)
+
+
+@pytest.fixture
+def classer(qapp):
+    classer = Classer()
+    yield classer
+    classer.shut_down()
+
+
+def creased():
+    """A block with a crease across a part of its top."""
+    mesh = grid(8)
+    points = mesh.points.copy()
+    points[(points[:, 2] == 8) & (points[:, 0] == 4) & (np.abs(points[:, 1] - 4) <= 1), 2] += 1
+    return mesh.with_points(points)
+
+
+def test_without_whiskers_kinds_are_those_of_the_core():
+    np.testing.assert_array_equal(node_kinds(MESH, 40.0), boundary_of(MESH).kind)
+    assert np.bincount(node_kinds(ball(3), 40.0)).tolist() == np.bincount(boundary_of(ball(3)).kind).tolist()
+
+
+def test_sharp_edges_that_are_left_out_are_whiskers():
+    mesh = creased()
+    kinds = node_kinds(mesh, 40.0)
+    assert (kinds == WHISKER).any()
+    on_top = mesh.points[kinds == WHISKER][:, 2] >= 8
+    assert on_top.all()
+    assert (boundary_of(mesh).kind[kinds == WHISKER] == Kind.PATCH).all()
+
+
+def test_locked_hexes_are_counted_with_those_that_sliding_frees():
+    mesh = slid(ball(3), 0.6, seed=0)
+    classes = classed(mesh, measure(mesh.points, mesh.hexes), 40.0)
+    assert 0 < classes.freed < classes.locked
+    assert classed(MESH, FIGURES, 40.0).locked == 0
+
+
+def test_of_several_questions_the_newest_is_answered(classer, qtbot):
+    pinned = MESH.replace(pinned=MESH.topology.boundary)
+    with qtbot.waitSignal(classer.found, timeout=PATIENCE):
+        classer.ask(ball(2), FIGURES, 40.0)
+        classer.ask(MESH, FIGURES, 40.0)
+        classer.ask(pinned, FIGURES, 40.0)
+    qtbot.waitUntil(lambda: not classer.busy, timeout=PATIENCE)
+    assert classer.of(MESH).count(PIN) == MESH.topology.boundary.sum()
+    assert classer.of(ball(2)) is None
+    answer = classer.classes
+    classer.ask(pinned, FIGURES, 40.0)
+    assert not classer.busy
+    assert classer.classes is answer
