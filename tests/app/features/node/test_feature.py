@@ -102,6 +102,23 @@ def test_a_key_explains_a_free_node_of_the_worst_element(at_work):
     assert window.session.document.now is window.session.document.start  # nothing has moved
 
 
+def test_the_camera_flies_to_the_hex_of_the_node_that_is_explained(window, qtbot):
+    camera = window.canvas.viewport.camera
+
+    def arrived(h):
+        mesh = window.session.document.now.mesh
+        return lambda: np.allclose(camera.GetFocalPoint(), mesh.points[mesh.hexes[h]].mean(axis=0))
+
+    key(window, Qt.Key.Key_D)
+    first = window.session.selection.hex
+    qtbot.waitUntil(arrived(first), timeout=PATIENCE)
+    window.canvas.look_along("iso")
+    window.canvas.fit()
+    assert not arrived(first)()
+    key(window, Qt.Key.Key_D)  # to that which is chosen already, too
+    qtbot.waitUntil(arrived(first), timeout=PATIENCE)
+
+
 def test_the_trials_are_numbered_in_the_plot(at_work):
     step = shown(at_work)
     drawn = at_work.features["node"].panel.plot.shown_trials()

@@ -171,6 +171,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     frame = hit.args[0]
     assert window.session.selection.hex == frame.hit.hexes[0]
+    assert window.canvas.viewport.filters.ghosts(window.canvas.viewport.frame) is None  # nothing is before it
     assert said(window) == f"Paused at a break-point: {frame.hit.sentence}."
     assert at(window, frame.iteration.number)()
     assert frame.hit.sentence in slider(window).toolTip()
