@@ -82,7 +82,6 @@ def moved(card, by):
     QTest.mousePress(window, _LEFT, pos=start)
     for k in range(1, 9):
         QTest.mouseMove(window, start + by * (k / 8))
-        QTest.qWait(5)
     QTest.mouseRelease(window, _LEFT, pos=start + by)
 
 
