@@ -76,9 +76,10 @@ def choose(window, method, stop=None, **values):
 
 
 def choose_by_keys(window, method):
-    """Choose a method in its panel, as a hand does."""
+    """Choose a method in its panel, as a hand does, and go back to the view."""
     window.refresh()
     walk_to(window, named(window.features["smooth"].panel, QComboBox, "Method"), method)
+    window.canvas.interactor.setFocus()  # or letters would be typed in the list
 
 
 def walk_to(window, box, data):
