@@ -92,6 +92,7 @@ def shared(qapp, tmp_path_factory, mesh_file):
     def share(qtbot):
         nonlocal resetting
         if resetting is None:
+            QSettings().clear()  # one before it may have kept how it was laid out
             SHARED.append(made(qtbot, mesh_file))
             resetting = Resetting(SHARED[0], mesh_file)
         return resetting
