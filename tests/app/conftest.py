@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 from contextlib import contextmanager
 
+import pyqtgraph as pg
 import pytest
 import shiboken6
 from PySide6.QtCore import QEvent, QSettings
@@ -19,12 +20,6 @@ from tests.app.driving import open_and_wait
 from tests.app.resetting import SIZE, Resetting, lay_out, settle
 from tests.guards import windows_close
 
-
-def pytest_collection_modifyitems(items):
-    """Themes first: another theme is put on all windows that there have been."""
-    items.sort(key=lambda item: item.path.name != "test_theme.py")
-
-
 #: The window that tests share, once there is one.
 SHARED: list[Window] = []
 
@@ -33,6 +28,7 @@ SHARED: list[Window] = []
 def qapp(qapp):
     """The application in the program's own look, with garbage collected as there."""
     apply_style(qapp, dark=False)
+    pg.setConfigOption("mouseRateLimit", 0)  # no move is left out, however fast one follows another
     return application()
 
 
@@ -96,6 +92,7 @@ def shared(qapp, tmp_path_factory, mesh_file):
     def share(qtbot):
         nonlocal resetting
         if resetting is None:
+            QSettings().clear()  # one before it may have kept how it was laid out
             SHARED.append(made(qtbot, mesh_file))
             resetting = Resetting(SHARED[0], mesh_file)
         return resetting
@@ -103,7 +100,8 @@ def shared(qapp, tmp_path_factory, mesh_file):
     def forget():
         nonlocal resetting
         resetting = None
-        close(SHARED.pop())
+        while SHARED:
+            close(SHARED.pop())
 
     share.forget = forget
 

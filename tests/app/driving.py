@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TypeVar
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPoint, Qt
-from PySide6.QtGui import QImage
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QPushButton, QWidget
 
@@ -76,9 +76,10 @@ def choose(window, method, stop=None, **values):
 
 
 def choose_by_keys(window, method):
-    """Choose a method in its panel, as a hand does."""
+    """Choose a method in its panel, as a hand does, and go back to the view."""
     window.refresh()
     walk_to(window, named(window.features["smooth"].panel, QComboBox, "Method"), method)
+    window.canvas.interactor.setFocus()  # or letters would be typed in the list
 
 
 def walk_to(window, box, data):
@@ -117,16 +118,22 @@ def pixels(window):
     return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
 
 
+def move(widget, at, held=Qt.MouseButton.NoButton):
+    """Move the mouse to a place of a widget, at once: the system's own pointer would come there later."""
+    place = QPointF(at)
+    spot = QMouseEvent.Type.MouseMove, place, widget.mapToGlobal(place)
+    QApplication.sendEvent(widget, QMouseEvent(*spot, Qt.MouseButton.NoButton, held, Qt.KeyboardModifier.NoModifier))
+    QApplication.processEvents()
+
+
 def drag(widget, start, end, steps=12):
     """Press, move and release the mouse as a hand does."""
-    QTest.mouseMove(widget, start)
-    QTest.qWait(30)
+    move(widget, start)
     QTest.mousePress(widget, LEFT, pos=start)
     for k in range(1, steps + 1):
-        QTest.mouseMove(widget, start + (end - start) * (k / steps))
-        QTest.qWait(10)
+        move(widget, start + (end - start) * (k / steps), LEFT)
     QTest.mouseRelease(widget, LEFT, pos=end)
-    QTest.qWait(50)
+    QApplication.processEvents()
 
 
 def seen_at(window, place):

@@ -68,6 +68,8 @@ class Canvas(CameraView):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(_RING, _RING, _RING, _RING)
         self.frame = ViewFrame(self.interactor)
+        for part, area in self.frame.clickable.items():
+            self._bar_place.keep_off(part, area)
         layout.addLayout(self.frame, 1)
         self._handled = False, 0
         self._chosen: tuple[int | None, bool] = (None, False)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QRect, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.canvas.captions import Caption, CaptionRow, WipeRow
@@ -49,6 +49,11 @@ class ViewFrame(QVBoxLayout):
         self._wiped.chosen.connect(self.wipe_chosen)
         self._edge.moved.connect(self.wipe_moved)
         self._edge.stepped.connect(self.wipe_stepped)
+
+    @property
+    def clickable(self) -> dict[QWidget, Callable[[], QRect]]:
+        """What lies over the view and is clicked or dragged, each with the part of it that has to stay free."""
+        return {row: row.rect for row in self._rows} | {self._edge: self._edge.knob}
 
     def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
         """Say what is seen in which view; of a wipe, on which side."""

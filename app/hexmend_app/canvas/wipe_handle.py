@@ -58,14 +58,14 @@ class WipeHandle(QWidget):
         share = self._share
         over = self.parentWidget().size()
         self.setGeometry(round(share * over.width()) - _KNOB // 2, 0, _KNOB, over.height())
-        self.setMask(QRegion(self._line) + QRegion(self._knob, QRegion.RegionType.Ellipse))
+        self.setMask(QRegion(self._line) + QRegion(self.knob(), QRegion.RegionType.Ellipse))
 
     @property
     def _line(self) -> QRect:
         return QRect((_KNOB - _LINE) // 2, 0, _LINE, self.height())
 
-    @property
-    def _knob(self) -> QRect:
+    def knob(self) -> QRect:
+        """Where it is taken hold of most easily."""
         return QRect(0, (self.height() - _KNOB) // 2, _KNOB, _KNOB)
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -77,10 +77,10 @@ class WipeHandle(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(QColor(str(BLUE if self.hasFocus() else LINE)))
         painter.setBrush(QColor(str(FIELD)))
-        painter.drawEllipse(self._knob.adjusted(1, 1, -2, -2))
+        painter.drawEllipse(self.knob().adjusted(1, 1, -2, -2))
         painter.setBrush(inside)
         painter.setPen(Qt.PenStyle.NoPen)
-        middle = self._knob.center()
+        middle = self.knob().center()
         for way in (-1, 1):
             tip, back = middle + QPoint(8 * way, 0), middle + QPoint(3 * way, 0)
             painter.drawPolygon([tip, back + QPoint(0, -4), back + QPoint(0, 4)])

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QMainWindow, QWidget
 
 from hexmend_app.feature import Panel, Place
 from hexmend_app.shell.docks import Docks
+from hexmend_app.shell.type_to_find import TypeToFind
 from hexmend_app.state import settings
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
@@ -58,6 +59,7 @@ class Window(QMainWindow):
         Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
         self.setCentralWidget(self.docks)
         make_room(self)
+        TypeToFind(self)
         self._counts = QLabel()
         self._counts.setAccessibleName("Counts")
         corner = QWidget()

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QSize, Qt
+from collections.abc import Callable
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QWidget
 
 from hexmend_app.state.settings import place_of
 
 _MARGIN = 8
+
+#: Share of the greatest height that is to be had anywhere, with which it stands nearer to where it belongs.
+_ENOUGH = 0.8
+
+_ELSEWHERE = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Move, QEvent.Type.Resize)
 _MOUSE = (
     QEvent.Type.MouseButtonPress,
     QEvent.Type.MouseMove,
@@ -51,6 +58,7 @@ class Overlay(QObject):
         self._setting = place_of(key, home) if key else None
         self._place = self._setting.get() if key else home
         self._grip: QPoint | None = None  # where on the widget the mouse holds it
+        self._others: dict[QWidget, Callable[[], QRect]] = {}  # what it keeps off, and where that is in `over`
         widget.setParent(over)
         if key:
             widget.setCursor(Qt.CursorShape.OpenHandCursor)
@@ -68,13 +76,51 @@ class Overlay(QObject):
         self._place = tuple(min(max(share, 0.0), 1.0) for share in place)
         self.fit()
 
+    def keep_off(self, other: QWidget, part: Callable[[], QRect] | None = None) -> None:
+        """Stand above or below another widget that lies over the same one, while that is there.
+
+        Parameters
+        ----------
+        other : QWidget
+        part : callable, optional
+            The part of it that is to stay free, in its own coordinates; all of it by itself.
+        """
+        self._others[other] = part or other.rect
+        other.installEventFilter(self)
+        self.fit()
+
     def fit(self) -> None:
         """Stand where it has to, as large as there is room for."""
         size = self._size()
         room = self._room(size)
         x, y = (round(_MARGIN + share * most) for share, most in zip(self._place, room, strict=True))
-        self._widget.setGeometry(x, y, size.width(), size.height())
+        self._widget.setGeometry(self._beside_others(QRect(QPoint(x, y), size)))
         self._widget.raise_()
+
+    def _beside_others(self, wanted: QRect) -> QRect:
+        """The place nearest to a wanted one, as high as there is room for, that leaves free what has to be."""
+        bottom = self._over.height()
+        taken = [(bottom, bottom)]
+        for other, part in self._others.items():
+            area = part().translated(other.pos())
+            if not other.isHidden() and area.left() <= wanted.right() and area.right() >= wanted.left():
+                taken.append((area.top(), area.bottom() + 1))
+        free, above = [], 0
+        for top, below in sorted(taken):
+            free.append((above + _MARGIN, top - _MARGIN))
+            above = max(above, below)
+
+        def within(gap: tuple[int, int]) -> QRect:
+            top, bottom = gap
+            height = max(min(wanted.height(), bottom - top), 1)
+            return QRect(wanted.x(), max(min(wanted.y(), bottom - height), top), wanted.width(), height)
+
+        places = [within(gap) for gap in free]
+        enough = _ENOUGH * max(place.height() for place in places)
+        return min(
+            (place for place in places if place.height() >= enough),
+            key=lambda place: abs(place.center().y() - wanted.center().y()),
+        )
 
     def _size(self) -> QSize:
         widget = self._widget
@@ -92,8 +138,10 @@ class Overlay(QObject):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Follow what it lies over, and the mouse."""
         kind = event.type()
-        if kind in (QEvent.Type.Show, QEvent.Type.LayoutRequest) or (
-            kind == QEvent.Type.Resize and watched is self._over
+        if (
+            kind in (QEvent.Type.Show, QEvent.Type.LayoutRequest)
+            or (kind == QEvent.Type.Resize and watched is self._over)
+            or (kind in _ELSEWHERE and watched in self._others)
         ):
             self.fit()
             if kind == QEvent.Type.Show and watched is self._widget:

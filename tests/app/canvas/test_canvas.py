@@ -6,14 +6,17 @@ import shiboken6
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QToolButton
 
 from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
+from hexmend_app.canvas.captions import Caption
+from hexmend_app.canvas.wipe_handle import WipeHandle
 from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.frame import Frame
 from hexmend_app.state.clip import ClipPlane
-from tests.app.driving import LEFT, drag
+from hexmend_app.state.views import Wipe
+from tests.app.driving import LEFT, drag, turn
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
@@ -247,3 +250,32 @@ def test_the_view_keeps_a_least_size(canvas):
     canvas.resize(50, 50)
     assert canvas.interactor.width() >= 320
     assert canvas.interactor.height() >= 240
+
+
+def test_the_colour_bar_keeps_off_what_closes_views(canvas, qtbot):
+    others = [(MESH, FIGURES)] * 3
+    for size in ((600, 500), (900, 700), (420, 320)):
+        canvas.resize(*size)
+        canvas.show_beside(others)
+        canvas.frame.set_captions([Caption(f"view {k}", 0.5, 0, None) for k in range(4)], None)
+        turn()
+        bar = canvas.colour_bar.geometry()
+        crosses = [one for one in canvas.findChildren(QToolButton) if one.accessibleName().startswith("Close")]
+        assert len(crosses) == 3
+        for cross in crosses:
+            at = cross.mapTo(canvas.interactor, cross.rect().center())
+            assert canvas.interactor.childAt(at) is cross
+        assert canvas.interactor.rect().contains(bar)
+
+
+def test_the_colour_bar_keeps_off_the_knob_of_a_wipe(canvas):
+    canvas.show_beside([(MESH, FIGURES)], Wipe(0, 1, 0.5))
+    home = canvas.colour_bar.geometry()
+    edge = canvas.findChild(WipeHandle)
+    for share in (0.5, 0.9, 0.95):
+        canvas.move_wipe(Wipe(0, 1, share))
+        knob = edge.knob().translated(edge.pos())
+        assert not canvas.colour_bar.geometry().intersects(knob)
+    assert canvas.colour_bar.geometry() != home
+    canvas.move_wipe(Wipe(0, 1, 0.5))
+    assert canvas.colour_bar.geometry() == home

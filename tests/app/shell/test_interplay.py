@@ -19,7 +19,7 @@ from hexmend_app.scene.layers import body
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.document import State
 from hexmend_app.state.run import Phase
-from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, pixels
+from tests.app.driving import LEFT, choose, click, key, move, named, open_and_wait, phase, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -106,12 +106,10 @@ def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
     pixels(window)
     view = window.canvas.interactor
     place = seen_at(window, ((box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2, box.high[2]))
-    QTest.mouseMove(view, place)
-    qtbot.wait(30)
+    move(view, place)
     QTest.mousePress(view, LEFT, pos=place)
     for k in range(1, 8):
-        QTest.mouseMove(view, place + QPoint(0, 4 * k))
-        qtbot.wait(10)
+        move(view, place + QPoint(0, 4 * k), LEFT)
     assert window.session.view.look.clip != box
     QTest.keyClick(window.windowHandle(), Qt.Key.Key_C)
     QTest.mouseRelease(view, LEFT, pos=place)
@@ -123,8 +121,7 @@ def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
     window.session.view.set_clip(box)
     pixels(window)
     for k in range(6):
-        QTest.mouseMove(view, place - QPoint(0, 4 * k))
-        QTest.qWait(10)
+        move(view, place - QPoint(0, 4 * k))
     assert window.session.view.look.clip == box  # no button is held any more
 
 

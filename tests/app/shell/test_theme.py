@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QGuiApplication, QImage
-from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from hexmend.quality import element, measure, node, summarise
@@ -39,8 +38,9 @@ from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.style import apply_style
 from hexmend_app.widgets.theming import Choice
-from tests.app.driving import named, pixels
+from tests.app.driving import named, pixels, turn
 from tests.core.grids import grid, scrambled
+from tests.patience import PATIENCE
 
 MESH = scrambled(grid(5), 0.9, 4)
 FIGURES = measure(MESH.points, MESH.hexes)
@@ -178,9 +178,15 @@ def seen(widget):
     return np.array(image.constBits()).reshape(image.height(), -1)[:, : 3 * image.width()].astype(int)
 
 
+@pytest.fixture
+def alone(shared):
+    """No window is there that would be put into every other theme, too: it takes seconds."""
+    shared.forget()
+
+
 @pytest.mark.parametrize("dark", [True, False], ids=["dark", "light"])
 @pytest.mark.parametrize("name", BUILT)
-def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, name, dark):
+def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, alone, name, dark):
     apply_style(qapp, dark=dark)
     new = BUILT[name]()
     apply_style(qapp, dark=not dark)
@@ -193,7 +199,7 @@ def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, name, dark):
     other = seen(switched)
     apply_style(qapp, dark=dark)
     assert np.abs(seen(switched) - other).max() > 100
-    QTest.qWait(10)
+    turn()
     np.testing.assert_array_equal(seen(switched), seen(new))
 
 
@@ -204,9 +210,8 @@ def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     assert THEME.dark
     assert theming.chosen() is Choice.DARK
     assert QSettings().value("theme") == "dark"
-    qtbot.wait(50)
+    qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.dark, timeout=PATIENCE)
     assert (pixels(window)[5, 5] < ground - 100).all()
-    assert window.palette().window().color().name() == theme.PANEL.dark
     now = window.session.document.now
     report = np.asarray(picture(Frame(now.mesh, now.figures), (400, 300)))
     assert report[2, 2, :3].tolist() == ground.tolist()
@@ -214,7 +219,7 @@ def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     assert on == [Choice.DARK]
     window.actions["theme_light"].trigger()
     assert not THEME.dark
-    qtbot.wait(50)
+    qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.light, timeout=PATIENCE)
     assert (np.abs(pixels(window) - light).sum(axis=2) > 60).mean() < 0.02
 
 

@@ -1,7 +1,7 @@
 """Widgets that lie over others."""
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QSettings, QSize, Qt
+from PySide6.QtCore import QPoint, QPointF, QRect, QSettings, QSize, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
@@ -82,7 +82,6 @@ def moved(card, by):
     QTest.mousePress(window, _LEFT, pos=start)
     for k in range(1, 9):
         QTest.mouseMove(window, start + by * (k / 8))
-        QTest.qWait(5)
     QTest.mouseRelease(window, _LEFT, pos=start + by)
 
 
@@ -122,6 +121,54 @@ def test_without_a_key_it_stays(over):
     moved(card, QPoint(-100, 20))
     assert card.geometry() == before
     assert over.heard == []
+
+
+@pytest.fixture
+def row(over):
+    """A row of what is clicked, in the middle of what is lain over."""
+    row = QWidget(over)
+    row.setGeometry(0, 230, 600, 24)
+    row.show()
+    return row
+
+
+def test_it_keeps_off_what_is_clicked_while_that_is_there(over, row):
+    card, place = laid(over)
+    home = card.geometry()
+    place.keep_off(row)
+    assert card.geometry().getRect() == (492, 262, 100, 230)  # as high as there is room for
+    row.move(0, 300)
+    assert card.geometry().getRect() == (492, 8, 100, 284)
+    row.hide()
+    assert card.geometry() == home
+    row.show()
+    row.setGeometry(0, 230, 400, 24)
+    assert card.geometry() == home  # it does not reach so far
+    row.setGeometry(0, 400, 600, 24)
+    assert card.geometry().getRect() == (492, 92, 100, 300)  # as far away as it has to be
+
+
+def test_of_several_things_that_overlap_and_of_parts_it_keeps_off_too(over, row):
+    card, place = laid(over)
+    inner = QWidget(over)
+    inner.setGeometry(550, 245, 10, 5)
+    inner.show()
+    for part in (row, inner):
+        place.keep_off(part)
+    assert not card.geometry().intersects(row.geometry())
+    row.setGeometry(490, 0, 100, 500)
+    inner.hide()
+    place.keep_off(row, lambda: QRect(0, 300, 100, 20))
+    assert card.geometry().getRect() == (492, 8, 100, 284)
+
+
+def test_a_drag_leads_it_past_what_is_clicked(over, row):
+    card, place = laid(over)
+    place.keep_off(row)
+    below = card.y()
+    moved(card, QPoint(-100, -250))
+    assert card.y() < 230 < below
+    assert not card.geometry().intersects(row.geometry())
 
 
 def test_the_wheel_goes_on_to_what_is_below_and_beside_it_all_does(over):

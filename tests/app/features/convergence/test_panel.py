@@ -11,7 +11,7 @@ from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.convergence.words import describe
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Moment, Record
-from tests.app.driving import turn
+from tests.app.driving import move, turn
 from tests.core.grids import grid
 
 LEFT = Qt.MouseButton.LeftButton
@@ -128,8 +128,7 @@ def test_a_drag_goes_through_iterations_and_keeps_to_its_run(panel):
     _, end = place(panel, "inverted", 18)
     QTest.mousePress(widget, LEFT, pos=start)
     for k in range(1, 9):
-        QTest.mouseMove(widget, start + (end - start) * (k / 8))
-        QTest.qWait(10)
+        move(widget, start + (end - start) * (k / 8), LEFT)
     QTest.mouseRelease(widget, LEFT, pos=end)
     numbers = [number for _, number in heard]
     assert {name for name, _ in heard} == {"getme"}

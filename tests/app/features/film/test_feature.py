@@ -1,31 +1,58 @@
-"""`hexmend film`."""
+"""Films of a run, drawn beside the window."""
 
+from itertools import pairwise
+
+import numpy as np
 import pytest
 from PIL import Image
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QPushButton
 
-from hexmend.cli.main import main
+from hexmend_app.features.film.feature import WIDTH
+from tests.app.driving import LEFT, turn
+from tests.app.features.timeline.test_feature import stepped
+from tests.patience import PATIENCE
 
 
-def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
-    path = tmp_path / "run.gif"
-    words = ["--method", "laplacian", "--max-iterations", "9", "--frames", "4", "--size", "320x240", "--clip", "x:0.5"]
-    assert main(["film", str(mesh_file), "-o", str(path), *words]) == 0
-    assert "4 frames of 320 × 240 pixels" in capsys.readouterr().out
+@pytest.mark.parametrize("suffix", [".gif", ".png", ".webp"])
+def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkeypatch, suffix):
+    record = stepped(window, qtbot, 5)
+    window.canvas.look_along("+x")
+    path = tmp_path / f"run{suffix}"
+    monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
+    shown = window.session.timeline.moment
+    window.actions["film"].trigger()
+    said = [window.busy.text()]
+    show = window.busy.show_work
+    monkeypatch.setattr(
+        window.busy, "show_work", lambda who, text, *others: (said.append(text), show(who, text, *others))
+    )
+    qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=PATIENCE)
+    assert said == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
+    assert "6 frames" in " ".join(window.messages.messages()[-1])
     with Image.open(path) as film:
-        assert (film.n_frames, film.size) == (4, (320, 240))
+        assert (film.n_frames, film.width) == (record.newest + 1, WIDTH)
+        frames = []
+        for k in range(film.n_frames):
+            film.seek(k)
+            frames.append(np.asarray(film.convert("RGB")).astype(int))
+    middle = slice(frames[0].shape[0] // 4, -frames[0].shape[0] // 4)
+    assert all((a[middle] != b[middle]).any() for a, b in pairwise(frames))
+    assert window.session.timeline.moment == shown
+    assert window.busy.isHidden()
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["-o", "run.mp4"], "Use .gif, .png or .webp."),
-        (["-o", "run.gif", "--frames", "1"], "--frames '1' cannot be used: expected a whole number from 2 to 1000"),
-        (["-o", "run.gif", "--rate", "fast"], "--rate 'fast' cannot be used"),
-        (["-o", "run.gif", "--method", "lapalcian"], "lapalcian"),
-    ],
-)
-def test_what_cannot_be_filmed_is_said_before_the_run(mesh_file, tmp_path, monkeypatch, capsys, words, said):
-    monkeypatch.chdir(tmp_path)
-    assert main(["film", str(mesh_file), *words]) != 0
-    assert said in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
+def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path, monkeypatch):
+    stepped(window, qtbot, 5)
+    path = tmp_path / "run.gif"
+    monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
+    window.actions["film"].trigger()
+    cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
+    QTest.mouseClick(cancel, LEFT)
+    assert not window.features["film"].going_on
+    turn()
+    assert list(tmp_path.glob("*.gif")) == []
+    path = tmp_path / "run.avi"
+    window.actions["film"].trigger()
+    assert not window.features["film"].going_on
+    assert "Use .gif, .png or .webp." in " ".join(window.messages.messages()[-1])

@@ -76,6 +76,14 @@ def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
     assert window.session.selection.hex is None
 
 
+def test_the_worst_alone_is_drawn_and_its_neighbours_are_ghosts(window):
+    key(window, Qt.Key.Key_N)
+    drawn, worst = window.canvas.viewport, window.session.selection.hex
+    assert set(drawn.body.faces.hexes) == {worst}
+    around = window.session.document.now.mesh.topology.ring_of([worst], 1)
+    assert drawn.filters.ghosts(drawn.frame).sum() == around.sum() - 1
+
+
 def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
     key(window, Qt.Key.Key_N)
     worst = window.session.selection.hex

@@ -114,6 +114,17 @@ def test_the_run_that_is_gone_through_is_the_one_explained(window, qtbot):
     assert window.session.timeline.moment.record is first
 
 
+@pytest.mark.parametrize("back", ["undo", "reset"])
+def test_a_run_that_is_taken_back_is_explained_as_one_whose_result_is_not_shown(window, qtbot, back):
+    run(window, qtbot, "laplacian", max_iterations=3)
+    assert "The mesh is shown as it was" not in said(window)
+    window.action(back).trigger()
+    assert "Why Laplacian stopped" in said(window)
+    assert "The mesh is shown as it was before the run." in said(window)
+    window.action("redo" if back == "undo" else "undo").trigger()
+    assert "The mesh is shown as it was" not in said(window)
+
+
 def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=500))
     open_and_wait(qtbot, window, tmp_path / "sound.vtu")

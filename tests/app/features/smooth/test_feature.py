@@ -18,7 +18,7 @@ from hexmend_app.widgets.section import Section
 from tests.app.driving import choose, click, key, named, phase, pixels
 from tests.patience import PATIENCE
 
-SHIFT = Qt.KeyboardModifier.ShiftModifier
+CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
 
 
 @pytest.fixture
@@ -69,6 +69,24 @@ def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
     assert window.session.document.start.summary.inverted > 0
     assert window.session.document.now.summary.inverted == 0
     assert "none inverted" in counts(window)
+
+
+@pytest.mark.parametrize("back", [Qt.Key.Key_Z, Qt.Key.Key_R], ids=["undo", "reset"])
+def test_what_is_said_of_a_run_goes_as_its_result_does_and_comes_back_with_it(window, qtbot, back):
+    panel, before = window.features["smooth"].panel, counts(window)
+    choose(window, "laplacian", Stop(tolerance=0.0, max_iterations=3))
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        click(window, "Run")
+    after, said, progress = counts(window), sentence(window), named(panel, QLabel, "Progress").text()
+    assert after != before
+    assert said
+    assert "iteration" in progress
+    key(window, back, CONTROL)
+    assert (counts(window), sentence(window)) == (before, "")
+    assert named(panel, QLabel, "Progress").text() != progress
+    key(window, Qt.Key.Key_Z, CONTROL, *([SHIFT] if back == Qt.Key.Key_Z else []))
+    assert (counts(window), sentence(window)) == (after, said)
+    assert named(panel, QLabel, "Progress").text() == progress
 
 
 def test_keys_step_and_stop(window, qtbot):

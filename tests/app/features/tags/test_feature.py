@@ -9,7 +9,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
 
 from hexmend import io
-from tests.app.driving import LEFT, choose, click, key, press
+from hexmend.run import Stop
+from tests.app.driving import LEFT, choose, click, key, named, press
 from tests.patience import PATIENCE
 
 
@@ -130,6 +131,19 @@ def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot)
     window.session.commands.reset()
     assert tags(window) == {"kept": [5], "later": [6]}
     np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
+
+
+def test_tagging_after_a_run_leaves_the_iteration_that_is_shown(window, panel, qtbot):
+    choose(window, "laplacian", Stop(tolerance=0.0, max_iterations=3))
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        click(window, "Run")
+    shown = named(window, QLabel, "Iteration shown")
+    window.refresh()
+    before = shown.text()
+    assert before.endswith("of 3")
+    window.session.commands.tag("bad", [5])
+    window.refresh()
+    assert shown.text() == before
 
 
 def test_a_format_that_cannot_hold_tags_is_said(window, panel, tmp_path):

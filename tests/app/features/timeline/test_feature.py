@@ -1,20 +1,17 @@
 """Watching a run in the window, by mouse and keys: scrubbing, playing, branching, break-points."""
 
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QPushButton, QSpinBox, QToolButton
+from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QSpinBox, QToolButton
 
 from hexmend.run import Stop
-from hexmend_app.features.film.feature import WIDTH
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run import Phase
-from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels, turn
+from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
 
@@ -171,6 +168,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     frame = hit.args[0]
     assert window.session.selection.hex == frame.hit.hexes[0]
+    assert window.canvas.viewport.filters.ghosts(window.canvas.viewport.frame) is None  # nothing is before it
     assert said(window) == f"Paused at a break-point: {frame.hit.sentence}."
     assert at(window, frame.iteration.number)()
     assert frame.hit.sentence in slider(window).toolTip()
@@ -273,50 +271,6 @@ def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot)
         click(window, "Step")
         qtbot.waitUntil(at(window, 6), timeout=PATIENCE)
     assert {row["method"] for row in record.rows} == {"local-nr"}
-
-
-@pytest.mark.parametrize("suffix", [".gif", ".png", ".webp"])
-def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkeypatch, suffix):
-    record = stepped(window, qtbot, 5)
-    window.canvas.look_along("+x")
-    path = tmp_path / f"run{suffix}"
-    monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
-    shown = window.session.timeline.moment
-    window.actions["film"].trigger()
-    said = [window.busy.text()]
-    show = window.busy.show_work
-    monkeypatch.setattr(
-        window.busy, "show_work", lambda who, text, *others: (said.append(text), show(who, text, *others))
-    )
-    qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=PATIENCE)
-    assert said == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
-    assert "6 frames" in " ".join(window.messages.messages()[-1])
-    with Image.open(path) as film:
-        assert (film.n_frames, film.width) == (record.newest + 1, WIDTH)
-        frames = []
-        for k in range(film.n_frames):
-            film.seek(k)
-            frames.append(np.asarray(film.convert("RGB")).astype(int))
-    middle = slice(frames[0].shape[0] // 4, -frames[0].shape[0] // 4)
-    assert all((a[middle] != b[middle]).any() for a, b in pairwise(frames))
-    assert window.session.timeline.moment == shown
-    assert window.busy.isHidden()
-
-
-def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path, monkeypatch):
-    stepped(window, qtbot, 5)
-    path = tmp_path / "run.gif"
-    monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
-    window.actions["film"].trigger()
-    cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
-    QTest.mouseClick(cancel, LEFT)
-    assert not window.features["film"].going_on
-    turn()
-    assert list(tmp_path.glob("*.gif")) == []
-    path = tmp_path / "run.avi"
-    window.actions["film"].trigger()
-    assert not window.features["film"].going_on
-    assert "Use .gif, .png or .webp." in " ".join(window.messages.messages()[-1])
 
 
 def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(window, qtbot):

@@ -22,7 +22,7 @@ from hexmend_app.scene.export.figure import Panel, figure
 from hexmend_app.scene.export.picture import picture, write_picture
 from hexmend_app.scene.frame import Frame
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
-from hexmend_app.state.look import Look
+from hexmend_app.state.look import Look, Structure
 from hexmend_app.state.measured import values
 from tests.core.grids import grid, scrambled
 
@@ -238,6 +238,28 @@ def test_a_picture_is_written_as_what_it_is(tmp_path, capsys):
             assert (read.format, read.size) == ("PNG", (16, 16))
     with pytest.raises(FileError, match=r"Use \.png"):
         write_picture(tmp_path / "p.jpg", image)
+
+
+@pytest.mark.parametrize(
+    "drawn",
+    [picture, lambda frame, size: figure([panel_of(frame)] * 2, frame.look, size)],
+    ids=["picture", "figure"],
+)
+@pytest.mark.parametrize("lines", [{"edges": True}, {"outline": True}, {"structure": Structure(sharp=True)}])
+def test_lines_are_as_thick_on_paper_in_every_size(drawn, lines):
+    mesh = grid(2)
+    look = Look(**{"edges": False, "outline": False, "shading": False} | lines)
+    frame = Frame(mesh, measure(mesh.points, mesh.hexes), look=look)
+    shares = []
+    for size in ((1440, 900), (2880, 1800)):
+        image = np.asarray(drawn(frame, size).convert("L"))[100 : round(0.9 * size[1])]  # without words
+        shares.append((image < 110).mean())
+    assert shares[0] > 5e-4
+    assert shares[1] == pytest.approx(shares[0], rel=0.4)
+
+
+def panel_of(frame):
+    return Panel("one", frame.mesh, frame.figures)
 
 
 def test_each_caption_of_a_figure_stands_above_its_view():
