@@ -15,6 +15,7 @@ from hexmend import kernels
 from hexmend.gallery import make
 from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
+from hexmend.study.boundaries import BOUNDARIES
 from hexmend.study.kernels import KERNELS, PRECONDITIONERS
 from hexmend.study.mending import OPTIMA, SIZES, TANGLED
 from hexmend.study.processes import PROCESSES
@@ -35,7 +36,7 @@ THESIS_SECONDS_PER_NODE = {
 
 def sections() -> dict[str, Section]:
     """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
-    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, SCALING, SIZES
+    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, SCALING, SIZES
     found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:
