@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 from PIL import Image
+from PySide6.QtGui import QOpenGLContext
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io import write
@@ -247,6 +248,8 @@ def test_a_picture_is_written_as_what_it_is(tmp_path, capsys):
 )
 @pytest.mark.parametrize("lines", [{"edges": True}, {"outline": True}, {"structure": Structure(sharp=True)}])
 def test_lines_are_as_thick_on_paper_in_every_size(drawn, lines):
+    if QOpenGLContext.currentContext() is not None:
+        QOpenGLContext.currentContext().doneCurrent()  # a window's, in which VTK would draw by another library
     mesh = grid(2)
     look = Look(**{"edges": False, "outline": False, "shading": False} | lines)
     frame = Frame(mesh, measure(mesh.points, mesh.hexes), look=look)
