@@ -166,7 +166,7 @@ class Mesh:
             raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
         check_finite(points)
         copy = self._copy()
-        copy._set(**{known: self.__dict__[known] for known in ("fixed", "free", "_surface") if known in self.__dict__})
+        copy._share(self, "fixed", "free")
         copy._set(points=_frozen(points))
         return copy
 
@@ -196,14 +196,14 @@ class Mesh:
         """
         surface.check_near(self)
         copy = self._copy()
-        copy._set(**{known: self.__dict__[known] for known in ("fixed", "free", "_surface") if known in self.__dict__})
+        copy._share(self, "fixed", "free")
         copy._set(_target=surface)
         return copy
 
     def keeping_surface(self) -> Mesh:
         """The same mesh, whose boundary slides on the surface of now wherever `with_points` puts its nodes."""
         copy = self._copy()
-        copy._set(**{known: self.__dict__[known] for known in ("fixed", "free") if known in self.__dict__})
+        copy._share(self, "fixed", "free")
         copy._set(_surface=self.surface)
         return copy
 
@@ -234,8 +234,12 @@ class Mesh:
         """A copy that shares everything; nothing is checked."""
         copy = object.__new__(Mesh)
         copy._set(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self)})
-        copy._set(**{known: self.__dict__[known] for known in ("_target",) if known in self.__dict__})
+        copy._share(self, "_surface", "_target")
         return copy
+
+    def _share(self, other: Mesh, *names: str) -> None:
+        """Take over what the other has found out or been told, if it has."""
+        self._set(**{name: other.__dict__[name] for name in names if name in other.__dict__})
 
 
 def _usual_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:

@@ -12,6 +12,7 @@ from PySide6.QtCore import QEvent, QSettings
 from PySide6.QtWidgets import QApplication, QMessageBox
 
 from hexmend import gallery, io
+from hexmend_app.scene.graphics import prepare_off_screen
 from hexmend_app.shell.program import application
 from hexmend_app.shell.window import Window
 from hexmend_app.state.task import running
@@ -41,6 +42,15 @@ def windows_are_closed(nothing_is_left_behind, request):
     request.getfixturevalue("qapp")
     with windows_close(SHARED):
         yield
+
+
+@pytest.fixture(autouse=True)
+def drawn_as_before(monkeypatch):
+    """What a command does to draw without a screen ends with its test: windows and their contexts are of another kind."""
+    monkeypatch.setenv("VTK_DEFAULT_OPENGL_WINDOW", "")
+    monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW")
+    yield
+    prepare_off_screen.cache_clear()
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -88,7 +88,8 @@ class Document(QObject):
         return self.is_open and self._changes[self._at].state is not self._saved
 
     def replace(self, state: State, path: Path | None) -> None:
-        """Open another mesh; its changes begin anew."""
+        """Open another mesh; its changes begin anew, and its boundary as it is now is what any run slides on."""
+        state = replace(state, mesh=state.mesh.keeping_surface())
         self.path = path
         self.now = state
         self._changes = [Change("open", state)]

@@ -181,12 +181,12 @@ def distances(one: Skin, other: Skin) -> tuple[np.ndarray, np.ndarray]:
 
 
 def surface_change(before: Mesh, after: Mesh, degrees: float = DEGREES) -> SurfaceChange:
-    """Compare the boundaries of a mesh before and after its nodes have moved.
+    """Compare the surface that a mesh has before its nodes move with its boundary after they have.
 
     Parameters
     ----------
     before, after : Mesh
-        Of the same hexes.
+        Of the same hexes. Of the first its `Mesh.surface` counts: where nothing else is kept, its boundary.
     degrees : float
         Angle beyond which an edge is a feature.
 
@@ -205,6 +205,7 @@ def surface_change(before: Mesh, after: Mesh, degrees: float = DEGREES) -> Surfa
     """
     if before.n_nodes != after.n_nodes or not np.array_equal(before.hexes, after.hexes):
         raise MeshError(f"{before.n_hexes} and {after.n_hexes} hexes that are not the same: expected one mesh, moved")
+    before = before.with_points(before.surface)
     old = Skin(before.points, before.topology.boundary_faces)
     new = old.with_points(after.points)
     ways = distances(after.target or old, new)

@@ -2,8 +2,10 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from hexmend.surface import surface_change
 from hexmend_app.state.document import Document, State
 from tests.core.grids import grid, scrambled
 
@@ -85,3 +87,13 @@ def test_replacing_begins_anew(document, qtbot):
         document.replace(State.of(grid(2)), None)
     assert document.undo_title is None
     assert document.start is document.now
+
+
+def test_the_boundary_slides_on_that_of_the_mesh_as_it_was_opened(document):
+    opened = document.now.mesh.points
+    once = document.now.mesh.with_points(1.1 * opened)
+    document.commit("moved", State.of(once.replace(name="pinned since")))
+    np.testing.assert_array_equal(document.now.mesh.surface, opened)
+    change = surface_change(document.now.mesh, document.now.mesh.with_points(opened))
+    assert change.max == 0
+    assert surface_change(document.now.mesh, once).max > 0

@@ -1,0 +1,39 @@
+"""Takes the pictures of docs/boundary.md: meshes of others before and after, the boundary sliding.
+
+Use: HEXMEND_MESHES=folder python scripts/take_boundary_pictures.py FOLDER
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+#: Files of meshes, and from where they are seen.
+_MESHES = {"bunny.vtk": "+z", "impeller.vtk": "iso", "cap_in.mesh": "iso"}
+
+
+def hexmend(*words: object) -> None:
+    """Run a command; its words go to the terminal."""
+    subprocess.run([sys.executable, "-m", "hexmend", *map(str, words)], check=False)
+
+
+def main(folder: Path) -> None:
+    """Mend each, and draw it beside what it was."""
+    meshes = Path(os.environ["HEXMEND_MESHES"])
+    for file, view in _MESHES.items():
+        name = file.partition(".")[0].removesuffix("_in")
+        with tempfile.TemporaryDirectory() as scratch:
+            mended = Path(scratch) / f"{name}.vtu"
+            goal = "--method", "mend", "--set", "goal=scaled-jacobian", "--boundary", "slide"
+            hexmend("smooth", meshes / file, "-o", mended, *goal)
+            hexmend(
+                "render", meshes / file, mended, "-o", folder / f"boundary-{name}.png", "--view", view,
+                "--size", "1400x640", "--captions", f"{name} as given,mended", "--metric", "scaled-jacobian",
+            )  # fmt: skip
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
