@@ -114,12 +114,12 @@ void improve(Closest &best, Points points, const Piece &piece, std::int32_t numb
 
 }  // namespace
 
-Closest Pieces::closest(const Point &x, std::int32_t root) const {
+Closest Pieces::closest(const Point &x, std::int32_t root, double enough) const {
     Closest best;
     std::pair<std::int32_t, double> waiting[DEEPEST];
     int size = 0;
     waiting[size++] = {root, square_to(boxes[root], x)};
-    while (size) {
+    while (size && best.square > enough) {
         auto [at, square] = waiting[--size];
         if (square >= best.square) continue;
         auto [link, count] = links[at];
@@ -148,8 +148,29 @@ std::tuple<Made<std::int32_t>, Made<double, 6>, Made<std::int32_t, 2>, Made<std:
     return {{std::move(builder.order)}, {std::move(builder.boxes)}, {std::move(builder.links)}, {std::move(roots)}};
 }
 
+void refit(Points points, std::span<const Piece> pieces, std::span<const Link> links, std::span<Box> boxes) {
+    expect(links.size() == boxes.size(), "links and boxes have different lengths: expected a row a box");
+    for (std::size_t at = links.size(); at-- > 0;) {  // children follow their parents
+        auto [link, count] = links[at];
+        Box &box = boxes[at];
+        if (count == 0) {
+            const Box &one = boxes[at + 1], &other = boxes[link];
+            for (int k = 0; k < 3; ++k)
+                box[k] = std::min(one[k], other[k]), box[k + 3] = std::max(one[k + 3], other[k + 3]);
+            continue;
+        }
+        box = {INF, INF, INF, -INF, -INF, -INF};
+        for (std::int32_t i = link; i < link + count; ++i)
+            for (Node node : pieces[i])
+                for (int k = 0; k < 3; ++k) {
+                    box[k] = std::min(box[k], points[node][k]);
+                    box[k + 3] = std::max(box[k + 3], points[node][k]);
+                }
+    }
+}
+
 void closest(Points points, std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const Link> links,
-             Points x, Indices roots, std::span<std::int32_t> piece, std::span<Point> places,
+             Points x, Indices roots, double enough, std::span<std::int32_t> piece, std::span<Point> places,
              std::span<Shares> weights) {
     expect(
         roots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
@@ -157,7 +178,7 @@ void closest(Points points, std::span<const Piece> pieces, std::span<const Box> 
     Pieces all{points, pieces, boxes, links};
     parallel_chunks(x.size(), POINTS_A_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            Closest found = all.closest(x[i], roots[i]);
+            Closest found = all.closest(x[i], roots[i], enough * enough);
             piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
         }
     });

@@ -30,8 +30,9 @@ struct Pieces {
     std::span<const Box> boxes;
     std::span<const Link> links;
 
-    // The point closest to x in the tree that begins at `root`; no piece where x is not finite.
-    Closest closest(const Point &x, std::int32_t root) const;
+    // The point closest to x in the tree that begins at `root`, or any whose square distance is at most `enough`; no
+    // piece where x is not finite.
+    Closest closest(const Point &x, std::int32_t root, double enough = 0) const;
 };
 
 // The order of pieces in trees, the boxes and links of all trees, and where each begins. Tree t is made of the pieces
@@ -39,8 +40,11 @@ struct Pieces {
 std::tuple<Made<std::int32_t>, Made<double, 6>, Made<std::int32_t, 2>, Made<std::int32_t>> trees(
     Points points, std::span<const Piece> pieces, Indices start);
 
+// The boxes of trees whose points have moved.
+void refit(Points points, std::span<const Piece> pieces, std::span<const Link> links, std::span<Box> boxes);
+
 void closest(Points points, std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const Link> links,
-             Points x, Indices roots, std::span<std::int32_t> piece, std::span<Point> places,
+             Points x, Indices roots, double enough, std::span<std::int32_t> piece, std::span<Point> places,
              std::span<Shares> weights);
 
 }  // namespace hexmend

@@ -129,10 +129,10 @@ def test_real_meshes_end_at_the_lower_bound(name, real_mesh):
 
 
 def test_which_tetrahedra_are_held_is_what_the_bits_say():
-    from hexmend.smoothers.mend import _locked_corners
+    from hexmend.smoothers.tangled import locked_corners
 
     mesh = with_locked_corner(grid(2))
-    bits = _locked_corners(mesh)
+    bits = locked_corners(mesh)
     assert np.flatnonzero(bits).tolist() == [0]
     (tetrahedron,) = np.flatnonzero(np.unpackbits(bits[:1], bitorder="little"))
     assert set(mesh.hexes[0, CORNER_TETRAHEDRA[tetrahedron]]) == {0, 1, 3, 9}

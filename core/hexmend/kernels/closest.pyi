@@ -18,9 +18,16 @@ def trees(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order=
     of all trees, and the box that is the root of each, (t,) int32.
     """
 
-def closest(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
+def refit(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu')]) -> None:
+    """
+    Writes the boxes of trees whose points have moved; pieces are ordered as `trees` says.
+    """
+
+def closest(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], boxes: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], links: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enough: float, piece: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
     The point closest to each of x (j, 3) in the tree of its root (j,); pieces are ordered as `trees` says.
+
+    A point that is no further than `enough` will do for the closest.
 
     Writes the piece (j,) int32, -1 where x is not finite, the place on it (j, 3), and the weights of the piece's
     corners there (j, 3).

@@ -105,8 +105,9 @@ def descend(
 #: stay.
 TRIALS = 6
 
-#: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others.
-WORSE, MORE, HALVINGS = 2.0, 1.0, 8
+#: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others; of
+#: what share of its step on a node stays where it is that would stray: it is at the end of its room.
+WORSE, MORE, HALVINGS, STAYS = 2.0, 1.0, 8, 0.25
 
 
 def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
@@ -118,6 +119,7 @@ def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) 
         spoilt = ~(energies(there, hexes, delta, energy.left_out) <= limit)
         strayed = energy.strayed(x, there)
         halved = np.zeros(len(x), dtype=bool) if strayed is None else strayed.copy()
+        share[halved & (share <= STAYS)] = 0.0
         halved[hexes[spoilt]] = True
         if not halved.any():
             break

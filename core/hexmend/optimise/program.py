@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
 #: Share of the gain that may be given away so that nodes stay which need not move.
 IDLE = 0.05
+#: How near to their bounds, in radii of the region, the models are that the program begins with; what counts as below.
+NEAR, BELOW = 0.3, 1e-7
+#: Of HiGHS: programs as small as these are solved before its presolve has made them smaller.
+_HIGHS = {"presolve": False, "simplex_dual_edge_weight_strategy": "devex"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +70,62 @@ def bounds_of(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> Models
     return Models(ends, above, slopes, np.zeros(len(above)))
 
 
-def program(nodes: np.ndarray, ways: Ways, models: Models, radius: float, falls: bool) -> tuple[Any, ...]:
-    """The linear program of a step, as `scipy.optimize.linprog` takes it: costs, matrix, limits, bounds.
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """The solution of a program.
+
+    Parameters
+    ----------
+    far : (w,)
+        How far to go each way.
+    gain : float
+        What the least rises by, as the models say.
+    multipliers : (r,)
+        Of the models, not negative: those of the ones that rise have the sum 1 where the gain has no bound.
+    """
+
+    far: np.ndarray
+    gain: float
+    multipliers: np.ndarray
+
+
+def solve(nodes: np.ndarray, ways: Ways, models: Models, radius: float, falls: bool = False) -> Solved | None:
+    """Find how far nodes (k,) are to go for the least to rise most; None where the program has no solution.
+
+    Most models are far from their bounds, and hold whatever the nodes do: the program begins with those that are near,
+    and is solved again with those that turn out to fall below.
+
+    Parameters
+    ----------
+    nodes : (k,) int
+    ways : Ways
+    models : Models
+    radius : float
+        How far a node may go each way.
+    falls : bool
+        Whether the least may fall, so that all else can be kept to.
+    """
+    from scipy.optimize import linprog
+
+    cost, matrix, limits, bounds = program(nodes, ways, models, radius, falls)
+    taken = limits < NEAR * radius
+    while True:
+        rows = np.flatnonzero(taken)
+        solved = linprog(cost, matrix[rows], limits[rows], bounds=bounds, method="highs-ds", options=_HIGHS)
+        if solved.status != 0:
+            return None
+        below = (matrix @ solved.x > limits + BELOW) & ~taken
+        if not below.any():
+            multipliers = np.zeros(limits.size)
+            multipliers[rows] = -solved.ineqlin.marginals
+            return Solved(solved.x[:-1], float(solved.x[-1]), multipliers)
+        taken |= below
+
+
+def program(
+    nodes: np.ndarray, ways: Ways, models: Models, radius: float, falls: bool
+) -> tuple[np.ndarray, csr_array, np.ndarray, np.ndarray]:
+    """The linear program of a step: costs (u,), matrix (r, u), its upper limits (r,), bounds (u, 2).
 
     Unknowns are how far nodes (k,) go each of their ways, up to a radius, and what the least rises by. Those nodes stay
     that need not move: a small price is on each way.
@@ -90,4 +151,4 @@ def program(nodes: np.ndarray, ways: Ways, models: Models, radius: float, falls:
     bounds = np.zeros((unknowns, 2))
     bounds[:, 1] = radius
     bounds[-1] = -2.0 if falls else 0.0, 2.0
-    return cost, coo_array((entries, at), shape=(rows, unknowns)).tocsr(), models.above, None, None, bounds
+    return cost, coo_array((entries, at), shape=(rows, unknowns)).tocsr(), models.above, bounds

@@ -15,10 +15,11 @@ import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh import Mesh
+from hexmend.optimise.apart import Apart
 from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
 from hexmend.optimise.iteration import Step
-from hexmend.optimise.program import Models, Ways, bounds_of, program
-from hexmend.surface import Sliding
+from hexmend.optimise.program import Models, Ways, solve
+from hexmend.surface import Off, Sliding
 
 #: Radius of the trust region at first and at most, in lengths of the shortest edge at each node, and where it ends.
 FIRST, LARGEST, SMALLEST = 0.1, 0.3, 1e-6
@@ -32,7 +33,7 @@ FALL = 8.0
 #: Of how many corners the nodes are moved at first, and how many there are at most; more as the fewer bring nothing.
 FEW, MANY = 300, 1_200
 #: A gain that is none of a step's model; that is none of `LATELY` steps together, and where the least is sound anyway.
-NOTHING, LATELY, LITTLE, SOUND, LITTLE_BEYOND = 1e-6, 10, 2e-5, 0.2, 1e-3
+NOTHING, LATELY, LITTLE, SOUND, LITTLE_BEYOND = 1e-6, 10, 2e-5, 0.2, 5e-4
 #: What a multiplier counts from on, the sum of all being 1.
 HOLDS = 1e-3
 #: By how many radii, in mean edge lengths, a boundary that has strayed is brought nearer at a time; what is enough.
@@ -102,7 +103,7 @@ class Raising:
     values : (m, 8)
         Of each corner.
     settled : (m, 8) bool
-        Corners that are not to be raised any more, but not to fall either.
+        Corners that could be moved, but none of whose nodes moves any more.
     lifted : (n,) bool
         Nodes of the boundary that need not stay on the surface, as long as they stay in the room around it.
     """
@@ -113,15 +114,20 @@ class Raising:
         self.values = scaled_jacobians(points, mesh.hexes)
         self.settled = np.zeros(self.values.shape, dtype=bool)
         self.lifted = np.zeros(mesh.n_nodes, dtype=bool)
-        self._floor = np.full(self.values.shape, -np.inf)
+        self._stays = np.zeros(mesh.n_nodes, dtype=bool)
         self.room = np.inf if sliding is None else sliding.room
-        self._looked: tuple[np.ndarray, tuple[np.ndarray, ...]] | None = None
+        self._seen: Apart | None = None
         self._begin()
 
     @property
     def least(self) -> float:
         """The least scaled Jacobian of the corners that are raised; +inf where there is none."""
         return float(self._raised().min(initial=np.inf))
+
+    @property
+    def lowest(self) -> float:
+        """The least scaled Jacobian of all corners that can be moved, settled or not; +inf where there is none."""
+        return float(np.where(self._held, np.inf, self.values).min(initial=np.inf))
 
     def locked_below(self, value: float) -> np.ndarray:
         """Corners, 8 * hex + corner, lower than a value, all of whose nodes are fixed, the lowest first, (k,) int64."""
@@ -153,40 +159,50 @@ class Raising:
         yield self._limit()
 
     def into(self, room: float) -> Iterator[Raised]:
-        """Steps that bring the boundary nearer to the surface until it is in its room; the least falls as it must."""
+        """Steps that bring the boundary nearer to the surface until it is in its room; the least falls as it must.
+
+        What is settled is no more: everything may be moved.
+        """
         self._begin()
+        self.settled[:] = self._stays[:] = False
         while self._radius > SMALLEST and (far := self.furthest()) > room * (1 + EXACT):
             radius = self._radius
             self.room, least = max(room, far - NEARER * radius * self.mesh.mean_edge_length), self.least
             low = np.flatnonzero(self._raised().ravel() < least + NARROWEST)[: self._most]
             _, points, moved = self._step(low, NARROWEST, self._strayed())
-            old, self.points = self.points, points
+            old, apart, self.points = self.points, self._apart, points
             if self.furthest() > far - BRINGS * (far - self.room):
                 self.points = old
                 self._radius *= SHRINK
                 continue
             hexes = np.unique(self.mesh.topology.node_corners.of(moved) // 8)
             self.values[hexes] = scaled_jacobians(points, self.mesh.hexes[hexes])
-            self._radius = min(GROW * self._radius, LARGEST)
+            self._seen, self._radius = apart.moved(points, moved), min(GROW * self._radius, LARGEST)
             yield Raised(points, self.least, low.size, radius)
         self.room = room
 
     def furthest(self) -> float:
         """The largest distance of the boundary and the surface, both ways."""
-        return 0.0 if self.sliding is None else max(self._far(), float(self._behind()[0].max(initial=0.0)))
+        if self.sliding is None:
+            return 0.0
+        return max(float(off.far.max(initial=0.0)) for off in self._off(self.points, 0.0))
 
     def _strayed(self) -> np.ndarray:
         """Free nodes where the boundary is out of its room."""
-        far, _ = self.sliding.off(self.points, np.arange(len(self.sliding.middles)))
-        behind, _, nodes, _ = self._behind()
-        found = np.unique(np.concatenate([self.sliding.middles[far > self.room], nodes[behind > self.room]]))
+        found = np.unique(np.concatenate([off.nodes for off in self._off(self.points, self.room)]))
         return found[self.mesh.free[found]]
 
+    def _off(self, points: np.ndarray, room: float) -> tuple[Off, Off]:
+        """Where the boundary is further than that from the surface, and the surface from the boundary."""
+        return self.sliding.off(points, np.arange(len(self.sliding.middles)), room), self.sliding.behind(
+            points, room=room
+        )
+
     def settle(self, limit: Limit) -> None:
-        """Let the corners that hold each other be: those that are left can be raised further."""
-        at = limit.hexes, limit.corners
-        self.settled[at] = True
-        self._floor[at] = np.minimum(self.values[at], limit.least)
+        """Let the corners that hold each other be, and their nodes stay: those that are left can be raised further."""
+        self._stays[_nodes(self.mesh.hexes, 8 * limit.hexes + limit.corners)] = True
+        moves = self.mesh.free & ~self._stays
+        self.settled = ~moves[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2) & ~self._held
 
     def lift(self, limit: Limit) -> bool:
         """Let sliding nodes of the corners that hold each other leave the surface; whether there is one more."""
@@ -220,41 +236,37 @@ class Raising:
 
         Returns the gain that it promises, all points with these nodes moved and put back, and which these are.
         """
-        from scipy.optimize import linprog
-
         hexes, radius, least = self.mesh.hexes, self._radius, self.least
         nodes = np.unique(_nodes(hexes, low))
-        nodes = nodes[self.mesh.free[nodes]]
+        nodes = nodes[self.mesh.free[nodes] & ~self._stays[nodes]]
         if strayed is not None:
             nodes = np.union1d(nodes, strayed)
         around = np.unique(self.mesh.topology.node_corners.of(nodes) // 8)
         near = (8 * around[:, None] + np.arange(8)).ravel()
-        above = self.values.ravel()[near] - np.where(self.settled.ravel()[near], self._floor.ravel()[near], least)
-        near = near[(above < band + FALL * radius) & ~self._held.ravel()[near]]
+        above = self._raised().ravel()[near] - least
+        near = near[above < band + FALL * radius]
         ends = _nodes(hexes, near)
         values, derivatives = gradients(self.points, ends)
         size = shortest_edges(self.points, hexes[around])
-        settled = self.settled.ravel()[near]
-        above = np.maximum(values - np.where(settled, self._floor.ravel()[near], least), 0.0)
-        models = Models(ends, above, derivatives, 1.0 - settled)
+        models = Models(ends, np.maximum(values - least, 0.0), derivatives, np.ones(near.size))
         if self.sliding is not None and np.isfinite(self.room):
             room = self._room(nodes, size)
             if strayed is None:
                 np.maximum(room.above, 0.0, out=room.above)
             models = models.and_those(room)
         ways = self._ways(nodes, size)
-        solved = linprog(*program(nodes, ways, models, radius, strayed is not None), method="highs")
-        if solved.status != 0:
+        solved = solve(nodes, ways, models, radius, falls=strayed is not None)
+        if solved is None:
             return 0.0, self.points, nodes
-        self._multipliers = near, -solved.ineqlin.marginals[: near.size]
+        self._multipliers = near, solved.multipliers[: near.size]
         points = self.points.copy()
-        np.add.at(points, nodes[ways.of], solved.x[:-1, None] * ways.aims)
+        np.add.at(points, nodes[ways.of], solved.far[:, None] * ways.aims)
         slide = nodes[self._slides(nodes)]
         if slide.size:
             points[slide] = self.sliding.put_back(points[slide], slide)
-        if self.sliding is not None and not self.lifted.any():
+        if self.sliding is not None and not self.lifted.any():  # off the surface its normals say little
             points = self.sliding.unturned(self.points, points)
-        return float(solved.x[-1]), points, nodes
+        return solved.gain, points, nodes
 
     def _slides(self, nodes: np.ndarray) -> np.ndarray:
         """Which of some nodes are put back on the surface wherever they are moved to, bool."""
@@ -264,49 +276,24 @@ class Raising:
 
     def _room(self, nodes: np.ndarray, size: np.ndarray) -> Models:
         """What keeps the boundary at nodes in its room."""
-        sliding = self.sliding
-        which = sliding.middles_at(nodes)
-        far, away = sliding.off(self.points, which)
-        ends = sliding.middles[which]
-        reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
-        near = far + reach > self.room
-        ends, far, away = ends[near], far[near], away[near]
-        models = bounds_of(ends, self.room - far, np.repeat(-away[:, None] / 4, 4, axis=1))
-        if sliding.leaves_behind(self.points, self.room - self._radius * float(size[nodes].max(initial=0.0))):
-            far, away, ends, weights = self._behind()
-            moved = np.zeros(self.mesh.n_nodes, dtype=bool)
-            moved[nodes] = True
-            reach = self._radius * np.where(np.isfinite(size[ends]), size[ends], 0.0).max(axis=1, initial=0.0)
-            near = moved[ends].any(axis=1) & (far + reach > self.room)
-            slopes = weights[near, :, None] * away[near, None, :]
-            models = models.and_those(bounds_of(ends[near], self.room - far[near], slopes))
-        return models
+        moves = np.zeros(self.mesh.n_nodes)
+        moves[nodes] = self._radius * size[nodes]
+        return self._apart.bounds(moves, self.room)
 
-    def _far(self) -> float:
-        """How far the boundary has left the surface."""
-        return float(self.sliding.off(self.points, np.arange(len(self.sliding.middles)))[0].max(initial=0.0))
-
-    def _behind(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """See `Sliding.behind`; of a place that has been looked from before it is known."""
-        if self._looked is None or self._looked[0] is not self.points:
-            self._looked = self.points, self.sliding.behind(self.points)
-        return self._looked[1]
+    @property
+    def _apart(self) -> Apart:
+        if self._seen is None or self._seen.points is not self.points:
+            self._seen = Apart(self.sliding, self.points)
+        return self._seen
 
     def _leaves(self, points: np.ndarray, nodes: np.ndarray) -> bool:
         """Whether the boundary at nodes has left its room, further than it was."""
         if self.sliding is None or not np.isfinite(self.room):
             return False
-        which = self.sliding.middles_at(nodes)
-        before, after = (self.sliding.off(x, which)[0] for x in (self.points, points))
-        room = self.room
-        if (after > np.maximum(before, room)).any():
+        after = self._apart.moved(points, nodes)
+        if after.leaves(self._apart, nodes, self.room):
             return True
-        if not self.sliding.leaves_behind(points, room):
-            return False
-        seen = self.sliding.behind(points)
-        if (seen[0] > np.maximum(self._behind()[0], room)).any():
-            return True
-        self._looked = points, seen
+        self._seen = after
         return False
 
     def _ways(self, nodes: np.ndarray, size: np.ndarray) -> Ways:
@@ -324,7 +311,7 @@ class Raising:
             there = np.linalg.norm(around, axis=1) > 0.5  # of a curve all that goes along it, once
             there &= np.tile(_AROUND[:, 1] == 0, on.size) | np.repeat(bases[:, :, 1].any(axis=1), len(_AROUND))
             around, of_around = around[there], of_around[there]
-            far = self._radius * size[nodes[of_around], None]
+            far = np.maximum(self._radius * size[nodes[of_around], None], np.finfo(float).tiny)  # nodes may coincide
             start = self.points[nodes[of_around]]
             led = (self.sliding.put_back(start + far * around, nodes[of_around]) - start) / far
             of, aims, leads = (np.concatenate(both) for both in ((of, of_around), (aims, around), (leads, led)))
@@ -343,8 +330,7 @@ class Raising:
         hexes = np.unique(self.mesh.topology.node_corners.of(moved) // 8)
         before, self.values[hexes] = self.values[hexes], scaled_jacobians(points, self.mesh.hexes[hexes])
         gain = self.least - least
-        fallen = self.settled[hexes] & (self.values[hexes] < self._floor[hexes] - NOTHING)
-        if fallen.any() or (gain > BRINGS * promised and self._leaves(points, moved)):
+        if gain > BRINGS * promised and self._leaves(points, moved):
             gain = -np.inf
         share = gain / promised
         if share > GOOD:

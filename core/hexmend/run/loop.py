@@ -8,7 +8,7 @@ from itertools import pairwise
 from hexmend.arrays import read_only
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Outcome, Result, Stop
-from hexmend.quality import Summary, measure, summarise, worse_in_words
+from hexmend.quality import Summary, measure, summarise, worse, worse_in_words
 from hexmend.recipe import Recipe, Stage
 from hexmend.run.leg import Leg
 from hexmend.run.words import changes, iterations, kept
@@ -177,7 +177,8 @@ class Run(Iterator[Iteration]):
         words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *self.decisions]
         if self.reached is not self.last:
             words.append(kept(self.reached.number))
-        return " ".join(filter(None, [*words, worse_in_words(before, after)]))
+        instead = self.stage.smoother.instead(worse(before, after))
+        return " ".join(filter(None, [*words, worse_in_words(before, after), instead]))
 
     def result(self) -> Result:
         """The record of the run as far as it went."""

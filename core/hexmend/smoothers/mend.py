@@ -8,20 +8,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.energy import MeshEnergy, SlidingEnergy, energies
-from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
-from hexmend.optimise.corners import shortest_edges
 from hexmend.optimise.descent import Descent, descend
 from hexmend.optimise.direction import TruncatedNewton
 from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.raising import Raising
 from hexmend.parameters import parameter
-from hexmend.quality import ElementQuality, corner_determinants, measure
+from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.raised import AIM, CLUSTERS, SOUND, SPARED, lifted, limits_of, raise_least, what_limits
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.smoothers.smoother import Steps, method
+from hexmend.smoothers.tangled import brought_near, inverted_corners, locked_corners, tangled_in
+from hexmend.smoothers.told import what_is_left, what_sliding_freed
 from hexmend.surface import Sliding
 
 #: Newton steps on one delta; the energy is not worth minimising before delta is what it is to be.
@@ -30,12 +30,11 @@ STEPS = 3
 FALL, LEAST = 0.7, 1e-9
 #: The largest delta: beyond it, the energy of a flat hex is that of a cube.
 LARGEST = 0.5
-#: Deltas in a row without a hex more mended after which the rest is given up.
-PATIENCE = 14
+#: Deltas in a row without a hex more mended after which the rest is given up; where nodes slide, and what resists is
+#: raised after that, after fewer.
+PATIENCE, SLIDING_PATIENCE = 14, 7
 #: How far a step may take a node, in mean lengths of its edges.
 REACH = 1.5
-#: From how many mean edge lengths of its shortest edge on an inner node is far away: it begins amid its neighbours.
-FAR = 10.0
 #: Sweeps of local Newton steps (A.4) around the hexes that a step of all nodes has left inverted, and, at the optimum's
 #: side of the barrier, around those whose energy eta is higher than `POOR`: a few of them would cut the step of all.
 SWEEPS, POOR_SWEEPS, POOR = 10, 5, 3.0
@@ -46,8 +45,9 @@ SETTLED = 1e-3
 #: and the whole mesh steps again only where two deltas in a row have mended nothing.
 FEW, MANY_SWEEPS = 0.003, 50
 
-#: On a faceted surface the last steps go from edge to edge: it is enough where so many gain no more than such a share.
-LATELY, SLOW = 5, 2e-3
+#: On a faceted surface the last steps go from edge to edge: it is enough where so many gain no more than such a share;
+#: while hexes are left out, which only what comes after can mend, than such another.
+LATELY, SLOW, SLOW_BESIDE_OTHERS = 5, 2e-3, 2e-2
 
 SEARCH = BackLineSearch(shrink=0.5)
 
@@ -90,12 +90,13 @@ class Mend(SlidingSmoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
-        slides, raises = self.slides, self.goal != "shape"
-        if slides and mesh.target is not None:
+        given, raises = mesh, self.goal != "shape"
+        if self.slides and mesh.target is not None:
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
-        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), slides or raises)
-        places, sliding = [mesh.points, points], None
-        if slides:
+        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), self.slides or raises)
+        places, sliding, limits = [mesh.points, points], None, None
+        words: list[str] = []
+        if self.slides:
             room = self.surface_tolerance * mesh.mean_edge_length
             sliding = Sliding(mesh, self.feature_angle, SPARED * room if room else np.inf)
             freeing = Raising(sliding.mesh, points, sliding)
@@ -103,23 +104,31 @@ class Mend(SlidingSmoother):
             energy = SlidingEnergy(sliding, self.p)
             points, outcome = yield from self._shaped(sliding.mesh.with_points(freeing.points), energy, True)
             places += [freeing.points, points]
-        if raises or slides:
+        if raises or self.slides:
             at = mesh if sliding is None else sliding.mesh
             raising = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.least)
             if raises or raising.least < SOUND:
                 outcome = Outcome.NO_IMPROVEMENT
                 limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
-                if slides and room and raising.least < (AIM if raises else SOUND):
+                if self.slides and room and raising.lowest < (AIM if raises else SOUND):
                     raising, limit = yield from lifted(Raising(at, places[1], sliding), room, raising, limit)
-                words, limits = (what_limits(raising, limit), limits_of(raising, limit)) if raises else ("", None)
-                yield Step(raising.points, {"least": raising.least}, words, more=True, limits=limits)
+                points = raising.points
+                if raises:
+                    words.append(what_limits(raising, limit))
+                    limits = limits_of(raising, limit)
+        if self.slides:
+            words.append(what_sliding_freed(given, points))
+        if any(words) or outcome is Outcome.NO_IMPROVEMENT:
+            yield Step(points, decision=" ".join(filter(None, words)), more=True, limits=limits)
         return outcome
 
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Untangle, then go to the optimum of shape; `more` where that is not the end."""
-        locked = _locked_corners(mesh)
+        locked = locked_corners(mesh)
         energy = energy.but(self.p, locked)
         points, left_out = yield from self._untangled(mesh, energy, locked)
+        if left_out.any() and not self.slides:
+            yield Step(points, decision=what_is_left(left_out, locked), more=True)
         return (yield from self._optimum(mesh, energy, points, left_out, more))
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
@@ -135,6 +144,13 @@ class Mend(SlidingSmoother):
             before, after = (np.power(figures.eta[~figures.inverted], p).sum() for figures in (start, now))
         return now.n_inverted, harmed, after > before
 
+    def instead(self, worse: tuple[str, ...]) -> str:
+        if self.goal != "shape" or "inverted" in worse:
+            return ""
+        if "scaled_jacobian" in worse:
+            return "With goal=scaled-jacobian the least scaled Jacobian rises instead; with guard=true neither falls."
+        return "With guard=true it does not fall." if worse else ""
+
     def _direction(self) -> TruncatedNewton:
         return TruncatedNewton(iterations=self.solver_iterations)
 
@@ -144,14 +160,15 @@ class Mend(SlidingSmoother):
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
         points, e = mesh.points, self.softness
         figures = measure(points, mesh.hexes)
-        near = _brought_near(mesh, figures)
+        near = brought_near(mesh, figures)
         if near is not points:
             points, figures = near, measure(near, mesh.hexes)
             yield Step(points, more=True, figures=figures)
         x = energy.scaled(points)
-        tangled, worst = _tangled(points, mesh.hexes, locked, figures)
+        tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
         least, idle = tangled, 0
-        while tangled and idle < PATIENCE and e > LEAST:
+        patience = SLIDING_PATIENCE if energy.faceted else PATIENCE
+        while tangled and idle < patience and e > LEAST:
             delta = min(LARGEST, float(np.sqrt(e * (e - min(worst / energy.unit**3, 0.0)))))
             find = self._direction()
             few = tangled < FEW * mesh.n_hexes
@@ -163,7 +180,7 @@ class Mend(SlidingSmoother):
                 x, points = taken.x, energy.placed(taken.x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, taken.notes(delta), more=True, figures=figures)
-                tangled, worst = _tangled(points, mesh.hexes, locked, figures)
+                tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
                 if not tangled:
                     break
             if tangled:
@@ -171,14 +188,11 @@ class Mend(SlidingSmoother):
                 points = energy.placed(x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True, figures=figures)
-                tangled, worst = _tangled(points, mesh.hexes, locked, figures)
+                tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
             idle = 0 if tangled < least else idle + 1
             least = min(least, tangled)
             e *= FALL
-        if tangled or locked.any():
-            words = _what_is_left(tangled, int(np.count_nonzero(locked)))
-            yield Step(points, decision=words, more=True)
-        return points, _inverted_corners(points, mesh.hexes) | locked
+        return points, inverted_corners(points, mesh.hexes) | locked
 
     def _optimum(
         self, mesh: Mesh, energy: MeshEnergy, points: np.ndarray, left_out: np.ndarray, more: bool
@@ -191,6 +205,7 @@ class Mend(SlidingSmoother):
             x, rises = energy.scaled(points), p < self.highest_p
             whole = False  # whether the last step was taken whole: then no hex is in the way
             values: list[float] = []
+            slow = SLOW_BESIDE_OTHERS if left_out.any() else SLOW
             while True:
                 poor = None if whole else energies(x, mesh.hexes, 0.0, left_out) > POOR
                 if poor is not None and poor.any():
@@ -199,7 +214,7 @@ class Mend(SlidingSmoother):
                 if taken is None or (taken.alpha == 0 and (taken.slope < 0 or more)):
                     break
                 values.append(taken.value)
-                if energy.faceted and len(values) > LATELY and values[-LATELY] - values[-1] < SLOW * values[-1]:
+                if energy.faceted and len(values) > LATELY and values[-LATELY] - values[-1] < slow * values[-1]:
                     return points, Outcome.NO_IMPROVEMENT
                 move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))
                 x, points, whole = taken.x, energy.placed(taken.x), taken.cuts == 0
@@ -209,23 +224,6 @@ class Mend(SlidingSmoother):
             if not rises:
                 return points, _end(taken)
             p = min(2 * p, self.highest_p)
-
-
-def _brought_near(mesh: Mesh, figures: ElementQuality) -> np.ndarray:
-    """The points of a mesh, those nodes of its inverted hexes amid their neighbours that are far from them all, (n, 3).
-
-    From far away such a node would draw the others after it for as long as delta is large.
-    """
-    size = shortest_edges(mesh.points, mesh.hexes[figures.inverted])
-    far = np.isfinite(size) & (size > FAR * mesh.mean_edge_length)
-    points = mesh.points
-    for node in np.flatnonzero(far & mesh.free & ~mesh.topology.boundary):
-        ring = mesh.topology.rings[node]
-        ring = ring[~far[ring]]
-        if ring.size:
-            points = points.copy() if points is mesh.points else points
-            points[node] = mesh.points[ring].mean(axis=0)
-    return points
 
 
 def _swept(
@@ -254,33 +252,3 @@ def _end(taken: Descent | None) -> Outcome:
     """How it ended where no step descended: at the optimum what a step would gain is less than rounding."""
     at_rounding = taken is not None and -taken.slope < 1e-10 * taken.value
     return Outcome.CONVERGED if at_rounding else Outcome.NO_DESCENT
-
-
-def _what_is_left(tangled: int, locked: int) -> str:
-    held = f"{locked:,} hex{'es have' if locked != 1 else ' has'} corners that fixed nodes lock in inversion"
-    rest = f"{tangled:,} more resist{'s' * (tangled == 1)}"
-    return f"Left out of the energy: {'; '.join(filter(None, [held * bool(locked), rest * bool(tangled)]))}."
-
-
-def _inverted_corners(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """A bit for each corner tetrahedron with sigma <= 0, (m,) uint8."""
-    bits = np.zeros(len(hexes), np.uint8)
-    where = np.flatnonzero(measure(points, hexes).inverted)
-    inverted = ~(corner_determinants(points, hexes, where) > 0)
-    bits[where] = np.packbits(inverted, axis=1, bitorder="little")[:, 0]
-    return bits
-
-
-def _locked_corners(mesh: Mesh) -> np.ndarray:
-    """A bit for each corner tetrahedron that fixed nodes lock in inversion, (m,) uint8."""
-    held = np.packbits(mesh.fixed[mesh.hexes[:, CORNER_TETRAHEDRA]].all(axis=2), axis=1, bitorder="little")[:, 0]
-    return _inverted_corners(mesh.points, mesh.hexes) & held
-
-
-def _tangled(points: np.ndarray, hexes: np.ndarray, left_out: np.ndarray, figures: ElementQuality) -> tuple[int, float]:
-    """How many hexes have an inverted corner that is not left out, and the least determinant of those corners."""
-    where = np.flatnonzero(figures.inverted)
-    counts = np.unpackbits(left_out[where, None], axis=1, bitorder="little") == 0
-    sigma = np.where(counts, corner_determinants(points, hexes, where), np.inf)
-    inverted = ~(sigma > 0)
-    return int(np.count_nonzero(inverted.any(axis=1))), float(sigma.min(initial=0.0))

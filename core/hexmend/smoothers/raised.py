@@ -19,7 +19,7 @@ SPARED, WIDE, ENOUGH, NEAR_ENOUGH = 1 / 3, 1.5, 1.2, 1e-5
 #: How many linear programs an iteration has.
 TOGETHER = 3
 #: How many groups of corners that hold each other below `AIM` are left behind; and while nodes leave the surface.
-CLUSTERS, MANY_CLUSTERS = 5, 30
+CLUSTERS, MANY_CLUSTERS = 10, 30
 
 
 def raise_least(
@@ -76,8 +76,8 @@ def lifted(raising: Raising, room: float, other: Raising, limit: Limit) -> Gener
     yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
     for step in islice(raising.into(room), 0, None, TOGETHER):
         yield step.step(detour=True)
-    if raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.least < other.least:
-        yield Step(other.points, {"least": other.least}, more=True)
+    if raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.lowest < other.lowest:
+        yield Step(other.points, {"least": other.lowest}, more=True)
         return other, limit
     return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
 

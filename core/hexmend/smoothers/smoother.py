@@ -71,6 +71,10 @@ class Smoother(Parametrised, ABC):
         least = float(now.q.min())
         return now.n_inverted, least < start.q.min() - _TOLD if self.optimises else -least
 
+    def instead(self, worse: tuple[str, ...]) -> str:
+        """What to ask the method for where figures, of `hexmend.quality.JUDGED`, have become worse; "" for nothing."""
+        return ""
+
     @classmethod
     def to_json(cls) -> dict[str, Any]:
         """The method's entry in `hexmend methods --json`."""

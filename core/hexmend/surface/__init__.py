@@ -3,6 +3,7 @@
 from hexmend.surface.boundary import Boundary, Kind, boundary_of, classify
 from hexmend.surface.change import Skin, SurfaceChange, distances, surface_change
 from hexmend.surface.locked import freed_by_sliding
+from hexmend.surface.room import Off
 from hexmend.surface.sliding import Sliding
 from hexmend.surface.surface import Surface
 from hexmend.surface.trees import Closest, Trees
@@ -11,6 +12,7 @@ __all__ = [
     "Boundary",
     "Closest",
     "Kind",
+    "Off",
     "Skin",
     "Sliding",
     "Surface",

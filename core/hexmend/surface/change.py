@@ -111,7 +111,8 @@ class Skin:
     def with_points(self, points: np.ndarray) -> Skin:
         """The same faces with their nodes elsewhere."""
         other = copy.copy(self)
-        other.points, other._trees = points, _one_tree(points, self.faces)
+        vertices, _, _ = triangulated(points, self.faces)
+        other.points, other._trees = points, self._trees.with_points(vertices)
         return other
 
     def samples(self) -> np.ndarray:
@@ -123,8 +124,8 @@ class Skin:
         """How far each of x (k, 3) is from the surface, (k,), in the mesh's unit."""
         return np.linalg.norm(self.closest(x) - x, axis=1)
 
-    def closest_on(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The places of the surface that are closest to x (k, 3), by the nodes that make them.
+    def closest_on(self, x: np.ndarray, enough: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The places of the surface that are closest to x (k, 3), or within `enough`, by the nodes that make them.
 
         Returns
         -------
@@ -134,7 +135,7 @@ class Skin:
         weights : (k, 4) or (k, 3)
             Of these nodes there.
         """
-        found = self._trees.closest(x, np.zeros(len(x), dtype=np.int64))
+        found = self._trees.closest(x, np.zeros(len(x), dtype=np.int64), enough)
         pieces, width = self._trees.pieces[found.pieces], self.faces.shape[1]
         if width == 3:
             return found.places, pieces, found.weights
@@ -144,9 +145,9 @@ class Skin:
             weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
         return found.places, nodes, weights
 
-    def closest(self, x: np.ndarray) -> np.ndarray:
-        """The places of the surface that are closest to x (k, 3), (k, 3)."""
-        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64)).places
+    def closest(self, x: np.ndarray, enough: float = 0.0) -> np.ndarray:
+        """The places of the surface that are closest to x (k, 3), or within `enough`, (k, 3)."""
+        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), enough).places
 
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""

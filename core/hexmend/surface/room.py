@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +12,31 @@ from hexmend.surface.change import Skin
 #: By what share of it a distance is off by rounding, and the least room, as a share of the diagonal.
 _ROUNDING = 1e-9
 NOBODY = np.empty(0, dtype=np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Off:
+    """Places where boundary and surface are apart.
+
+    Parameters
+    ----------
+    which : (k,) int64
+        Of those that were looked at, ascending.
+    far : (k,)
+        The distance of each from the closest place of the other.
+    away : (k, 3)
+        Unit vectors along which it grows: from the closest place to this one.
+    nodes : (k, 4)
+        Nodes of the boundary that make the place, or the closest one.
+    weights : (k, 4)
+        Theirs.
+    """
+
+    which: np.ndarray
+    far: np.ndarray
+    away: np.ndarray
+    nodes: np.ndarray
+    weights: np.ndarray
 
 
 class Room:
@@ -56,34 +82,50 @@ class Room:
         moved[nodes] = True
         return np.flatnonzero(moved[self.middles].any(axis=1))
 
-    def off(self, points: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """How far some of `middles` are from the surface, (k,), and the unit vectors that lead away from it, (k, 3)."""
-        x = points[self.middles[which]].mean(axis=1)
-        away = x - self.target.closest(x)
-        far = np.linalg.norm(away, axis=1)
-        return far, away / np.maximum(far, np.finfo(float).tiny)[:, None]
+    def off(self, points: np.ndarray, which: np.ndarray, room: float | np.ndarray = 0.0) -> Off:
+        """Those of some `middles` that are further than a room from the surface.
 
-    def behind(
-        self, points: np.ndarray, which: np.ndarray | slice = slice(None)
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """How far the surface's nodes and middles, or some of them, are from the boundary as it is now.
-
-        Returns
-        -------
-        far : (s,)
-        away : (s, 3)
-            Unit vectors from the boundary to them.
-        nodes, weights : (s, 4)
-            What makes the closest places of the boundary.
+        Parameters
+        ----------
+        points : (n, 3) float64
+        which : (k,) int64
+            Of `middles`.
+        room : float or (k,) float64
+            One for all, or one for each.
         """
-        x = self._samples[which]
-        places, nodes, weights = self.skin.with_points(points).closest_on(x)
-        far = np.linalg.norm(x - places, axis=1)
-        return far, (x - places) / np.maximum(far, np.finfo(float).tiny)[:, None], nodes, weights
+        room = np.broadcast_to(room, which.shape)
+        moved = (points - self._start)[self.middles[which]].mean(axis=1)
+        may = self._off_at_first[which] + np.linalg.norm(moved, axis=1) > np.maximum(room, 0.0)
+        which, room = which[may], room[may]
+        x = points[self.middles[which]].mean(axis=1)
+        far, away = _apart(x, self.target.closest(x, max(float(room.min(initial=np.inf)), 0.0)))
+        out = far > room
+        nodes = self.middles[which[out]]
+        return Off(which[out], far[out], away[out], nodes, np.full(nodes.shape, 0.25))
 
-    def leaves_behind(self, points: np.ndarray, room: float) -> bool:
-        """Whether the boundary may have left a place of the surface by more: not where nothing has moved that far."""
-        return self._may_be_behind(points, max(room, 0.0)).size > 0
+    def behind(self, points: np.ndarray, which: np.ndarray | None = None, room: float | np.ndarray = 0.0) -> Off:
+        """Those of the surface's nodes and middles that are further than a room from the boundary as it is now.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+        which : (k,) int64, optional
+            Of them; all, if None.
+        room : float or (k,) float64
+            One for all, or one for each.
+        """
+        first, nodes, weights = self.behind_at_first
+        if which is None:
+            which = np.arange(len(first))
+        room = np.broadcast_to(room, which.shape)
+        moved = np.einsum("sk,ski->si", weights[which], (points - self._start)[nodes[which]])
+        may = first[which] + np.linalg.norm(moved, axis=1) > np.maximum(room, 0.0)
+        which, room = which[may], room[may]
+        x = self._samples[which]
+        places, nodes, weights = self.skin.with_points(points).closest_on(x, max(float(room.min(initial=np.inf)), 0.0))
+        far, away = _apart(x, places)
+        out = far > room
+        return Off(which[out], far[out], away[out], nodes[out], weights[out])
 
     def beyond(self, points: np.ndarray) -> np.ndarray:
         """The nodes at which the boundary has left its room, further than it was at first, (k,) int.
@@ -92,18 +134,10 @@ class Room:
         """
         if not np.isfinite(self.room):
             return NOBODY
-        beyond = [NOBODY]
-        which = self._may_be_off(points, self.room)
-        if which.size:
-            far = self.off(points, which)[0] > self._most(self._off_at_first[which])
-            beyond.append(self.middles[which[far]].ravel())
-        which = self._may_be_behind(points, self.room)
-        if which.size:
-            at_first, first, _ = self._behind_at_first
-            distances, _, nodes, _ = self.behind(points, which)
-            far = distances > self._most(at_first[which])
-            beyond += [nodes[far].ravel(), first[which[far]].ravel()]
-        return np.unique(np.concatenate(beyond))
+        at_first, nodes, _ = self.behind_at_first
+        off = self.off(points, np.arange(len(self.middles)), self._most(self._off_at_first))
+        behind = self.behind(points, room=self._most(at_first))
+        return np.unique(np.concatenate([one.ravel() for one in (off.nodes, behind.nodes, nodes[behind.which])]))
 
     def _most(self, at_first: np.ndarray) -> np.ndarray:
         least = _ROUNDING * float(np.linalg.norm(np.ptp(self.points[self.skin.nodes], axis=0)))
@@ -116,24 +150,25 @@ class Room:
     @cached_property
     def _off_at_first(self) -> np.ndarray:
         """How far `middles` are from the surface before anything slides, (s,)."""
-        count = len(self.middles)
-        return np.zeros(count) if self._given is None else self.off(self._start, np.arange(count))[0]
+        if self._given is None:
+            return np.zeros(len(self.middles))
+        return self.target.distances(self._start[self.middles].mean(axis=1))
 
     @cached_property
-    def _behind_at_first(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The same of the surface's samples from the boundary; the nodes and weights that make what is closest."""
+    def behind_at_first(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """How far the surface's nodes and middles are from the boundary before anything slides, (s,).
+
+        Also the nodes and weights that make what is closest to them, (s, 4).
+        """
         if self._given is None:
             return np.zeros(len(self.middles)), self.middles, np.full(self.middles.shape, 0.25)
-        far, _, nodes, weights = self.behind(self._start)
-        return far, nodes, weights
+        x = self._samples
+        places, nodes, weights = self.skin.with_points(self._start).closest_on(x)
+        return np.linalg.norm(x - places, axis=1), nodes, weights
 
-    def _may_be_off(self, points: np.ndarray, room: float) -> np.ndarray:
-        """Which of `middles` may be further than that from the surface: they have moved that far, (k,) int64."""
-        moved = (points - self._start)[self.middles].mean(axis=1)
-        return np.flatnonzero(self._off_at_first + np.linalg.norm(moved, axis=1) > room)
 
-    def _may_be_behind(self, points: np.ndarray, room: float) -> np.ndarray:
-        """Which samples of the surface may be as far from the boundary: what was closest has moved that far."""
-        far, nodes, weights = self._behind_at_first
-        moved = np.einsum("sk,ski->si", weights, (points - self._start)[nodes])
-        return np.flatnonzero(far + np.linalg.norm(moved, axis=1) > room)
+def _apart(x: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Distances (k,) of x (k, 3) from other places, and the unit vectors from these to x (k, 3)."""
+    away = x - places
+    far = np.linalg.norm(away, axis=1)
+    return far, away / np.maximum(far, np.finfo(float).tiny)[:, None]

@@ -59,6 +59,21 @@ def test_closest_points_are_those_of_brute_force(seed, n, k, degenerate):
         assert found.weights[i].sum() == pytest.approx(1, abs=1e-14)
 
 
+@given(st.integers(0, 2**31), st.floats(0, 2))
+def test_trees_whose_points_have_moved_find_what_new_ones_do_and_enough_is_enough(seed, enough):
+    random = np.random.default_rng(seed)
+    points, moved = random.normal(size=(2, 40, 3))
+    pieces, group = random.integers(0, 40, (60, 3)).astype(np.int32), np.sort(random.integers(0, 3, 60) % 3)
+    group[:3] = 0, 1, 2
+    x, of = random.normal(size=(50, 3)), random.integers(0, 3, 50)
+    new, refitted = Trees(moved, pieces, group).closest(x, of), Trees(points, pieces, group).with_points(moved)
+    far, found = (np.linalg.norm(one.places - x, axis=1) for one in (new, refitted.closest(x, of)))
+    np.testing.assert_allclose(found, far, rtol=1e-12, atol=1e-12)
+    rough = np.linalg.norm(refitted.closest(x, of, enough).places - x, axis=1)
+    assert (rough <= np.maximum(far, enough) + 1e-12).all()
+    np.testing.assert_allclose(rough[far > enough], far[far > enough], rtol=1e-12)
+
+
 @given(st.integers(0, 2**31), st.integers(-60, 60))
 def test_the_closest_point_sees_the_whole_triangle_at_a_right_angle_or_more(seed, exponent):
     """(x - p) . (v - p) <= 0 for every v of a convex set is what makes p its closest point, in any unit."""

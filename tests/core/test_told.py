@@ -1,0 +1,36 @@
+"""What mend says of what fixed nodes lock."""
+
+import numpy as np
+
+from hexmend.smoothers.tangled import locked_corners
+from hexmend.smoothers.told import what_is_left, what_sliding_freed
+from tests.core.grids import grid
+
+
+def with_two_locked_corners():
+    """A grid of which two corners are inverted, and as it would be sound."""
+    sound = grid(3)
+    points, ends = sound.points.copy(), (0, len(sound.points) - 1)
+    middle = points.mean(axis=0)
+    for node in ends:
+        points[node] += 0.5 * (middle - points[node])
+    return sound.with_points(points), sound.points, ends
+
+
+def test_what_sliding_has_freed_and_what_is_left_is_said():
+    mesh, sound, (one, _) = with_two_locked_corners()
+    assert np.count_nonzero(locked_corners(mesh)) == 2
+    had = "2 hexes had corners that fixed nodes lock in inversion: sliding freed "
+    assert what_sliding_freed(mesh, sound) == had + "2, none is left."
+    assert what_sliding_freed(mesh, mesh.points) == had + "0, 2 are left."
+    half = mesh.points.copy()
+    half[one] = sound[one]
+    assert what_sliding_freed(mesh, half) == had + "1, 1 is left."
+    assert what_sliding_freed(mesh.with_points(sound), mesh.points) == ""
+
+
+def test_what_resists_is_told_apart_from_what_is_locked():
+    locked, resisting = np.array([1, 0, 0], np.uint8), np.array([0, 2, 6], np.uint8)
+    assert what_is_left(locked, locked).endswith("1 hex has corners that fixed nodes lock in inversion.")
+    assert what_is_left(resisting, 0 * locked) == "Left out of the energy: 2 more resist."
+    assert what_is_left(locked | resisting, locked).endswith("in inversion; 2 more resist.")
