@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
-from hexmend.surface import Kind, boundary_of, freed_by_sliding
+from hexmend.surface import Kind, boundary_of, freed_by_sliding, sliding_boundary
 from hexmend_app.state.task import Task
 
 #: Kinds beside `Kind`: nodes of sharp edges that are no curve, of a chain that ends amid a patch; and pinned ones.
@@ -49,9 +49,9 @@ def node_kinds(mesh: Mesh, degrees: float) -> np.ndarray:
     degrees : float
         Angle between two faces beyond which their edge is a feature.
     """
-    boundary = boundary_of(mesh, degrees)
+    boundary = sliding_boundary(mesh, degrees)
     sharp = np.zeros(mesh.n_nodes, dtype=bool)
-    sharp[boundary_of(mesh, degrees, whisker=0).segments] = True
+    sharp[boundary_of(mesh.with_points(mesh.surface), degrees, whisker=0).segments] = True
     kinds = np.where(sharp & (boundary.kind == Kind.PATCH), WHISKER, boundary.kind).astype(np.uint8)
     if mesh.pinned is not None:
         kinds[mesh.pinned & (kinds != Kind.INSIDE)] = PIN
@@ -126,6 +126,10 @@ class Classer(QObject):
             if self._task is None:
                 self._begin()
 
+    def forget(self) -> None:
+        """Another mesh is open: nothing is known of it."""
+        self.classes = self.error = self._wanted = None
+
     def shut_down(self) -> None:
         """Wait until the thread is gone; nothing is found any more."""
         if self._task is not None:
@@ -140,6 +144,8 @@ class Classer(QObject):
 
     def _finish(self) -> None:
         task, self._task = self._task, None
+        if self._wanted is None:
+            return
         if self._asked != self._wanted:
             self._begin()
         self.classes, self.error = task.result or self.classes, task.error

@@ -170,7 +170,7 @@ class Smoothing(QObject):
     def _on_another(self) -> None:
         """Forget the run on the mesh that was open, and what was begun while the other was read."""
         self.shut_down()
-        self.work = self.record = None
+        self.work = self.record = self.advice = None
         self._set_phase(Phase.IDLE)
 
     def shut_down(self) -> None:

@@ -100,6 +100,7 @@ class Session(QObject):
         self.selection.choose(None)
         self.view.show_another()
         self.kept.clear()
+        self.classer.forget()
 
     def _on_change(self, *_: object) -> None:
         self.changed.emit()

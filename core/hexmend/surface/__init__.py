@@ -4,7 +4,7 @@ from hexmend.surface.boundary import Boundary, Kind, boundary_of, classify
 from hexmend.surface.change import Skin, SurfaceChange, distances, surface_change
 from hexmend.surface.locked import freed_by_sliding
 from hexmend.surface.room import Off
-from hexmend.surface.sliding import Sliding
+from hexmend.surface.sliding import Sliding, sliding_boundary
 from hexmend.surface.surface import Surface
 from hexmend.surface.trees import Closest, Trees
 
@@ -22,5 +22,6 @@ __all__ = [
     "classify",
     "distances",
     "freed_by_sliding",
+    "sliding_boundary",
     "surface_change",
 ]

@@ -52,12 +52,7 @@ class Sliding(Room):
     """
 
     def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
-        original = mesh.with_points(mesh.surface)
-        self.boundary = boundary_of(original, degrees)
-        bends = kept_bends(original, self.boundary)
-        if bends.size:
-            kept = np.concatenate([given_corners(mesh), bends])
-            self.boundary = boundary_of(original, degrees, corners=kept)
+        self.boundary = sliding_boundary(mesh, degrees)
         target = mesh.target
         if target is None:
             self.surface = Surface(mesh.surface, self.boundary)
@@ -207,6 +202,23 @@ class Sliding(Room):
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
         return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
+
+
+def sliding_boundary(mesh: Mesh, degrees: float = DEGREES) -> Boundary:
+    """The boundary as the nodes of a mesh slide on it: of the surface that the mesh keeps, its bends being corners.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    degrees : float
+        See `boundary_of`.
+    """
+    original = mesh.with_points(mesh.surface)
+    boundary = boundary_of(original, degrees)
+    bends = kept_bends(original, boundary)
+    if not bends.size:
+        return boundary
+    return boundary_of(original, degrees, corners=np.concatenate([given_corners(mesh), bends]))
 
 
 def kept_bends(mesh: Mesh, boundary: Boundary) -> np.ndarray:

@@ -56,11 +56,17 @@ def panel(qtbot):
 def five(window, qtbot, tmp_path):
     """The window with a mesh of five blocks in it."""
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500))
-    with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
-        open_and_wait(qtbot, window, tmp_path / "five.vtu")
+    open_and_know(qtbot, window, tmp_path / "five.vtu")
     window.session.view.change(shading=False)  # shades come when the view has rested, whenever that is
     window.refresh()
     return window
+
+
+def open_and_know(qtbot, window, path):
+    """Open a mesh, and wait until its structure is found: not that of the mesh before."""
+    open_and_wait(qtbot, window, path)
+    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
+    window.refresh()
 
 
 def press_key(window, name):
@@ -246,10 +252,10 @@ def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five,
     press_key(five, "sharp")
     press_key(five, "irregular")
     io.write(tmp_path / "cube.vtu", grid(3))
-    with qtbot.waitSignal(five.session.finder.found, timeout=20000):
-        open_and_wait(qtbot, five, tmp_path / "cube.vtu")
-        assert five.session.finder.structure is None
-        assert not five.canvas.viewport.frame.look.structure.edges  # the view does not wait for them
+    open_and_wait(qtbot, five, tmp_path / "cube.vtu")
+    assert five.session.finder.structure is None
+    assert not five.canvas.viewport.frame.look.structure.edges  # the view does not wait for them
+    qtbot.waitUntil(lambda: five.session.finder.structure is not None, timeout=PATIENCE)
     five.refresh()
     assert five.canvas.viewport.frame.look.structure == Structure(irregular=True, sharp=True)
     assert texts(five.features["structure"].panel, "sharp") == ["36"]
@@ -260,8 +266,7 @@ def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five,
 
 def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
-    with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
-        open_and_wait(qtbot, window, tmp_path / "five.vtu")
+    open_and_know(qtbot, window, tmp_path / "five.vtu")
     tick(window.features["structure"].panel.layers["irregular"].box)
     marks = window.canvas.viewport.structure.irregular_inside
     before = np.array(marks.poly.points)
@@ -312,8 +317,7 @@ def test_locked_nodes_are_shown_and_drawn_in_pictures(window, qtbot, tmp_path):
     points = mesh.points.copy()
     points[15] += [-1.5, 0, 0]
     io.write(tmp_path / "locked.vtu", Mesh(points, mesh.hexes))
-    with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
-        open_and_wait(qtbot, window, tmp_path / "locked.vtu")
+    open_and_know(qtbot, window, tmp_path / "locked.vtu")
     press_key(window, "locked")
     assert count(pixels(window), LOCKED) > 20
     from PIL import Image
@@ -367,6 +371,5 @@ def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(w
     window.session.document.replace(first, None)
     begin_searching(window)
     window.session.document.replace(last, None)
-    with qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE):
-        pass
+    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
     assert len(window.session.finder.structure.sharp) == 24
