@@ -33,7 +33,7 @@ FALL = 8.0
 #: Of how many corners the nodes are moved at first, and how many there are at most; more as the fewer bring nothing.
 FEW, MANY = 300, 1_200
 #: A gain that is none of a step's model; that is none of `LATELY` steps together, and where the least is sound anyway.
-NOTHING, LATELY, LITTLE, SOUND, LITTLE_BEYOND = 1e-6, 10, 2e-5, 0.2, 5e-4
+NOTHING, LATELY, LITTLE, SOUND, LITTLE_BEYOND = 1e-6, 10, 2e-5, 0.2, 1e-3
 #: What a multiplier counts from on, the sum of all being 1.
 HOLDS = 1e-3
 #: By how many radii, in mean edge lengths, a boundary that has strayed is brought nearer at a time; what is enough.
