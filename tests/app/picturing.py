@@ -49,6 +49,9 @@ def everything(window: QWidget) -> Counter[str]:
     for panel in window.docks.ids():
         window.show_panel(panel)
         window.refresh()
+        while window.session.classer.busy:  # what a panel asks for when it is seen
+            QApplication.processEvents()
+        window.refresh()
         QApplication.processEvents()
         _widgets(window.docks, panel, lines)
     window.docks.restore(layout)
