@@ -72,6 +72,7 @@ def live(window, qtbot):
 def test_after_an_eventful_session_the_shared_window_is_as_a_new_one(fresh_window, shared, qtbot):
     new = everything(fresh_window)
     resetting = shared(qtbot)
+    resetting.reset(qtbot)
     live(resetting.window, qtbot)
     resetting.end()
     resetting.reset(qtbot)
