@@ -126,7 +126,7 @@ def move(widget, at, held=Qt.MouseButton.NoButton):
     QApplication.processEvents()
 
 
-def drag(widget, start, end, steps=12):
+def drag(widget, start, end, steps=5):
     """Press, move and release the mouse as a hand does."""
     move(widget, start)
     QTest.mousePress(widget, LEFT, pos=start)

@@ -17,13 +17,13 @@ from tests.core.test_mend import with_locked_corner
 
 MESHES = {
     "cube, scrambled": ("cube", {"size": 125, "scramble": 0.5}),
-    "cube, tangled": ("cube", {"size": 512, "scramble": 2.0}),
-    "bridge": ("bridge-sharp", {"size": 500}),
-    "bridge, tangled": ("bridge-sharp", {"size": 500, "scramble": 0.4}),
-    "five-side": ("five-side", {"size": 500}),
-    "five-side, tangled": ("five-side", {"size": 500, "scramble": 1.5}),
-    "plane": ("plane", {"size": 700}),
-    "plane, tangled": ("plane", {"size": 700, "scramble": 0.4}),
+    "cube, tangled": ("cube", {"size": 216, "scramble": 2.0}),
+    "bridge": ("bridge-sharp", {"size": 250}),
+    "bridge, tangled": ("bridge-sharp", {"size": 250, "scramble": 0.4}),
+    "five-side": ("five-side", {"size": 250}),
+    "five-side, tangled": ("five-side", {"size": 250, "scramble": 1.5}),
+    "plane": ("plane", {"size": 300}),
+    "plane, tangled": ("plane", {"size": 300, "scramble": 0.4}),
 }
 LOOSE, SHORT = Stop(tolerance=1e-2), Stop(max_iterations=12)
 RUNS = {
