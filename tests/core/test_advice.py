@@ -20,8 +20,8 @@ MESHES = {
     "cube, tangled": ("cube", {"size": 216, "scramble": 2.0}),
     "bridge": ("bridge-sharp", {"size": 250}),
     "bridge, tangled": ("bridge-sharp", {"size": 250, "scramble": 0.4}),
-    "five-side": ("five-side", {"size": 250}),
-    "five-side, tangled": ("five-side", {"size": 250, "scramble": 1.5}),
+    "five-side": ("five-side", {"size": 500}),
+    "five-side, tangled": ("five-side", {"size": 500, "scramble": 1.5}),
     "plane": ("plane", {"size": 300}),
     "plane, tangled": ("plane", {"size": 300, "scramble": 0.4}),
 }
