@@ -11,8 +11,10 @@ import sys
 import tempfile
 from pathlib import Path
 
+from photographs import compress
+
 #: Files of meshes, and from where they are seen.
-_MESHES = {"bunny.vtk": "+z", "impeller.vtk": "iso", "cap_in.mesh": "iso"}
+_MESHES = {"bunny.vtk": "+z", "impeller.vtk": "+x", "cap_in.mesh": "+x"}
 
 
 def hexmend(*words: object) -> None:
@@ -28,11 +30,13 @@ def main(folder: Path) -> None:
         with tempfile.TemporaryDirectory() as scratch:
             mended = Path(scratch) / f"{name}.vtu"
             goal = "--method", "mend", "--set", "goal=scaled-jacobian", "--boundary", "slide"
+            picture = folder / f"boundary-{name}.png"
             hexmend("smooth", meshes / file, "-o", mended, *goal)
             hexmend(
-                "render", meshes / file, mended, "-o", folder / f"boundary-{name}.png", "--view", view,
-                "--size", "1400x640", "--captions", f"{name} as given,mended", "--metric", "scaled-jacobian",
+                "render", meshes / file, mended, "-o", picture, f"--view={view}",
+                "--size", "880x440", "--captions", f"{name} as given,mended", "--metric", "scaled-jacobian",
             )  # fmt: skip
+            compress(picture)
 
 
 if __name__ == "__main__":
