@@ -106,3 +106,24 @@ def test_a_real_mesh_is_freed_within_its_tolerance(name, real_mesh):
     assert result.after.inverted == 0
     assert result.after.scaled_jacobian_min > 0.25
     assert result.surface.max <= 0.3 * (1 + 1e-4)
+
+
+def rough(seed):
+    """A cube whose boundary is crumpled, so that nodes have to leave it."""
+    mesh = make("cube", size=27)
+    points, crumpled = mesh.points.copy(), mesh.topology.boundary
+    noise = np.random.default_rng(seed).normal(size=(int(crumpled.sum()), 3))
+    points[crumpled] += 0.33 * mesh.mean_edge_length * noise
+    return mesh.with_points(points)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_to_its_end_it_turns_no_quad_over_and_speaks_of_what_it_keeps(seed):
+    mesh = rough(seed)
+    result = smooth(mesh, Mend(boundary="slide", goal="scaled-jacobian"), Stop(max_iterations=600))
+    assert result.after.inverted <= result.before.inverted
+    assert not Sliding(mesh).turned(mesh.points, result.mesh.points).size
+    assert surface_change(mesh, result.mesh).max <= 0.3 * (1 + 1e-4)
+    assert result.limits is None or result.kept == result.iterations
+    assert ("hold each other" in result.message) <= (result.kept == result.iterations)
+    assert not (result.after.inverted and "rises instead" in result.message)

@@ -106,6 +106,8 @@ class Raising:
         Corners that could be moved, but none of whose nodes moves any more.
     lifted : (n,) bool
         Nodes of the boundary that need not stay on the surface, as long as they stay in the room around it.
+    turns : bool
+        Whether quads at these may be turned over; else no step does that.
     """
 
     def __init__(self, mesh: Mesh, points: np.ndarray, sliding: Sliding | None = None):
@@ -114,6 +116,7 @@ class Raising:
         self.values = scaled_jacobians(points, mesh.hexes)
         self.settled = np.zeros(self.values.shape, dtype=bool)
         self.lifted = np.zeros(mesh.n_nodes, dtype=bool)
+        self.turns = False
         self._stays = np.zeros(mesh.n_nodes, dtype=bool)
         self.room = np.inf if sliding is None else sliding.room
         self._seen: Apart | None = None
@@ -264,8 +267,8 @@ class Raising:
         slide = nodes[self._slides(nodes)]
         if slide.size:
             points[slide] = self.sliding.put_back(points[slide], slide)
-        if self.sliding is not None and not self.lifted.any():  # off the surface its normals say little
-            points = self.sliding.unturned(self.points, points)
+        if self.sliding is not None:  # off the surface its normals say little
+            points = self.sliding.unturned(self.points, points, self.lifted if self.turns else None)
         return solved.gain, points, nodes
 
     def _slides(self, nodes: np.ndarray) -> np.ndarray:

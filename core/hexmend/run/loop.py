@@ -174,11 +174,18 @@ class Run(Iterator[Iteration]):
         said = self.outcome.value if self.outcome is not None else "Running."
         left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
-        words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *self.decisions]
-        if self.reached is not self.last:
+        decided = self.decisions
+        if not self._kept_last and decided and decided[-1] == self._leg.decision:
+            decided = decided[:-1]  # it says how the last one is
+        words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
+        if not self._kept_last:
             words.append(kept(self.reached.number))
-        instead = self.stage.smoother.instead(worse(before, after))
+        instead = "" if inverted else self.stage.smoother.instead(worse(before, after))
         return " ".join(filter(None, [*words, worse_in_words(before, after), instead]))
+
+    @property
+    def _kept_last(self) -> bool:
+        return self.reached is self.last
 
     def result(self) -> Result:
         """The record of the run as far as it went."""
@@ -200,7 +207,7 @@ class Run(Iterator[Iteration]):
             history=tuple(self.history),
             stages=tuple(leg.result() for leg in self._legs),
             surface=self._surface_change(mesh),
-            limits=self._leg.limits,
+            limits=self._leg.limits if self._kept_last else None,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:

@@ -72,11 +72,13 @@ def lifted(raising: Raising, room: float, other: Raising, limit: Limit) -> Gener
 
     Returns what is better, that or the other, with its limit.
     """
-    raising.room = WIDE * raising.mesh.mean_edge_length
+    raising.room, raising.turns = max(WIDE * raising.mesh.mean_edge_length, room), True
     yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
     for step in islice(raising.into(room), 0, None, TOGETHER):
         yield step.step(detour=True)
-    if raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.lowest < other.lowest:
+    raising.turns = False
+    turned = raising.sliding.turned(raising.sliding.points, raising.points).size > 0
+    if turned or raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.lowest < other.lowest:
         yield Step(other.points, {"least": other.lowest}, more=True)
         return other, limit
     return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))

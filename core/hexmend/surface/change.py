@@ -58,17 +58,17 @@ class SurfaceChange:
     @property
     def max(self) -> float:
         """The largest distance in mean edge lengths."""
-        return self.furthest / self.edge_length
+        return self.furthest / (self.edge_length or 1.0)
 
     @property
     def mean(self) -> float:
         """The mean distance in mean edge lengths."""
-        return self.average / self.edge_length
+        return self.average / (self.edge_length or 1.0)
 
     @property
     def max_percent_of_diagonal(self) -> float:
         """The largest distance in per cent of the diagonal."""
-        return 100 * self.furthest / self.diagonal
+        return 100 * self.furthest / (self.diagonal or 1.0)
 
     @property
     def words(self) -> str:

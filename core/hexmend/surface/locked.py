@@ -51,6 +51,8 @@ def _straight(mesh: Mesh, boundary: Boundary) -> list[tuple[np.ndarray, int]]:
     parts += [(boundary.segments, boundary.curve_of_segment, boundary.n_curves, 1)]
     found = []
     for pieces, part, count, dimensions in parts:
+        if not count:
+            continue
         order = np.argsort(part, kind="stable")
         starts = np.searchsorted(part[order], np.arange(1, count))
         for one in np.split(pieces[order], starts):

@@ -121,6 +121,8 @@ class Room:
         moved = np.einsum("sk,ski->si", weights[which], (points - self._start)[nodes[which]])
         may = first[which] + np.linalg.norm(moved, axis=1) > np.maximum(room, 0.0)
         which, room = which[may], room[may]
+        if not which.size:
+            return Off(which, np.empty(0), np.empty((0, 3)), nodes[which], weights[which])
         x = self._samples[which]
         places, nodes, weights = self.skin.with_points(points).closest_on(x, max(float(room.min(initial=np.inf)), 0.0))
         far, away = _apart(x, places)

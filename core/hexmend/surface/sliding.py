@@ -163,10 +163,22 @@ class Sliding(Room):
         kernels.turned(before, after, self.boundary.faces, self.outward, found)
         return np.flatnonzero(found)
 
-    def unturned(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
-        """The points after a step, of which those nodes stay whose quads it would turn over, until none is."""
-        while (faces := self.turned(before, after)).size:
-            nodes = np.unique(self.boundary.faces[faces])
+    def unturned(self, before: np.ndarray, after: np.ndarray, may: np.ndarray | None = None) -> np.ndarray:
+        """The points after a step, of which those nodes stay whose quads it would turn over, until none is.
+
+        Parameters
+        ----------
+        before, after : (n, 3) float64
+        may : (n,) bool, optional
+            Nodes whose quads may be turned over.
+        """
+        while True:
+            quads = self.boundary.faces[self.turned(before, after)]
+            if may is not None:
+                quads = quads[~may[quads].any(axis=1)]
+            if not quads.size:
+                return after
+            nodes = np.unique(quads)
             after = after.copy()
             after[nodes] = before[nodes]
         return after

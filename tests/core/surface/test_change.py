@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.errors import MeshError
+from hexmend.mesh import Mesh
 from hexmend.surface import Kind, Skin, Surface, boundary_of, distances, surface_change
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, wavy
@@ -120,3 +121,9 @@ def test_published_pairs_are_as_far_apart_as_published(name, real_mesh):
 def test_different_meshes_are_refused():
     with pytest.raises(MeshError, match="8 and 27 hexes"):
         surface_change(grid(2), grid(3))
+
+
+def test_a_mesh_without_extent_has_figures():
+    flat = Mesh(np.zeros((8, 3)), np.arange(8)[None])
+    change = surface_change(flat, flat)
+    assert (change.max, change.mean, change.max_percent_of_diagonal, change.volume_change) == (0, 0, 0, 0)
