@@ -80,14 +80,14 @@ class Classer(QObject):
     Signals
     -------
     found
-        `classes` are others.
+        `classes` are others, or there is an `error`.
 
     Attributes
     ----------
     classes : Classes or None
-        What was found last; None before that.
+        What was found last; None before that, and where that failed.
     error : BaseException or None
-        Why nothing was found.
+        Why what was asked for last could not be found; None before that is known.
     """
 
     found = Signal()
@@ -110,7 +110,7 @@ class Classer(QObject):
         return self._task is not None
 
     def ask(self, mesh: Mesh, figures: ElementQuality, degrees: float) -> None:
-        """Class a mesh's boundary, unless that is done or being done.
+        """Class a mesh's boundary, unless that is done or being done, or has failed.
 
         Parameters
         ----------
@@ -138,6 +138,7 @@ class Classer(QObject):
 
     def _begin(self) -> None:
         self._asked = question = self._wanted
+        self.error = None
         self._task = Task(f"reading {question[0].name}: its boundary", lambda _: classed(*question))
         self._task.ended.connect(self._finish)
         self._task.start()
@@ -148,5 +149,6 @@ class Classer(QObject):
             return
         if self._asked != self._wanted:
             self._begin()
-        self.classes, self.error = task.result or self.classes, task.error
+            return
+        self.classes, self.error = task.result, task.error
         self.found.emit()

@@ -136,12 +136,13 @@ def _locked(now: Situation) -> str:
     if now.result.surface is None:
         freed = now.freed
         if not freed:
-            said += ", even where the boundary slides."
-            remedy = " Correct the boundary where the mesh was made."
+            said += f", and sliding alone does not free {'it' if one else 'them'}."
+            remedy = " Correct the boundary where the mesh was made, or try mend with boundary = slide:"
+            remedy += " it also takes nodes off the surface within its tolerance."
         else:
             said += ", and no method moves these unless the boundary slides: "
             rest = f", {many - freed:,} cannot" if freed < many else ""
-            said += f"then {freed:,} can be freed{rest}."
+            said += f"then {freed:,} can be freed by sliding alone{rest}."
             remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
     else:
         said += f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."

@@ -62,8 +62,8 @@ def slide(now: Situation) -> Suggestion | None:
     which = "The locked hex can" if many == 1 else f"{now.freed:,} of the {many:,} locked hexes can"
     return Suggestion(
         "Mend, boundary slides",
-        f"Run Mend with boundary = slide. {which} be freed where nodes of the boundary slide on its surface, which "
-        "keeps its edges and corners.",
+        f"Run Mend with boundary = slide. {which} be freed where nodes of the boundary slide on its surface; where "
+        "that is not enough, Mend takes nodes off it within surface_tolerance.",
         "inverted",
         Mend(p=now.p, boundary="slide"),
     )

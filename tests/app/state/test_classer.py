@@ -63,3 +63,32 @@ def test_of_several_questions_the_newest_is_answered(classer, qtbot):
     classer.ask(pinned, FIGURES, 40.0)
     assert not classer.busy
     assert classer.classes is answer
+
+
+def test_why_nothing_was_found_is_told_and_another_question_is_asked_anew(classer, qtbot):
+    with qtbot.waitSignal(classer.found, timeout=PATIENCE):
+        classer.ask(MESH, FIGURES, 40.0)
+    with qtbot.waitSignal(classer.found, timeout=PATIENCE):
+        classer.ask(MESH, None, 40.0)
+    assert isinstance(classer.error, AttributeError)
+    assert classer.of(MESH) is None
+    classer.ask(MESH, None, 40.0)
+    assert not classer.busy  # it would fail again
+    with qtbot.waitSignal(classer.found, timeout=PATIENCE):
+        classer.ask(MESH, FIGURES, 30.0)
+    assert classer.error is None
+    assert classer.of(MESH) is not None
+
+
+@pytest.mark.parametrize("figures", [None, FIGURES])
+def test_what_comes_of_a_mesh_that_was_left_is_not_told(figures, classer, qtbot):
+    told = []
+    classer.found.connect(lambda: told.append((classer.classes, classer.error)))
+    classer.ask(MESH, figures, 40.0)
+    classer.forget()
+    other = ball(2)
+    classer.ask(other, measure(other.points, other.hexes), 40.0)
+    qtbot.waitUntil(lambda: not classer.busy, timeout=PATIENCE)
+    ((classes, error),) = told
+    assert classes.mesh is other
+    assert error is None

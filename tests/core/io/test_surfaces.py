@@ -142,6 +142,10 @@ def test_polygons_and_triangles_beside_quads_keep_their_places(tmp_path):
 
 
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+EMPTY_PLY = (
+    "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 0\nproperty list uchar int vertex_indices\nend_header\n"
+)
 BAD = {
     "empty.stl": (b"", "is empty"),
     "no-facets.stl": (b"solid a\nendsolid a\n", "holds no surface"),
@@ -152,9 +156,16 @@ BAD = {
     ),
     "points.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "holds no surface"),
     "flat.obj": (b"v 0 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\n", "holds no surface"),
+    "collinear.obj": (b"v 0.1 0.1 5\nv 0.2 0.2 5\nv 0.7 0.7 5\nf 1 2 3\n", "no triangle or quad with an area"),
+    "collinear-quad.obj": (b"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3 4\n", "no triangle or quad with an area"),
     "nan.obj": (TETRAHEDRON.replace("v 1 0 0", "v nan 0 0").encode(), "point 1 .counted from 0. is at .nan"),
     "range.obj": (TETRAHEDRON.replace("f 1 3 2", "f 1 3 9").encode(), "uses the point 8: expected numbers from 0 to 3"),
     "junk.ply": (b"nothing", "no head"),
+    "text-empty.ply": (EMPTY_PLY.encode(), "expected vertices and faces, its head counts no vertex"),
+    "binary-empty.ply": (
+        EMPTY_PLY.replace("ascii", "binary_little_endian").encode(),
+        "expected vertices and faces, its head counts no vertex",
+    ),
     "short.ply": (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n", "cannot be read as PLY"),
     "junk.vtp": (b"nothing", "no VTKFile"),
     "grid.vtp": (b'<VTKFile type="UnstructuredGrid">', "no VTKFile of the type PolyData"),
@@ -162,6 +173,24 @@ BAD = {
     "grid.vtk": (b"# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n", "expected POLYDATA"),
     "part.step": (b"ISO-10303-21;", "the suffix '.step' is none of a surface"),
 }
+
+
+def test_tabs_and_notes_between_the_words_of_an_obj_file_are_passed_over(tmp_path):
+    path = tmp_path / "notes.obj"
+    text = (
+        TETRAHEDRON.replace("v ", "v\t").replace("f 1 3 2", "\tf  1\t-2 2 # note").replace("0 0 1\n", "0\t0 1# far\n")
+    )
+    path.write_text(f"# a\n\n{text}")
+    skin = read_surface(path)
+    assert len(skin.faces) == 4
+    assert skin.volume() == pytest.approx(1 / 6)
+
+
+@pytest.mark.parametrize("scale", [1e-100, 1e-3, 1e100])
+def test_a_surface_of_any_size_has_an_area(scale, tmp_path):
+    path = tmp_path / "one.obj"
+    path.write_text(f"v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n")
+    assert len(read_surface(path).faces) == 1
 
 
 @pytest.mark.parametrize("name", BAD)

@@ -101,8 +101,9 @@ class FeatureStructure(Feature):
         if looked and smoother is not None and not session.smoothing.busy:
             session.classer.ask(now.mesh, now.figures, smoother.values().get("feature_angle", DEGREES))
         classes = session.classer.of(now.mesh)
-        if self._seen.another("classes", classes, session.document.start):
-            self.panel.set_classes(classes)
+        error = session.classer.error
+        if self._seen.another("classes", classes, error, session.document.start):
+            self.panel.set_classes(classes, error)
 
     def _switch(self, layer: str, on: bool) -> None:
         self._view.change(structure=dataclasses.replace(self._view.look.structure, **{layer: on}))

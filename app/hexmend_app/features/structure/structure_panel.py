@@ -67,9 +67,10 @@ _LAYERS: dict[str, tuple[str, str, str]] = {
     ),
     "kinds": (
         "Kinds of nodes",
-        "What nodes of the boundary may do where it slides (boundary = slide), by the method's feature angle: corners "
-        "and pinned nodes stay, others slide along their curve or on their patch. A whisker is a sharp edge that ends "
-        "amid a patch: its nodes slide on that. Shift+P pins the chosen node.",
+        "What nodes of the boundary may do where it slides (boundary = slide), by the method's feature angle: pinned "
+        "nodes and corners stay, others slide along their curve or on their patch. Where that is not enough, Mend may "
+        "take nodes off the surface within its tolerance, corners found by the angle alone too. A whisker is a sharp "
+        "edge that ends amid a patch: its nodes slide on that. Shift+P pins the chosen node.",
         "None: the mesh has no boundary.",
     ),
     "original": (
@@ -86,6 +87,8 @@ _CALLED = {
 #: Layers that can be chosen before it is known what there is of them: somebody has to want it first.
 _AT_ONCE = ("kinds",)
 _NOT_YET = "Being counted."
+#: What is said where it could not be found out what there is.
+_FAILED = "could not be worked out"
 _COLUMNS = 2
 
 #: Letters up to which texts stand beside each other: two more and they are cut off in a narrow column.
@@ -166,14 +169,14 @@ class StructurePanel(QWidget):
         self.layers["original"].set_entries([(ORIGINAL, True, "as opened")] if boundary else [])
         self._show_locked()
 
-    def set_classes(self, classes: Classes | None) -> None:
-        """Take what the nodes of the boundary are; None while that is being found."""
+    def set_classes(self, classes: Classes | None, error: BaseException | None = None) -> None:
+        """Take what the nodes of the boundary are; None while that is being found, or with the error why not."""
         self._classes = classes
         entries: list[_Entry] | None = None
         if classes is not None:
             counts = {kind: classes.count(kind) for kind in _CALLED}
             entries = [(KINDS[kind], False, f"{count:,} {_CALLED[kind]}") for kind, count in counts.items() if count]
-        self.layers["kinds"].set_entries(entries)
+        self.layers["kinds"].set_entries(entries, error)
         self._show_locked()
 
     def _show_locked(self) -> None:
@@ -196,6 +199,7 @@ class _Layer:
     def __init__(self, name: str, help: str, reason: str, at_once: bool = False):
         self._name, self._help, self._reason, self._at_once = name, help, reason, at_once
         self._known: list[_Entry] | None = []
+        self._error: BaseException | None = None
         self.box = QCheckBox(name)
         self.entries = QWidget()
         self._grid = QGridLayout(self.entries)
@@ -210,25 +214,28 @@ class _Layer:
         self.box.setChecked(on)
         self._enable()
 
-    def set_entries(self, entries: list[_Entry] | None) -> None:
-        """Show what there is of it; None while that is unknown."""
-        self._known = entries
+    def set_entries(self, entries: list[_Entry] | None, error: BaseException | None = None) -> None:
+        """Show what there is of it; None while that is unknown, or with the error why it stays so."""
+        self._known, self._error = entries, error
         while self._grid.count():
             old = self._grid.takeAt(0).widget()
             old.hide()
             old.deleteLater()
         if not entries:
-            self._grid.addWidget(_text("counting…" if entries is None else "none"), 0, 0, 1, _COLUMNS)
+            said = _FAILED if error is not None else "counting…" if entries is None else "none"
+            self._grid.addWidget(_text(said), 0, 0, 1, _COLUMNS)
         beside = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
         for at, entry in enumerate(entries or ()):
             self._grid.addWidget(_entry(*entry), at // beside, at % beside, 1, _COLUMNS // beside)
         self._enable()
 
     def _enable(self) -> None:
+        failed = self._error is not None
         waits = self._known is None and not self._at_once
-        there = bool(self._known) or (self._known is None and self._at_once)
+        there = bool(self._known) or (self._known is None and self._at_once and not failed)
         self.box.setEnabled(there or self.box.isChecked())  # what is on can be switched off
-        explain(self.box, self._name, self._help if there else _NOT_YET if waits else self._reason)
+        reason = f"This could not be worked out: {self._error}." if failed else _NOT_YET if waits else self._reason
+        explain(self.box, self._name, self._help if there else reason)
 
 
 class _Mark(QWidget):

@@ -21,12 +21,13 @@ def _in_form(text: str) -> str:
     """Places of vertices, and faces that count them from the first: a negative number counts from the last so far."""
     lines, count = [], 0
     for line in text.splitlines():
-        word, _, rest = line.strip().partition(" ")
+        word, *rest = line.partition("#")[0].split() or [""]
         if word == "v":
             count += 1
-            lines.append(" ".join(["v", *rest.split()[:3]]))
+            lines.append(" ".join(["v", *rest[:3]]))
         elif word == "f":
-            lines.append("f " + re.sub(r"(?<!\S)-(\d+)\S*", lambda found, n=count: str(n + 1 - int(found[1])), rest))
+            nodes = " ".join(rest)
+            lines.append("f " + re.sub(r"(?<!\S)-(\d+)\S*", lambda found, n=count: str(n + 1 - int(found[1])), nodes))
     return "\n".join(lines)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
 
 from hexmend.errors import FileError
@@ -19,6 +20,12 @@ def read(path: Path) -> Polygons:
     head, end, rest = data.partition(_END)
     if not head.startswith(b"ply") or not end:
         raise FileError(path, "has no head from 'ply' to 'end_header'", "Is it a PLY file? Check its suffix.")
+    if not re.search(rb"\n\s*element vertex 0*[1-9]", head):
+        raise FileError(
+            path,
+            "holds no surface: expected vertices and faces, its head counts no vertex",
+            "Name a file of a surface.",
+        )
     # The list has two names, and other programs read both.
     head = head.replace(b"\r\n", b"\n").replace(b" vertex_index\n", b" vertex_indices\n")
     rest = b"\n" + rest.lstrip(b"\r")[1:]

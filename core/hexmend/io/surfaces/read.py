@@ -13,7 +13,8 @@ from hexmend.io.surfaces.format import SURFACES, Polygons
 from hexmend.surface import Skin
 from hexmend.surface.edges import components
 
-#: Corners nearer to each other than this, as a share of the diagonal, are one.
+#: Corners nearer to each other than this, as a share of the diagonal, are one; and a surface whose area is no larger a
+#: share of the square of its extent has none.
 _ONE = 1e-9
 
 
@@ -68,11 +69,21 @@ def _skin(path: Path, found: Polygons) -> Skin:
     # Faces without an extent have none: two corners, or those of a triangle on top of each other.
     distinct = np.sort(faces, axis=1)
     faces = faces[(distinct[:, 1:] != distinct[:, :-1]).sum(axis=1) >= 2]
-    if not len(faces):
+    if not _area(points, faces) > _ONE:
         raise FileError(
             path, "holds no surface: it has no triangle or quad with an area", "Name a file of the surface of the body."
         )
     return Skin(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
+
+
+def _area(points: np.ndarray, faces: np.ndarray) -> float:
+    """Twice the area of all faces, by the square of the longest side of their box; 0 where there are none."""
+    if not len(faces):
+        return 0.0
+    x = points[faces]
+    x = (x - x[0, 0]) / np.ptp(x.reshape(-1, 3), axis=0).max()  # (k, width, 3)
+    sides = x[:, 1:] - x[:, :1]
+    return float(np.linalg.norm(np.cross(sides[:, :-1], sides[:, 1:]), axis=2).sum())
 
 
 def _of_one_width(faces: list[np.ndarray]) -> np.ndarray:

@@ -110,6 +110,16 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     assert texts(panel, "locked") == ["of 2 locked hexes"]
 
 
+def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
+    panel.set_classes(None, ValueError("no boundary"))
+    assert texts(panel, "kinds") == ["could not be worked out"]
+    assert not panel.offered()["kinds"]
+    assert "This could not be worked out: no boundary." in panel.layers["kinds"].box.toolTip()
+    panel.set_classes(None)
+    assert texts(panel, "kinds") == ["counting…"]
+    assert panel.offered()["kinds"]
+
+
 def test_edges_are_counted_by_valence(panel):
     panel.set_found(structure(tetrahedron()))
     assert texts(panel, "irregular") == ["4 of 3", "1 node"]
