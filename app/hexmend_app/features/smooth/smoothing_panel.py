@@ -28,6 +28,7 @@ from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
 from hexmend_app.scene.palette import Role
 from hexmend_app.state.order import Order
+from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.parameter_form import ParameterForm
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.style import MUTED, WORSE, explain, note, tabular, tint
@@ -100,7 +101,7 @@ class SmoothingPanel(QWidget):
         explain(self._steps, "Iterations of a step", "How many iterations Step makes before it holds.")
         steps = QLabel("Step by")
         steps.setBuddy(self._steps)
-        self._progress = QLabel()
+        self._progress = ElidingLabel()  # the more iterations, the longer: the column keeps its width
         self._progress.setFont(tabular(self._progress.font()))
         self._progress.setAccessibleName("Progress")
         self._sentence = note()
@@ -170,7 +171,9 @@ class SmoothingPanel(QWidget):
         parts = [] if iteration is None else [counted(iteration, "iteration")]
         if seconds is not None:
             parts.append(f"{seconds:.2f} s")
-        self._progress.setText("  ·  ".join(parts) or "Not run yet")
+        said = "  ·  ".join(parts)
+        self._progress.setText(said or "Not run yet")
+        self._progress.setToolTip(said)
         if not self._refused:
             self._tell(sentence, MUTED)
 

@@ -198,3 +198,11 @@ def test_nothing_moves_as_a_sentence_comes_and_goes(panel, qtbot):
     assert places() == before
     panel.set_status()
     assert places() == before
+
+
+def test_a_long_run_makes_the_panel_no_wider(panel):
+    panel.set_status()
+    before = panel.minimumSizeHint().width()
+    panel.set_status(123_456, 98_765.43, "Running.")
+    assert panel.minimumSizeHint().width() == before
+    assert "98765.43 s" in named(panel, QLabel, "Progress").toolTip()
