@@ -71,6 +71,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
             spent.clear()
             began = perf_counter()
             window.session.view.change(**fields)
+            window.refresh()
             done = perf_counter()
             draw(window)
             frames.append(perf_counter() - done)
