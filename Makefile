@@ -26,7 +26,7 @@ run: $(VENV)/.app $(VENV)/.kernels
 	@scripts/run $(BIN) "$(MESH)"
 
 # What glibc is given back goes back to the system, and threads share two heaps: a process that opens window after window
-# keeps a quarter less.
+# keeps less.
 test: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
 	@MALLOC_ARENA_MAX=2 MALLOC_TRIM_THRESHOLD_=131072 $(BIN)/python -m pytest -n 2 --dist worksteal
