@@ -165,8 +165,7 @@ class Mesh:
         if points.shape != self.points.shape:
             raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
         check_finite(points)
-        copy = self._copy()
-        copy._share(self, "fixed", "free")
+        copy = self._copy("fixed", "free")
         copy._set(points=_frozen(points))
         return copy
 
@@ -195,15 +194,13 @@ class Mesh:
             Where the surface is far from the boundary.
         """
         surface.check_near(self)
-        copy = self._copy()
-        copy._share(self, "fixed", "free")
+        copy = self._copy("fixed", "free")
         copy._set(_target=surface)
         return copy
 
     def keeping_surface(self) -> Mesh:
         """The same mesh, whose boundary slides on the surface of now wherever `with_points` puts its nodes."""
-        copy = self._copy()
-        copy._share(self, "fixed", "free")
+        copy = self._copy("fixed", "free")
         copy._set(_surface=self.surface)
         return copy
 
@@ -230,16 +227,13 @@ class Mesh:
         copy._check_carried()
         return copy
 
-    def _copy(self) -> Mesh:
-        """A copy that shares everything; nothing is checked."""
+    def _copy(self, *known: str) -> Mesh:
+        """A copy that shares everything, and what is known or was told under some names; nothing is checked."""
         copy = object.__new__(Mesh)
         copy._set(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self)})
-        copy._share(self, "_surface", "_target")
+        names = ("_surface", "_target", *known)
+        copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__})
         return copy
-
-    def _share(self, other: Mesh, *names: str) -> None:
-        """Take over what the other has found out or been told, if it has."""
-        self._set(**{name: other.__dict__[name] for name in names if name in other.__dict__})
 
 
 def _usual_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:

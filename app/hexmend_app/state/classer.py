@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
 from hexmend.surface import Kind, boundary_of, freed_by_sliding, sliding_boundary
+from hexmend_app.state.newest import Newest
 from hexmend_app.state.task import Task
 
 #: Kinds beside `Kind`: nodes of sharp edges that are no curve, of a chain that ends amid a patch; and pinned ones.
@@ -74,7 +75,7 @@ def classed(mesh: Mesh, figures: ElementQuality, degrees: float) -> Classes:
     return Classes(mesh, node_kinds(mesh, degrees), int(np.count_nonzero(held)), int(np.count_nonzero(freed)))
 
 
-class Classer(QObject):
+class Classer(Newest):
     """Classes the boundary of a mesh; of several that it was asked for, the newest.
 
     Signals
@@ -96,9 +97,6 @@ class Classer(QObject):
         super().__init__(parent)
         self.classes: Classes | None = None
         self.error: BaseException | None = None
-        self._wanted: tuple[Mesh, ElementQuality, float] | None = None
-        self._asked: tuple[Mesh, ElementQuality, float] | None = None
-        self._task: Task | None = None
 
     def of(self, mesh: Mesh) -> Classes | None:
         """What was found last, if it was of this mesh, its nodes elsewhere or not."""
@@ -122,33 +120,16 @@ class Classer(QObject):
         """
         question = mesh, figures, degrees
         if question != self._wanted:
-            self._wanted = question
-            if self._task is None:
-                self._begin()
+            self._want(question)
 
     def forget(self) -> None:
         """Another mesh is open: nothing is known of it."""
         self.classes = self.error = self._wanted = None
 
-    def shut_down(self) -> None:
-        """Wait until the thread is gone; nothing is found any more."""
-        if self._task is not None:
-            self._task.wait()
-            self._task = None
-
-    def _begin(self) -> None:
-        self._asked = question = self._wanted
+    def _work(self, question: tuple[Mesh, ElementQuality, float]) -> Task:
         self.error = None
-        self._task = Task(f"reading {question[0].name}: its boundary", lambda _: classed(*question))
-        self._task.ended.connect(self._finish)
-        self._task.start()
+        return Task(f"reading {question[0].name}: its boundary", lambda _: classed(*question))
 
-    def _finish(self) -> None:
-        task, self._task = self._task, None
-        if self._wanted is None:
-            return
-        if self._asked != self._wanted:
-            self._begin()
-            return
+    def _take(self, task: Task) -> None:
         self.classes, self.error = task.result, task.error
         self.found.emit()

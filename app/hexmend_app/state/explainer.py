@@ -7,10 +7,11 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.mesh import Mesh
 from hexmend.node_step import NodeStep, explain
 from hexmend.smoothers import Smoother
+from hexmend_app.state.newest import Newest
 from hexmend_app.state.task import Task
 
 
-class Explainer(QObject):
+class Explainer(Newest):
     """Answers what a method would do to a node; of several questions, the newest.
 
     Signals
@@ -31,9 +32,6 @@ class Explainer(QObject):
         super().__init__(parent)
         self.step: NodeStep | None = None
         self.error: BaseException | None = None
-        self._wanted: tuple[Mesh, Smoother, int] | None = None
-        self._asked: tuple[Mesh, Smoother, int] | None = None
-        self._task: Task | None = None
 
     @property
     def busy(self) -> bool:
@@ -43,34 +41,16 @@ class Explainer(QObject):
     def ask(self, mesh: Mesh, smoother: Smoother, node: int) -> None:
         """Ask what the method would do to a free node; what was asked before is forgotten."""
         self.forget()
-        self._wanted = mesh, smoother, node
-        if self._task is None:
-            self._begin()
+        self._want((mesh, smoother, node))
 
     def forget(self) -> None:
         """Want no answer any more."""
         self._wanted = self.step = self.error = None
 
-    def shut_down(self) -> None:
-        """Wait until the thread is gone; nothing is answered any more."""
-        self.forget()
-        if self._task is not None:
-            self._task.wait()
-            self._task = None
+    def _work(self, question: tuple[Mesh, Smoother, int]) -> Task:
+        return Task(f"reading the step of node {question[2]}", lambda _: explain(*question), yields=True)
 
-    def _begin(self) -> None:
-        self._asked = question = self._wanted
-        self._task = Task(f"reading the step of node {question[2]}", lambda _: explain(*question), yields=True)
-        self._task.ended.connect(self._finish)
-        self._task.start()
-
-    def _finish(self) -> None:
-        task, self._task = self._task, None
-        if self._wanted is None:
-            return
-        if self._asked != self._wanted:
-            self._begin()
-            return
+    def _take(self, task: Task) -> None:
         self._wanted = None
         self.step, self.error = task.result, task.error
         self.answered.emit()

@@ -197,9 +197,8 @@ class Raising:
 
     def _off(self, points: np.ndarray, room: float) -> tuple[Off, Off]:
         """Where the boundary is further than that from the surface, and the surface from the boundary."""
-        return self.sliding.off(points, np.arange(len(self.sliding.middles)), room), self.sliding.behind(
-            points, room=room
-        )
+        sliding = self.sliding
+        return sliding.off(points, np.arange(len(sliding.middles)), room), sliding.behind(points, room=room)
 
     def settle(self, limit: Limit) -> None:
         """Let the corners that hold each other be, and their nodes stay: those that are left can be raised further."""
