@@ -89,9 +89,11 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
 
 
 def _lines(row: dict[str, Any]) -> Iterator[str]:
-    yield f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing, quads drawn at last"
+    yield f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing = all, quads drawn at last"
     for name, ms in row["ms"].items():
-        yield f"  {name:<18} {ms['mask']:6.1f} + {ms['faces']:6.1f} + {ms['drawing']:6.1f} ms   {ms['quads']:>8,}"
+        parts = [ms[part] for part in ("mask", "faces", "drawing")]
+        told = " + ".join(f"{part:6.1f}" for part in parts)
+        yield f"  {name:<18} {told} = {sum(parts):6.1f} ms   {ms['quads']:>8,}"
     yield f"  a frame while the view turns: {row['turning_ms']:.1f} ms; memory at most {row['memory_mb']:,.0f} MB"
 
 

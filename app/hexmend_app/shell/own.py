@@ -13,6 +13,7 @@ from hexmend_app.shell.offers import choices, commands, panels_in
 from hexmend_app.shell.palette import CommandPalette
 
 if TYPE_CHECKING:
+    from hexmend_app.shell.docks import Docks
     from hexmend_app.shell.window import Window
 
 
@@ -25,22 +26,30 @@ def own_actions(window: Window, panels: Sequence[Panel]) -> list[Action]:
     panels : sequence of Panel
         Of all features.
     """
-    docks = window.docks
+    return [*_of_panels(window.docks, panels), *_of_layout(window.docks), *_of_program(window, panels)]
+
+
+def _of_panels(docks: Docks, panels: Sequence[Panel]) -> list[Action]:
+    """Show each panel, or close it."""
     by_id = {panel.id: panel for panel in panels}
     return [
-        *(
-            Action(
-                id=f"panel_{id}",
-                text=by_id[id].title,
-                menu="View/Panels" if by_id[id].place is not Place.BELOW else "View",
-                part=0 if by_id[id].place is not Place.BELOW else 3,
-                help=by_id[id].help,
-                handle=lambda on, id=id: docks.show_panel(id) if on else docks.close_panel(id),
-                checked=lambda id=id: docks.is_open(id),
-                needs_mesh=False,
-            )
-            for id in docks.ids()
-        ),
+        Action(
+            id=f"panel_{id}",
+            text=by_id[id].title,
+            menu="View/Panels" if by_id[id].place is not Place.BELOW else "View",
+            part=0 if by_id[id].place is not Place.BELOW else 3,
+            help=by_id[id].help,
+            handle=lambda on, id=id: docks.show_panel(id) if on else docks.close_panel(id),
+            checked=lambda id=id: docks.is_open(id),
+            needs_mesh=False,
+        )
+        for id in docks.ids()
+    ]
+
+
+def _of_layout(docks: Docks) -> list[Action]:
+    """What room the panels have together."""
+    return [
         Action(
             id="panels",
             text="Show the &view alone",
@@ -66,6 +75,12 @@ def own_actions(window: Window, panels: Sequence[Panel]) -> list[Action]:
             checked=lambda: not docks.drawer.folded,
             needs_mesh=False,
         ),
+    ]
+
+
+def _of_program(window: Window, panels: Sequence[Panel]) -> list[Action]:
+    """Find what there is, and go."""
+    return [
         Action(
             id="commands",
             text="&Commands…",
