@@ -170,8 +170,9 @@ class SmoothingPanel(QWidget):
         """Show how far a run is (seconds in the method) and, at its end, the outcome."""
         parts = [] if iteration is None else [counted(iteration, "iteration")]
         if seconds is not None:
-            parts.append(f"{seconds:.2f} s")
-        said = "  ·  ".join(parts)
+            digits = 2 - min(len(str(int(seconds))) - 1, 2)  # three in all: there is room for no more
+            parts.append(f"{seconds:.{digits}f} s")
+        said = " · ".join(parts)
         self._progress.setText(said or "Not run yet")
         self._progress.setToolTip(said)
         if not self._refused:

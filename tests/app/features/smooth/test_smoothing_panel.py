@@ -205,4 +205,10 @@ def test_a_long_run_makes_the_panel_no_wider(panel):
     before = panel.minimumSizeHint().width()
     panel.set_status(123_456, 98_765.43, "Running.")
     assert panel.minimumSizeHint().width() == before
-    assert "98765.43 s" in named(panel, QLabel, "Progress").toolTip()
+    assert "98765 s" in named(panel, QLabel, "Progress").toolTip()
+
+
+@pytest.mark.parametrize(("seconds", "said"), [(0.0, "0.00 s"), (1.839, "1.84 s"), (23.46, "23.5 s"), (412.7, "413 s")])
+def test_seconds_have_three_digits(panel, seconds, said):
+    panel.set_status(212, seconds)
+    assert named(panel, QLabel, "Progress").text() == f"212 iterations · {said}"
