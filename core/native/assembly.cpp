@@ -69,7 +69,7 @@ struct Shared {
 };
 
 template <bool soft, class Real>
-void assemble_of(Points points, double delta, double p, Left left_out, const Shared &shared,
+void assemble_of(Points points, double delta, Power power, Left left_out, const Shared &shared,
                  std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
     parallel(static_cast<std::int64_t>(shared.bounds.size()) - 1, [&](std::int64_t share) {
         auto low = shared.bounds[share], high = shared.bounds[share + 1];
@@ -86,7 +86,7 @@ void assemble_of(Points points, double delta, double p, Left left_out, const Sha
                     if (s >= 0) __builtin_prefetch(&off[s], 1), __builtin_prefetch(&off[s][8], 1);
             *sums = Sums{};
             unrolled<8>([&](auto t) { add<soft, t>(x, delta, (bits & (1LL << t)) == 0, *sums); });
-            weigh<Real>(*sums, p, values.get());
+            weigh<Real>(*sums, power, values.get());
             for (int i = 0; i < count; ++i)
                 scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off, diagonal);
         }
@@ -96,16 +96,16 @@ void assemble_of(Points points, double delta, double p, Left left_out, const Sha
 }  // namespace
 
 template <class Real>
-void assemble(Points points, double delta, double p, Left left_out, Indices bounds, Indices start, Indices chosen,
+void assemble(Points points, double delta, Power power, Left left_out, Indices bounds, Indices start, Indices chosen,
               Hexes hexes, Hexes slots, Targets target, std::span<std::array<Real, 9>> off,
               std::span<std::array<Real, 6>> diagonal) {
     Shared shared{bounds, start, chosen, hexes, slots, target};
-    (delta != 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, p, left_out, shared, off,
+    (delta != 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, power, left_out, shared, off,
                                                                       diagonal);
 }
 
-#define FOR_REAL(Real)                                                                                           \
-    template void assemble<Real>(Points, double, double, Left, Indices, Indices, Indices, Hexes, Hexes, Targets, \
+#define FOR_REAL(Real)                                                                                          \
+    template void assemble<Real>(Points, double, Power, Left, Indices, Indices, Indices, Hexes, Hexes, Targets, \
                                  std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>);
 FOR_REAL(float)
 FOR_REAL(double)

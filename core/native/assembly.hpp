@@ -5,13 +5,14 @@
 
 #include "couplings.hpp"
 #include "objective.hpp"
+#include "power.hpp"
 
 namespace hexmend {
 
 using Targets = std::span<const std::array<std::int32_t, PAIRS>>;
 
 template <class Real>
-void assemble(Points points, double delta, double p, Left left_out, Indices bounds, Indices start, Indices chosen,
+void assemble(Points points, double delta, Power power, Left left_out, Indices bounds, Indices start, Indices chosen,
               Hexes hexes, Hexes slots, Targets target, std::span<std::array<Real, 9>> off,
               std::span<std::array<Real, 6>> diagonal);
 

@@ -1,6 +1,7 @@
 // A block of hexes side by side, one in each lane.
 #pragma once
 
+#include "power.hpp"
 #include "rows.hpp"
 #include "threads.hpp"
 

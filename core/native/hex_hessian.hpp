@@ -99,9 +99,9 @@ inline Lanes cut(Lanes value) { return least(all<Lanes>(CUT), greatest(all<Lanes
 //
 // A hex that is moved as a whole keeps its energy: the blocks of each of its corners sum up to zero, which gives its
 // own.
-template <class Real> void weigh(const Sums &sums, double p, Real (*out)[ROOM]) {
+template <class Real> void weigh(const Sums &sums, Power power, Real (*out)[ROOM]) {
     Lanes g[24], h[24], own[48] = {}, rows[8];
-    auto [first, second] = BlockWeights<Lanes>(sums.eta * 0.125 - 1.0, p);
+    auto [first, second] = BlockWeights<Lanes>(sums.eta * 0.125 - power.offset, power.p);
     std::memcpy(g, &sums.g, sizeof g);
     for (int k = 0; k < 24; ++k) h[k] = second * g[k];
     int row = 0;

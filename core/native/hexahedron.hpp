@@ -103,18 +103,4 @@ template <class T> struct Corners {
     }
 };
 
-// First and second derivative of max(energy, 0)^p.
-struct Weights {
-    double first, second;
-};
-
-inline Weights weights(double energy, double p) {
-    if (energy < 0) return {0.0, 0.0};
-    if (p == 2) return {2 * energy, 2.0};
-    if (p == 1) return {1.0, 0.0};
-    if (energy == 0) return {0.0, 0.0};
-    double first = p * std::pow(energy, p - 1);
-    return {first, (p - 1) * first / energy};
-}
-
 }  // namespace hexmend

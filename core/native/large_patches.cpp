@@ -78,9 +78,10 @@ class LargePatch {
     }
 
     double sum_of_powers(Lanes sum_of_eta, int count) const {
-        Lanes energy = energy_of_sum(sum_of_eta);
+        Lanes energy = energy_of_sum(sum_of_eta, how_.power.offset);
         double total = 0;
-        for (int i = 0; i < count; ++i) total += how_.p == 2 ? energy[i] * energy[i] : std::pow(energy[i], how_.p);
+        for (int i = 0; i < count; ++i)
+            total += how_.power.p == 2 ? energy[i] * energy[i] : std::pow(energy[i], how_.power.p);
         return total;
     }
 
@@ -93,8 +94,8 @@ class LargePatch {
             *sums = Sums{};
             unrolled<8>([&](auto t) { add<soft, t>(x_[b], how_.delta, ~Bits{}, *sums); });
             value += sum_of_powers(sums->eta, count(b));
-            Lanes first = BlockWeights<Lanes>(sums->eta * 0.125 - 1.0, how_.p).first;
-            weigh<double>(*sums, how_.p, rows.get());
+            Lanes first = BlockWeights<Lanes>(sums->eta * 0.125 - how_.power.offset, how_.power.p).first;
+            weigh<double>(*sums, how_.power, rows.get());
             for (auto &g : sums->g.at) g = first * g;
             for (int i = 0; i < count(b); ++i) system.add(b * LANES + i, sums->g, i, rows[i]);
         }
@@ -108,7 +109,7 @@ class LargePatch {
             if (system.solve(shift, step())) return;
             shift = raise == 0 ? FIRST_RAISE * largest : RAISE * shift;
         }
-        double factor = -std::pow(value, 1 / how_.p - 1) / how_.p;  // A.2, (C.2)
+        double factor = -std::pow(value, 1 / how_.power.p - 1) / how_.power.p;  // A.2, (C.2)
         std::transform(system.gradient.begin(), system.gradient.end(), step().begin(),
                        [&](double g) { return factor * g; });
     }
@@ -222,9 +223,10 @@ RowsMade colours(Indices hex_start, Indices chosen, std::int64_t hexes) {
 
 std::pair<std::int64_t, std::int64_t> sweep(std::span<Point> points, Hexes hexes, Hexes slots, Indices hex_start,
                                             Indices node_start, Indices nodes, Indices groups, Indices patches,
-                                            double delta, double p, double first, double shrink, double c1, int cuts) {
+                                            double delta, Power power, double first, double shrink, double c1,
+                                            int cuts) {
     expect(hexes.size() == slots.size(), "slots: one row for each of the hexes is expected");
-    const PatchStep how{delta, p, first, shrink, c1, cuts};
+    const PatchStep how{delta, power, first, shrink, c1, cuts};
     std::vector<Asked> asked(patches.size());
     for (std::size_t g = 0; g + 1 < groups.size(); ++g)
         parallel(groups[g + 1] - groups[g], [&](std::int64_t i) {

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "incidence.hpp"
+#include "power.hpp"
 
 namespace hexmend {
 
@@ -14,12 +15,15 @@ RowsMade colours(Indices hex_start, Indices chosen, std::int64_t hexes);
 
 // What a method does with a patch; lengths are in mean edge lengths of the patch.
 struct PatchStep {
-    double delta, p, first, shrink, c1;
+    double delta;
+    Power power;
+    double first, shrink, c1;
     int cuts;
 };
 
 std::pair<std::int64_t, std::int64_t> sweep(std::span<Point> points, Hexes hexes, Hexes slots, Indices hex_start,
                                             Indices node_start, Indices nodes, Indices groups, Indices patches,
-                                            double delta, double p, double first, double shrink, double c1, int cuts);
+                                            double delta, Power power, double first, double shrink, double c1,
+                                            int cuts);
 
 }  // namespace hexmend

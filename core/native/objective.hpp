@@ -4,6 +4,7 @@
 // in the same order, so that results do not depend on the number of threads.
 #pragma once
 
+#include "power.hpp"
 #include "rows.hpp"
 
 namespace hexmend {
@@ -11,11 +12,11 @@ namespace hexmend {
 // Vectors at the eight corners of each hex.
 using Shares = std::span<std::array<double, 24>>;
 
-void energies(Points points, Hexes hexes, double delta, Left left_out, std::span<double> eta);
+void energies(Points points, Hexes hexes, double delta, double offset, Left left_out, std::span<double> eta);
 
-void gradient(Points points, Hexes hexes, double delta, double p, Left left_out, Shares shares);
+void gradient(Points points, Hexes hexes, double delta, Power power, Left left_out, Shares shares);
 
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p, Left left_out,
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, Power power, Left left_out,
                      Shares shares);
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows);

@@ -8,7 +8,7 @@
 namespace hexmend {
 
 template <bool soft, class T>
-void energies_of(Points points, Hexes hexes, double delta, Left left_out, std::span<double> eta) {
+void energies_of(Points points, Hexes hexes, double delta, double offset, Left left_out, std::span<double> eta) {
     blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gathered<T>(points, hexes, first, count);
         T sum{};
@@ -18,13 +18,13 @@ void energies_of(Points points, Hexes hexes, double delta, Left left_out, std::s
                 sum += counted(t) ? e.eta() : all<T>(1.0);
             });
         });
-        sum = energy_of_sum(sum);
+        sum = energy_of_sum(sum, offset);
         for (int i = 0; i < count; ++i) eta[first + i] = lane(sum, i);
     });
 }
 
 template <bool soft, class T>
-void gradient_of(Points points, Hexes hexes, double delta, double p, Left left_out, Shares shares) {
+void gradient_of(Points points, Hexes hexes, double delta, Power power, Left left_out, Shares shares) {
     blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gathered<T>(points, hexes, first, count);
         Counted<T> counted(left_out, first, count);
@@ -37,14 +37,14 @@ void gradient_of(Points points, Hexes hexes, double delta, double p, Left left_o
             sum += counted(t) ? d.eta : all<T>(1.0);
             g.template scatter<t>(gradient(d, s, cof));
         });
-        BlockWeights<T> by(sum * 0.125 - 1.0, p);
+        BlockWeights<T> by(sum * 0.125 - power.offset, power.p);
         for (auto &corner : g.at) corner = by.first * corner;
         put(g, first, count, shares);
     });
 }
 
 template <bool soft, class T>
-void product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p, Left left_out,
+void product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, Power power, Left left_out,
                 Shares shares) {
     blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gathered<T>(points, hexes, first, count);
@@ -62,7 +62,7 @@ void product_of(Points points, Hexes hexes, Hexes slots, Points values, double d
             g.template scatter<t>(gradient(d, s, cof));
             h.template scatter<t>(product(d, s, cof, a, along));
         });
-        BlockWeights<T> by(sum * 0.125 - 1.0, p);
+        BlockWeights<T> by(sum * 0.125 - power.offset, power.p);
         T along = by.second * slope;
         for (int c = 0; c < 8; ++c) h.at[c] = by.first * h.at[c] + along * g.at[c];
         put(h, first, count, shares);

@@ -102,7 +102,7 @@ template <class T> class Patch {
     }
 
     // Sum over the hexes of eta(H)^p with the node displaced: (3.3) without its root, (B.20).
-    template <bool soft> double value_along(double alpha, double delta, double p) const {
+    template <bool soft> double value_along(double alpha, double delta, Power power) const {
         double far = alpha * alpha * far_, total = 0;
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];
@@ -112,13 +112,13 @@ template <class T> class Patch {
                 T sigma = t.sigma + alpha * t.along_g, squared = (t.square + (j ? far : 3 * far)) + alpha * t.along_b;
                 eta += energy_at<soft>(sigma, squared, delta).eta();
             }
-            total += sum_of_powers(eta, p, b);
+            total += sum_of_powers(eta, power, b);
         }
         return total;
     }
 
     // Value where the node is, and its gradient: (B.3), (B.21), (C.1). Leaves in the table what `hessian` begins with.
-    template <bool soft> Visit value_and_gradient(double delta, double p) {
+    template <bool soft> Visit value_and_gradient(double delta, Power power) {
         Visit answer{};
         for (int b = 0; b < blocks(); ++b) {
             auto &block = blocks_[b];
@@ -130,10 +130,10 @@ template <class T> class Patch {
                 // d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ], the first of which is f b . y
                 g += t.energy.f * t.b - t.energy.eta() * (2.0 / 3.0) / t.energy.r * t.g;
             }
-            block.eta = eta * 0.125 - 1.0;
+            block.eta = eta * 0.125 - power.offset;
             block.gradient = all<T>(0.125) * g;
-            answer.value += sum_of_powers(eta, p, b);
-            block.weights = BlockWeights<T>(block.eta, p);
+            answer.value += sum_of_powers(eta, power, b);
+            block.weights = BlockWeights<T>(block.eta, power.p);
             V3<T> weighted = block.weights.first * block.gradient;
             answer.gradient += V3<double>{sum(weighted.x, b), sum(weighted.y, b), sum(weighted.z, b)};
         }
@@ -206,11 +206,11 @@ template <class T> class Patch {
     }
 
     // Of the sums of eta(T) of the hexes of block b.
-    double sum_of_powers(T sum_of_eta, double p, int b) const {
-        T energy = energy_of_sum(sum_of_eta);
-        if (p == 2) return sum(energy * energy, b);
+    double sum_of_powers(T sum_of_eta, Power power, int b) const {
+        T energy = energy_of_sum(sum_of_eta, power.offset);
+        if (power.p == 2) return sum(energy * energy, b);
         double total = 0;
-        for (int i = 0; i < width<T> && b * width<T> + i < size_; ++i) total += std::pow(lane(energy, i), p);
+        for (int i = 0; i < width<T> && b * width<T> + i < size_; ++i) total += std::pow(lane(energy, i), power.p);
         return total;
     }
 

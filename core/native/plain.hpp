@@ -2,17 +2,18 @@
 #pragma once
 
 #include "objective.hpp"
+#include "power.hpp"
 
 namespace hexmend::plain {
 
-void energies(Points points, Hexes hexes, double delta, Left left_out, std::span<double> eta);
+void energies(Points points, Hexes hexes, double delta, double offset, Left left_out, std::span<double> eta);
 
-void gradient(Points points, Hexes hexes, double delta, double p, Left left_out, Shares shares);
+void gradient(Points points, Hexes hexes, double delta, Power power, Left left_out, Shares shares);
 
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, double p, Left left_out,
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, Power power, Left left_out,
                      Shares shares);
 
 void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-           int direction, double delta, double p, double first, double shrink, double c1, int cuts);
+           int direction, double delta, Power power, double first, double shrink, double c1, int cuts);
 
 }  // namespace hexmend::plain

@@ -65,7 +65,7 @@ class Slider {
             Point place = led(d, alpha);
             if (ground_.quads.turns(points_, ground_.slots[node_], place)) continue;
             patch_.aim(way(place));
-            double trial = patch_.template value_along<soft>(1, how.delta, how.p);
+            double trial = patch_.template value_along<soft>(1, how.delta, how.power);
             double bound = at.value + how.c1 * alpha * slope;
             mover.tries(patch_.size(), alpha, trial, bound);
             if (trial < bound) return place;
@@ -94,7 +94,7 @@ void slide(Patch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star star,
            const Ground &ground, std::span<const Tangents> tangents, Mover &mover) {
     double scale = patch.load(points, hexes, star);
     patch.tabulate<soft>(how.delta);
-    Visit at = patch.value_and_gradient<soft>(how.delta, how.p);
+    Visit at = patch.value_and_gradient<soft>(how.delta, how.power);
     if (scale == 0 || at.value == 0 || !(at.value < INF)) return;
     Node node = node_of(hexes, star);
     Slider slider(patch, ground, points, node, scale, tangents[ground.slots[node]]);
@@ -108,7 +108,7 @@ void slide(Patch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star star,
         slope = slider.slope(d, at.gradient);
     }
     if (!(slope < 0)) {  // no direction of descent
-        d = steepest_descent(at.value, gradient, how.p);
+        d = steepest_descent(at.value, gradient, how.power.p);
         slope = slider.slope(d, at.gradient);
     }
     if (slope < 0) points[node] = slider.template searched<soft>(at, d, slope, how, mover);
@@ -139,12 +139,13 @@ std::int64_t sweep_sliding(std::span<Point> points, Hexes hexes, Indices start, 
 }  // namespace
 
 std::int64_t sliding_local(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                           Indices nodes, int direction, double delta, double p, double first, double shrink, double c1,
-                           int cuts, std::span<const Tangents> tangents, Indices slots, Indices roots, Points vertices,
-                           std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const Link> links,
-                           Indices quads_start, Indices quads_at, std::span<const Quad> quads, Points outward) {
+                           Indices nodes, int direction, double delta, Power power, double first, double shrink,
+                           double c1, int cuts, std::span<const Tangents> tangents, Indices slots, Indices roots,
+                           Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
+                           std::span<const Link> links, Indices quads_start, Indices quads_at,
+                           std::span<const Quad> quads, Points outward) {
     Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
-    LocalStep how{direction, delta, p, first, shrink, c1, cuts};
+    LocalStep how{direction, delta, power, first, shrink, c1, cuts};
     return (delta != 0 ? sweep_sliding<true> : sweep_sliding<false>)(points, hexes, start, corners, groups, nodes, how,
                                                                      ground, tangents);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ground.hpp"
+#include "power.hpp"
 
 namespace hexmend {
 
@@ -9,10 +10,11 @@ namespace hexmend {
 using Tangents = std::array<double, 6>;
 
 std::int64_t sliding_local(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                           Indices nodes, int direction, double delta, double p, double first, double shrink, double c1,
-                           int cuts, std::span<const Tangents> tangents, Indices slots, Indices roots, Points vertices,
-                           std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const Link> links,
-                           Indices quads_start, Indices quads_at, std::span<const Quad> quads, Points outward);
+                           Indices nodes, int direction, double delta, Power power, double first, double shrink,
+                           double c1, int cuts, std::span<const Tangents> tangents, Indices slots, Indices roots,
+                           Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
+                           std::span<const Link> links, Indices quads_start, Indices quads_at,
+                           std::span<const Quad> quads, Points outward);
 
 void sliding_laplacian(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, Indices slots,
                        Indices roots, Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,

@@ -43,8 +43,8 @@ template <class T> inline T power_minus_two_thirds(T h) {
 
 // eta(H) of the sum of its eight eta(T), (B.20). Softened by delta, a hex better than perfect counts as perfect; one
 // that has no number, because corners coincide or overflow, is infinitely bad.
-template <class T> inline T energy_of_sum(T sum) {
-    T energy = sum * 0.125 - 1.0;
+template <class T> inline T energy_of_sum(T sum, double offset) {
+    T energy = sum * 0.125 - offset;
     return energy > 0.0 ? energy : energy <= 0.0 ? all<T>(0.0) : all<T>(INF);
 }
 

@@ -42,7 +42,7 @@ template <class T> inline Chosen choose(const Patch<T> &patch, const Visit &at, 
     chosen.slope = dot(at.gradient, chosen.d);
     if (!(chosen.slope < 0)) {  // no direction of descent
         chosen.fallback = how.direction != STEEPEST_DESCENT;
-        chosen.d = steepest_descent(at.value, at.gradient, how.p);
+        chosen.d = steepest_descent(at.value, at.gradient, how.power.p);
         chosen.slope = dot(at.gradient, chosen.d);
     }
     return chosen;
@@ -56,7 +56,7 @@ inline double back_line_search(Patch<T> &patch, const Visit &at, const Chosen &c
     patch.aim(chosen.d);
     double alpha = how.first;
     for (int cut = 0; cut <= how.cuts; ++cut, alpha *= how.shrink) {
-        double trial = patch.template value_along<soft>(alpha, how.delta, how.p);
+        double trial = patch.template value_along<soft>(alpha, how.delta, how.power);
         double bound = at.value + how.c1 * alpha * chosen.slope;
         hear.tries(patch.size(), alpha, trial, bound);
         if (trial < bound) return alpha;
@@ -76,7 +76,7 @@ inline void visit(Patch<T> (&patch)[nodes], Points points, Hexes hexes, const St
     Visit at[nodes];
     for (int k = 0; k < nodes; ++k) scale[k] = patch[k].load(points, hexes, star[k]);
     for (int k = 0; k < nodes; ++k) patch[k].template tabulate<soft>(how.delta);  // meant for edges of mean length 1
-    for (int k = 0; k < nodes; ++k) at[k] = patch[k].template value_and_gradient<soft>(how.delta, how.p);
+    for (int k = 0; k < nodes; ++k) at[k] = patch[k].template value_and_gradient<soft>(how.delta, how.power);
     for (int k = 0; k < nodes; ++k) {
         const V3<double> &g = at[k].gradient;
         if (scale[k] == 0 || at[k].value == 0 || (g.x == 0 && g.y == 0 && g.z == 0)) {

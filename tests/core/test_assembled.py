@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.energy import MeshEnergy
+from hexmend.energy import MeshEnergy, Power
 from hexmend.energy.assembled import Assembled, full
 from hexmend.energy.couplings import Couplings
 from hexmend.kernels import conjugate_gradients
@@ -18,7 +18,7 @@ exponents = st.sampled_from([1.0, 2.0, 3.5])
 
 
 def hessian_of(mesh, delta=0.0, p=2.0, left_out=None, shift=0.0):
-    energy = MeshEnergy(mesh, p, left_out)
+    energy = MeshEnergy(mesh, Power(p), left_out)
     return energy.hessian(energy.scaled(mesh.points), delta).shifted(shift)
 
 

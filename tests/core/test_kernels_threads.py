@@ -117,8 +117,8 @@ def figures(mesh):
     """Energies and gradient shares: two loops over all hexes."""
     left_out = np.zeros(mesh.n_hexes, np.uint8)
     eta, shares = np.empty(mesh.n_hexes), np.empty((mesh.n_hexes, 8, 3))
-    objective.energies(mesh.points, mesh.hexes, 0.1, left_out, eta)
-    objective.gradient(mesh.points, mesh.hexes, 0.1, 2.0, left_out, shares)
+    objective.energies(mesh.points, mesh.hexes, 0.1, 1.0, left_out, eta)
+    objective.gradient(mesh.points, mesh.hexes, 0.1, (2.0, 1.0), left_out, shares)
     return eta.tobytes() + shares.tobytes()
 
 
@@ -146,7 +146,7 @@ kernels.set_threads(3)
 mesh = gallery.make("five-side", size=3000)
 left_out, eta = np.zeros(mesh.n_hexes, np.uint8), np.empty(mesh.n_hexes)
 def call():
-    objective.energies(mesh.points, mesh.hexes, 0.1, left_out, eta)
+    objective.energies(mesh.points, mesh.hexes, 0.1, 1.0, left_out, eta)
     return eta.sum()
 first = call()
 """

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
-from hexmend.energy import Couplings, MeshEnergy, energies
+from hexmend.energy import SQUARES, Couplings, MeshEnergy, Power, energies
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import LANES, element_step, local, objective, plain, reach
 from hexmend.quality import measure
@@ -27,6 +27,7 @@ cases = {
     "case": st.sampled_from([(0.15, 0.0), (0.15, 0.1), (0.9, 0.02), (3.0, 0.5)]),
     "p": st.sampled_from([1.0, 2.0, 3.5]),
     "seed": st.integers(0, 2**32 - 1),
+    "offset": st.sampled_from([1.0, 0.0]),
     "share": st.sampled_from([0.0, 0.02, 0.5]),
 }
 
@@ -38,45 +39,45 @@ def some_left_out(count, share, seed):
 
 
 @given(**cases)
-def test_energy_and_gradient_are_those_of_the_plain_loop(count, case, p, seed, share):
+def test_energy_and_gradient_are_those_of_the_plain_loop(count, case, p, offset, seed, share):
     points, hexes = some(count, case[0], seed)
     delta, left_out = case[1], some_left_out(count, share, seed)
     shares, expected = np.full((2, count, 8, 3), np.nan)
     eta, plain_eta = np.full((2, count), np.nan)
-    objective.gradient(points, hexes, delta, p, left_out, shares)
-    plain.gradient(points, hexes, delta, p, left_out, expected)
-    objective.energies(points, hexes, delta, left_out, eta)
-    plain.energies(points, hexes, delta, left_out, plain_eta)
+    objective.gradient(points, hexes, delta, Power(p, offset), left_out, shares)
+    plain.gradient(points, hexes, delta, Power(p, offset), left_out, expected)
+    objective.energies(points, hexes, delta, offset, left_out, eta)
+    plain.energies(points, hexes, delta, offset, left_out, plain_eta)
     np.testing.assert_allclose(eta, plain_eta, rtol=1e-12, atol=1e-14)
     for h in range(count):
         np.testing.assert_allclose(shares[h], expected[h], rtol=1e-11, atol=1e-12 * np.abs(expected[h]).max())
 
 
 @given(**cases)
-def test_the_product_is_that_of_the_plain_loop(count, case, p, seed, share):
+def test_the_product_is_that_of_the_plain_loop(count, case, p, offset, seed, share):
     points, hexes = some(count, case[0], seed)
     delta, left_out = case[1], some_left_out(count, share, seed)
     values = np.random.default_rng(seed).normal(size=(len(points) // 2, 3))
     slots = np.where(hexes % 2 == 0, hexes // 2, -1).astype(np.int32)  # odd nodes are fixed
     slots[slots >= len(values)] = -1
     shares, expected = np.full((2, count, 8, 3), np.nan)
-    objective.hessian_product(points, hexes, slots, values, delta, p, left_out, shares)
-    plain.hessian_product(points, hexes, slots, values, delta, p, left_out, expected)
+    objective.hessian_product(points, hexes, slots, values, delta, Power(p, offset), left_out, shares)
+    plain.hessian_product(points, hexes, slots, values, delta, Power(p, offset), left_out, expected)
     for h in range(count):
         size = max(np.abs(expected[h]).max(), 1e-300)
         np.testing.assert_allclose(shares[h], expected[h], rtol=1e-10, atol=1e-11 * size)
 
 
 @pytest.mark.parametrize("direction", ["STEEPEST_DESCENT", "NEWTON", "MODIFIED_NEWTON"])
-@given(seed=st.integers(0, 2**32 - 1), case=cases["case"], p=cases["p"])
-def test_a_local_sweep_is_that_of_the_plain_loop(direction, seed, case, p):
+@given(seed=st.integers(0, 2**32 - 1), case=cases["case"], p=cases["p"], offset=cases["offset"])
+def test_a_local_sweep_is_that_of_the_plain_loop(direction, seed, case, p, offset):
     mesh = scrambled(grid(4), *(case[0], seed))
     corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
     moved, expected = mesh.points.copy(), mesh.points.copy()
     for sweep, points in ((local.sweep, moved), (plain.sweep, expected)):
         sweep(
             points, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            getattr(local, direction), case[1], p, 1.0, 0.7, 1e-4, 60,
+            getattr(local, direction), case[1], Power(p, offset), 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
     np.testing.assert_allclose(moved, expected, atol=1e-7 * mesh.mean_edge_length)
 
@@ -110,7 +111,7 @@ def test_what_is_left_out_counts_as_perfect_and_moves_nothing(seed, delta):
     whole = np.full(40, 0xFF, np.uint8)
     blocks = np.full((40, 8, 3), np.nan)
     assert (energies(points, hexes, delta, whole) == 0).all()
-    objective.gradient(points, hexes, delta, 2.0, whole, blocks)
+    objective.gradient(points, hexes, delta, SQUARES, whole, blocks)
     assert (blocks == 0).all()
     one = np.full(40, 0b100, np.uint8)
     edges = points[hexes[:, [1, 6, 3]]] - points[hexes[:, [2]]]  # tetrahedron 2 is that of corner 2
@@ -130,7 +131,7 @@ def test_an_inverted_tetrahedron_that_is_left_out_makes_no_energy_infinite():
     )
     left_out = np.packbits(sigma <= 0, axis=1, bitorder="little")[:, 0]
     assert 0 < np.count_nonzero(left_out) < mesh.n_hexes
-    energy = MeshEnergy(mesh, 2.0, left_out)
+    energy = MeshEnergy(mesh, SQUARES, left_out)
     x = energy.scaled(mesh.points)
     assert np.isfinite(energy.value(x))
     assert np.isfinite(energy.gradient(x)).all()
@@ -138,31 +139,33 @@ def test_an_inverted_tetrahedron_that_is_left_out_makes_no_energy_infinite():
     assert np.isfinite(energy.hessian(x).assembled().off).all()
 
 
-def energy_in_numpy(x, delta, p, left_out):
+def energy_in_numpy(x, delta, power, left_out):
     """Sum of max(eta(H), 0)^p over hexes with corners x (m, 8, 3), complex or not, as the book writes it."""
     edges = x[:, CORNER_TETRAHEDRA[:, 1:]] - x[:, CORNER_TETRAHEDRA[:, :1]]
     sigma = np.linalg.det(edges)
     h = (sigma + np.sqrt(sigma * sigma + 4 * delta * delta)) / 2
     eta = (edges * edges).sum(axis=(2, 3)) / (3 * h ** (2 / 3))
-    energy = np.where(np.unpackbits(left_out[:, None], axis=1, bitorder="little") == 1, 1.0, eta).mean(axis=1) - 1
-    return np.where(energy.real > 0, energy, 0.0) ** p
+    energy = (
+        np.where(np.unpackbits(left_out[:, None], axis=1, bitorder="little") == 1, 1.0, eta).mean(axis=1) - power.offset
+    )
+    return np.where(energy.real > 0, energy, 0.0) ** power.p
 
 
 @given(**cases)
-def test_energy_and_gradient_are_those_of_numpy(count, case, p, seed, share):
+def test_energy_and_gradient_are_those_of_numpy(count, case, p, offset, seed, share):
     points, hexes = some(count, case[0], seed)
     delta, left_out = case[1], some_left_out(count, share, seed)
     x = points[hexes]
     with np.errstate(invalid="ignore", divide="ignore"):
-        expected = energy_in_numpy(x, delta, p, left_out)
+        expected = energy_in_numpy(x, delta, Power(p, offset), left_out)
         sound = np.isfinite(expected)
-        eta, shares = energies(points, hexes, delta, left_out), np.empty((count, 8, 3))
+        eta, shares = energies(points, hexes, delta, left_out, offset), np.empty((count, 8, 3))
         np.testing.assert_allclose(eta[sound] ** p, expected[sound], rtol=1e-9, atol=1e-11)
-        objective.gradient(points, hexes, delta, p, left_out, shares)
+        objective.gradient(points, hexes, delta, Power(p, offset), left_out, shares)
         for corner, axis in ((0, 0), (3, 1), (6, 2)):
             there = x.astype(complex)
             there[:, corner, axis] += 1e-30j
-            slope = energy_in_numpy(there, delta, p, left_out).imag / 1e-30
+            slope = energy_in_numpy(there, delta, Power(p, offset), left_out).imag / 1e-30
             clear = sound & (eta > 1e-6)  # at zero, p = 1 has a kink
             size = np.abs(shares[clear]).max(initial=1e-300)
             np.testing.assert_allclose(shares[clear, corner, axis], slope[clear], rtol=1e-7, atol=1e-9 * size)
@@ -197,13 +200,13 @@ def test_a_node_beside_a_collapsed_corner_is_left_alone():
     tetrahedron = next(t for t in CORNER_TETRAHEDRA if nodes[t[0]] != node)
     points[nodes[tetrahedron]] = points[node] + 0.3  # a corner of no extent
     points[node] -= 0.3
-    _, value, gradient, _ = local.look(points, mesh.hexes, star, 0.0, 0.0, 2.0)
+    _, value, gradient, _ = local.look(points, mesh.hexes, star, 0.0, 0.0, SQUARES)
     assert value == np.inf, gradient
     corners, groups = mesh.topology.node_corners, np.array([0, 1], np.int32)
     moved = points.copy()
     local.sweep(
         moved, mesh.hexes, corners.start, corners.items, groups, np.array([node], np.int32),
-        local.STEEPEST_DESCENT, 0.0, 2.0, 1.0, 0.7, 1e-4, 60,
+        local.STEEPEST_DESCENT, 0.0, SQUARES, 1.0, 0.7, 1e-4, 60,
     )  # fmt: skip
     np.testing.assert_array_equal(moved, points)
 
@@ -212,11 +215,11 @@ def test_arrays_that_do_not_fit_are_refused():
     mesh = grid(2)
     for left_out, eta in ((np.zeros(3, np.uint8), np.empty(8)), (np.zeros(8, np.uint8), np.empty(7))):
         with pytest.raises(ValueError, match="one for each hex"):
-            objective.energies(mesh.points, mesh.hexes, 0.0, left_out, eta)
+            objective.energies(mesh.points, mesh.hexes, 0.0, 1.0, left_out, eta)
     with pytest.raises(TypeError):
-        objective.energies(mesh.points.astype(np.float32), mesh.hexes, 0.0, np.zeros(8, np.uint8), np.empty(8))
+        objective.energies(mesh.points.astype(np.float32), mesh.hexes, 0.0, 1.0, np.zeros(8, np.uint8), np.empty(8))
     with pytest.raises(ValueError, match="no patch"):
-        local.look(mesh.points, mesh.hexes, np.empty(0, np.int32), 0.0, 0.0, 2.0)
+        local.look(mesh.points, mesh.hexes, np.empty(0, np.int32), 0.0, 0.0, SQUARES)
 
 
 def test_public_functions_take_any_whole_numbers_and_order():
@@ -245,7 +248,7 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
             swept, places, step = x.copy(), np.empty((mesh.n_hexes, 8, 3)), solved.x.reshape(-1, 3).copy()
             local.sweep(
                 swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-                local.NEWTON, 0.1, 2.0, 1.0, 0.7, 1e-4, 60,
+                local.NEWTON, 0.1, SQUARES, 1.0, 0.7, 1e-4, 60,
             )  # fmt: skip
             element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
             reach.shorten(step, x, rings.start, rings.items, energy.nodes, 0.1)

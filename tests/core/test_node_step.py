@@ -39,7 +39,7 @@ def swept(mesh, smoother, node):
     corners, points = mesh.topology.node_corners, mesh.points.copy()
     local.sweep(
         points, mesh.hexes, corners.start, corners.items, np.array([0, 1], np.int32), np.array([node], np.int32),
-        smoother.direction, smoother.delta_at(mesh, mesh.points), smoother.p, smoother.first_step, smoother.shrink,
+        smoother.direction, smoother.delta_at(mesh, mesh.points), smoother.power, smoother.first_step, smoother.shrink,
         smoother.c1, smoother.max_cuts,
     )  # fmt: skip
     return points
@@ -51,7 +51,7 @@ def patch_energy(mesh, step, place):
     points[step.node] = place
     nodes, hexes = np.unique(mesh.hexes[step.hexes], return_inverse=True)
     part = Mesh(points[nodes] / step.unit, hexes.reshape(-1, 8))
-    energy = MeshEnergy(part, step.p)
+    energy = MeshEnergy(part, step.power)
     return energy.value(part.points, step.delta)
 
 

@@ -31,7 +31,7 @@ def one_by_one(mesh, smoother, nodes):
     points, delta = mesh.points.copy(), smoother.delta_at(mesh, mesh.points)
     for node in nodes:
         verdict, *_, place, _ = local.visit(
-            points, mesh.hexes, mesh.topology.node_corners[node], smoother.direction, delta, smoother.p,
+            points, mesh.hexes, mesh.topology.node_corners[node], smoother.direction, delta, smoother.power,
             smoother.first_step, smoother.shrink, smoother.c1, smoother.max_cuts,
         )  # fmt: skip
         if verdict == local.MOVED:

@@ -5,31 +5,30 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.energy import MeshEnergy, energies
+from hexmend.energy import SQUARES, MeshEnergy, Power, energies
 from hexmend.kernels import local
 from tests.core.grids import grid, scrambled
 
 
-def patch_of(mesh, node, delta, p=2.0):
+def patch_of(mesh, node, delta, power=SQUARES):
     """Its hexes' corners at the node, the factor of its lengths, value, gradient, second derivatives."""
     star = mesh.topology.node_corners[node]
-    return star, *local.look(mesh.points, mesh.hexes, star, 0.0, delta, p)
+    return star, *local.look(mesh.points, mesh.hexes, star, 0.0, delta, power)
 
 
-def value(mesh, star, scale, y, delta, p):
+def value(mesh, star, scale, y, delta, power):
     curve = np.array([[1.0, np.nan]])
-    local.along(mesh.points, mesh.hexes, star, scale, y, delta, p, curve)
+    local.along(mesh.points, mesh.hexes, star, scale, y, delta, power, curve)
     return curve[0, 1]
 
 
-CASES = st.tuples(
-    st.integers(0, 2**32 - 1), st.sampled_from([0.1, 0.4, 0.9]), st.sampled_from([1.0, 2.0, 3.5]), st.booleans()
-)
+POWERS = st.builds(Power, st.sampled_from([1.0, 2.0, 3.5]), st.sampled_from([1.0, 0.0]))
+CASES = st.tuples(st.integers(0, 2**32 - 1), st.sampled_from([0.1, 0.4, 0.9]), POWERS, st.booleans())
 
 
 @given(CASES)
 def test_value_is_the_energy_of_the_attached_hexes(case):
-    seed, amplitude, p, soft = case
+    seed, amplitude, power, soft = case
     mesh = scrambled(grid(3), amplitude, seed)
     delta = 0.05 if soft else 0.0
     node = int(np.flatnonzero(mesh.free)[seed % 8])
@@ -38,36 +37,36 @@ def test_value_is_the_energy_of_the_attached_hexes(case):
     points = mesh.points.copy()
     points[node] += y / scale
     attached = mesh.hexes[mesh.topology.node_corners[node] // 8]
-    expected = (energies(points * scale, attached, delta) ** p).sum()
-    got = value(mesh, star, scale, y, delta, p)
+    expected = (energies(points * scale, attached, delta, None, power.offset) ** power.p).sum()
+    got = value(mesh, star, scale, y, delta, power)
     assert got == pytest.approx(expected, rel=1e-9)
 
 
 @given(CASES)
 def test_gradient_is_that_of_central_differences(case):
-    seed, amplitude, p, soft = case
+    seed, amplitude, power, soft = case
     mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
     delta = 0.05 if soft else 0.0
     node = int(np.flatnonzero(mesh.free)[seed % 8])
-    star, scale, f, gradient, _ = patch_of(mesh, node, delta, p)
-    assert f == pytest.approx(value(mesh, star, scale, np.zeros(3), delta, p))
+    star, scale, f, gradient, _ = patch_of(mesh, node, delta, power)
+    assert f == pytest.approx(value(mesh, star, scale, np.zeros(3), delta, power))
     step = 1e-6
     for k in range(3):
         y = np.zeros(3)
         y[k] = step
-        rise = value(mesh, star, scale, y, delta, p) - value(mesh, star, scale, -y, delta, p)
+        rise = value(mesh, star, scale, y, delta, power) - value(mesh, star, scale, -y, delta, power)
         assert rise / (2 * step) == pytest.approx(gradient[k], rel=1e-5, abs=1e-5 * max(1, f))
 
 
 @given(CASES)
 def test_gradient_and_hessian_are_rows_and_blocks_of_the_meshs(case):
-    seed, amplitude, p, soft = case
+    seed, amplitude, power, soft = case
     mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
     k = seed % 8
-    energy = MeshEnergy(mesh, p)
+    energy = MeshEnergy(mesh, power)
     node = int(energy.nodes[k])
     unit = 0.05 if soft else 0.0  # of the patch
-    _, scale, _, gradient, own = patch_of(mesh, node, unit, p)
+    _, scale, _, gradient, own = patch_of(mesh, node, unit, power)
     delta = unit / (scale * energy.unit) ** 3
     x, ratio = energy.scaled(mesh.points), scale * energy.unit
     np.testing.assert_allclose(np.multiply(gradient, ratio), energy.gradient(x, delta)[k], rtol=1e-9, atol=1e-9)

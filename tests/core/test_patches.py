@@ -38,7 +38,7 @@ def swept(mesh, patches, k, smoother, delta):
     points = mesh.points.copy()
     asked = large_patches.sweep(
         points, patches.hexes, patches.slots, patches.chosen.start, patches.nodes.start, patches.nodes.items,
-        np.array([0, 1], np.int32), np.array([k], np.int32), delta, smoother.p, smoother.first_step, smoother.shrink,
+        np.array([0, 1], np.int32), np.array([k], np.int32), delta, smoother.power, smoother.first_step, smoother.shrink,
         smoother.c1, smoother.max_cuts,
     )  # fmt: skip
     return points, asked
@@ -128,7 +128,7 @@ def test_a_step_is_newtons_for_the_nodes_of_the_patch(seed, size, p):
         return
     patches, smoother = grown(mesh, size, 0), LocalPatch(p=p)
     small, used, unit = part(mesh, patches, 0)
-    energy = MeshEnergy(small, p)
+    energy = MeshEnergy(small, smoother.power)
     scale = energy.unit  # 1 but for rounding
     x = small.points / scale
     hessian = energy.hessian(x).assembled(np.float64).matrix().toarray()
@@ -150,7 +150,7 @@ def test_large_systems_are_solved_by_conjugate_gradients_as_well(overlap):
     patches, smoother = grown(mesh, 216, overlap), LocalPatch()
     assert 3 * patches.nodes[0].size > 600
     small, used, unit = part(mesh, patches, 0)
-    energy = MeshEnergy(small, 2.0)
+    energy = MeshEnergy(small)
     x = small.points / energy.unit
     gradient, hessian = energy.gradient(x).ravel(), energy.hessian(x).assembled(np.float64).matrix()
     points, (energies, derivatives) = swept(mesh, patches, 0, smoother, 0.0)
@@ -171,7 +171,7 @@ def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overl
     moved = np.flatnonzero((points != mesh.points).any(axis=1))
     assert np.isin(moved, patches.nodes[k]).all()
     small, used, unit = part(mesh, patches, k)
-    energy = MeshEnergy(small, p)
+    energy = MeshEnergy(small, smoother.power)
     before, now = energy.value(small.points, delta), energy.value(points[used] / unit, delta)
     assert now <= before * (1 + 1e-9) + 1e-12
 

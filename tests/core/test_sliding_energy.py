@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.energy import SlidingEnergy
+from hexmend.energy import Power, SlidingEnergy
 from hexmend.surface import Kind, Sliding
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid
@@ -30,7 +30,7 @@ def at(solid, seed, p):
     """The energy of a solid whose nodes have slid, their places in mean edge lengths, a step along the surface."""
     there = slid(SOLIDS[solid](), 0.2, seed)
     sliding = Sliding(SOLIDS[solid]())
-    energy = SlidingEnergy(sliding, p)
+    energy = SlidingEnergy(sliding, Power(p))
     return energy, energy.scaled(there.points), along_the_surface(sliding, there.points, seed)
 
 

@@ -11,6 +11,7 @@ from scipy.stats import special_ortho_group
 
 from hexmend import io, kernels
 from hexmend.cli.main import main
+from hexmend.energy import SQUARES
 from hexmend.kernels import local
 from hexmend.kernels import sliding as on_surface
 from hexmend.mesh import Mesh
@@ -171,7 +172,7 @@ def test_nodes_that_do_not_slide_are_visited_as_ever(direction):
         points = mesh.points.copy()
         sweep(
             points, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            direction, 0.01, 2.0, 1.0, 0.7, 1e-4, 100, *more,
+            direction, 0.01, SQUARES, 1.0, 0.7, 1e-4, 100, *more,
         )  # fmt: skip
         swept.append(points)
     np.testing.assert_allclose(swept[0], swept[1], atol=1e-9)

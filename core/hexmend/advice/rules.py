@@ -37,7 +37,7 @@ def unpin(now: Situation) -> Suggestion | None:
         f"Unpin {'the node' if one else f'the {pins.size:,} nodes'} of inverted hexes that only "
         f"{'a pin holds' if one else 'pins hold'}, then run Mend: it can move {'it' if one else 'them'} then.",
         "inverted",
-        Mend(p=now.p),
+        Mend(**now.objective),
         unpin=pins,
     )
 
@@ -50,7 +50,7 @@ def untangle(now: Situation) -> Suggestion | None:
         "Mend",
         "Run Mend: it untangles whatever the fixed nodes allow, which no other method does as surely.",
         "inverted",
-        Mend(p=now.p),
+        Mend(**now.objective),
     )
 
 
@@ -65,7 +65,7 @@ def slide(now: Situation) -> Suggestion | None:
         f"Run Mend with boundary = slide. {which} be freed where nodes of the boundary slide on its surface; where "
         "that is not enough, Mend takes nodes off it within surface_tolerance.",
         "inverted",
-        Mend(p=now.p, boundary="slide"),
+        Mend(**now.objective, boundary="slide"),
     )
 
 
@@ -125,7 +125,7 @@ def faster(now: Situation) -> Suggestion | None:
         "Mend",
         f"Run Mend: its Newton steps go to the same optimum as {now.smoother.title} in far fewer iterations.",
         now.aim,
-        Mend(p=now.p),
+        Mend(**now.objective),
     )
 
 
@@ -155,7 +155,7 @@ def optimum(now: Situation) -> Suggestion | None:
         "Run Mend: it goes on to the optimum of the objective, where the worst hexes gain most; the mean may fall a "
         "little.",
         "objective",
-        Mend(p=now.p),
+        Mend(**now.objective),
     )
 
 
@@ -179,7 +179,7 @@ def raise_p(now: Situation) -> Suggestion | None:
         f"Mend, p up to {HIGH_P:g}",
         f"Run Mend with p raised up to {HIGH_P:g}: the worst hexes rise at the expense of the mean.",
         "q_min",
-        Mend(p=now.p, highest_p=HIGH_P),
+        Mend(**now.objective, highest_p=HIGH_P),
         Stop(max_iterations=max(500, now.stop.max_iterations)),
     )
 

@@ -61,14 +61,19 @@ class Situation:
         return getattr(self.smoother, "p", 2.0)
 
     @property
+    def objective(self) -> dict[str, float]:
+        """p and offset of the objective, as far as the method has them."""
+        return {name: value for name, value in self.smoother.values().items() if name in ("p", "offset")}
+
+    @property
     def highest_p(self) -> float:
         """The exponent that it was raised to."""
         return max(self.p, getattr(self.smoother, "highest_p", 1.0))
 
     @property
     def aim(self) -> str:
-        """The figure that an optimiser betters: the objective with its p, or, where that is infinite, q_norm."""
-        if self.result.after.objective is not None and self.p != 2:
+        """What an optimiser betters: the objective with its p and offset, or, where that is infinite, q_norm."""
+        if self.result.after.objective is not None and (self.p != 2 or self.objective.get("offset", 1.0) != 1):
             return "energy"
         return "objective" if self.result.after.objective is not None else "q_norm"
 

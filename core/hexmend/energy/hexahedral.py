@@ -5,13 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.arrays import as_hexes, as_points
+from hexmend.energy.power import SQUARES, Power
 from hexmend.kernels import objective as kernels
 
 
 def energies(
-    points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, left_out: np.ndarray | None = None
+    points: np.ndarray,
+    hexes: np.ndarray,
+    delta: float = 0.0,
+    left_out: np.ndarray | None = None,
+    offset: float = 1.0,
 ) -> np.ndarray:
-    """Energy of every hex: mean of eta(T) over its corners minus 1.
+    """Energy of every hex: mean of eta(T) over its corners minus `offset`.
 
     Parameters
     ----------
@@ -21,11 +26,13 @@ def energies(
         In the unit of sigma, the cube of the points' unit of length.
     left_out : (m,) uint8, optional
         Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
+    offset : float
+        See `Power`.
 
     Returns
     -------
     (m,) float64
-        0 for a cube; +inf for an inverted hex at delta = 0.
+        For a cube 0, if the offset is 1; +inf for an inverted hex at delta = 0.
 
     Examples
     --------
@@ -35,11 +42,11 @@ def energies(
     """
     eta = np.empty(len(hexes))
     out = np.zeros(len(hexes), np.uint8) if left_out is None else left_out
-    kernels.energies(as_points(points), as_hexes(hexes), float(delta), out, eta)
+    kernels.energies(as_points(points), as_hexes(hexes), float(delta), float(offset), out, eta)
     return eta
 
 
-def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, p: float = 2.0) -> float:
+def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: Power = SQUARES) -> float:
     """(sum eta(H)^p)^(1/p) over all hexes, (3.3).
 
     Examples
@@ -48,4 +55,5 @@ def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, p: floa
     >>> float(objective(UNIT_CUBE, np.arange(8, dtype=np.int32)[None]))
     0.0
     """
-    return float(np.power(energies(points, hexes, delta), p).sum() ** (1 / p))
+    p, offset = power
+    return float(np.power(energies(points, hexes, delta, None, offset), p).sum() ** (1 / p))

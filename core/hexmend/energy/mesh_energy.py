@@ -12,6 +12,7 @@ from hexmend.energy.assembled import Assembled
 from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import energies
 from hexmend.energy.operator import SymmetricOperator
+from hexmend.energy.power import SQUARES, Power
 from hexmend.kernels import assembly, reach, threads
 from hexmend.kernels import objective as kernels
 from hexmend.mesh import Mesh
@@ -25,8 +26,8 @@ class MeshEnergy:
     Parameters
     ----------
     mesh : Mesh
-    p : float
-        At least 1.
+    power : Power
+        p and offset.
     left_out : (m,) uint8, optional
         Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
 
@@ -50,9 +51,9 @@ class MeshEnergy:
     #: Whether it has bends, those of a surface of triangles, at which Newton's method is slow.
     faceted = False
 
-    def __init__(self, mesh: Mesh, p: float = 2.0, left_out: np.ndarray | None = None):
+    def __init__(self, mesh: Mesh, power: Power = SQUARES, left_out: np.ndarray | None = None):
         self.mesh = mesh
-        self.p = p
+        self.power = power
         self.left_out = np.zeros(mesh.n_hexes, np.uint8) if left_out is None else left_out
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
@@ -70,10 +71,15 @@ class MeshEnergy:
         """Which free nodes share a hex."""
         return Couplings(self.mesh)
 
-    def but(self, p: float, left_out: np.ndarray) -> MeshEnergy:
-        """The energy with another p and other corners left out; what depends on the mesh alone is shared."""
+    @property
+    def least(self) -> float:
+        """What `value` is where all hexes are cubes and delta is zero."""
+        return self.power.least * self.mesh.n_hexes
+
+    def but(self, power: Power, left_out: np.ndarray) -> MeshEnergy:
+        """The energy with another power and other corners left out; what depends on the mesh alone is shared."""
         other = copy.copy(self)
-        other.p, other.left_out = p, left_out
+        other.power, other.left_out = power, left_out
         return other
 
     def scaled(self, points: np.ndarray) -> np.ndarray:
@@ -94,12 +100,13 @@ class MeshEnergy:
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Sum of eta(H)^p at points x (n, 3); +inf at delta = 0 while any hex is inverted."""
-        eta = energies(x, self.mesh.hexes, delta, self.left_out)
-        return float((np.square(eta) if self.p == 2 else np.power(eta, self.p)).sum())
+        p, offset = self.power
+        eta = energies(x, self.mesh.hexes, delta, self.left_out, offset)
+        return float((np.square(eta) if p == 2 else np.power(eta, p)).sum())
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Derivative of `value` by the free nodes, (k, 3): (B.3), (B.21), (C.2)."""
-        kernels.gradient(x, self.mesh.hexes, delta, self.p, self.left_out, self._shares)
+        kernels.gradient(x, self.mesh.hexes, delta, self.power, self.left_out, self._shares)
         return self._gathered()
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
@@ -144,7 +151,7 @@ class Hessian(SymmetricOperator):
             energy.slots,
             v,
             self.delta,
-            energy.p,
+            energy.power,
             energy.left_out,
             energy._shares,
         )
@@ -168,7 +175,7 @@ class Hessian(SymmetricOperator):
         fits = room is not None and room.couplings is couplings and room.off.dtype == dtype
         matrix = room.cleared() if fits else Assembled.zero(couplings, dtype)
         assembly.assemble(
-            self.x, self.delta, energy.p, energy.left_out, *couplings.shares(threads()), matrix.off, matrix.diagonal
+            self.x, self.delta, energy.power, energy.left_out, *couplings.shares(threads()), matrix.off, matrix.diagonal
         )
         matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], dtype)
         return matrix

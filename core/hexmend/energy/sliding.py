@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend.energy.assembled import Assembled, full
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
+from hexmend.energy.power import SQUARES, Power
 from hexmend.surface import Sliding
 
 #: How far nodes are led to see where that is, in mean edge lengths.
@@ -24,14 +25,14 @@ class SlidingEnergy(MeshEnergy):
     Parameters
     ----------
     sliding : Sliding
-    p, left_out
+    power, left_out
         See `MeshEnergy`.
     """
 
     faceted = True
 
-    def __init__(self, sliding: Sliding, p: float = 2.0, left_out: np.ndarray | None = None):
-        super().__init__(sliding.mesh, p, left_out)
+    def __init__(self, sliding: Sliding, power: Power = SQUARES, left_out: np.ndarray | None = None):
+        super().__init__(sliding.mesh, power, left_out)
         self.sliding = sliding
         self._rows = np.searchsorted(self.nodes, sliding.nodes)
         self._seen: tuple[np.ndarray, np.ndarray] | None = None

@@ -20,15 +20,15 @@ _VERDICTS = {
 
 def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int, delta: float) -> NodeStep:
     """What `local.sweep` does to a node of the mesh at points (n, 3), with the delta of the sweep."""
-    patch, before = Patch(mesh, points, node, smoother.p, delta), points[node].copy()
+    patch, before = Patch(mesh, points, node, smoother.power, delta), points[node].copy()
     verdict, way, slope, fallback, shift, alpha, place, trials = local.visit(
-        points, mesh.hexes, mesh.topology.node_corners[node], smoother.direction, delta, smoother.p,
+        points, mesh.hexes, mesh.topology.node_corners[node], smoother.direction, delta, smoother.power,
         smoother.first_step, smoother.shrink, smoother.c1, smoother.max_cuts,
     )  # fmt: skip
     moved, searched, direction = verdict == local.MOVED, len(trials) > 0, np.array(way)
     return NodeStep(
         smoother.name, node, patch.hexes, before, np.array(place) if moved else before, _VERDICTS[verdict], patch.unit,
-        smoother.p, delta, patch.energy, patch.gradient, patch.hessian,
+        smoother.power, delta, patch.energy, patch.gradient, patch.hessian,
         energy_after=float(trials[-1, 1]) if moved else patch.energy,
         direction=direction * patch.unit,
         slope=slope,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.energy import Power
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
 
@@ -21,7 +22,8 @@ class Patch:
     points : (n, 3) float64
         Of all nodes.
     node : int
-    p, delta : float
+    power : Power
+    delta : float
     unit : float, optional
         The length that is taken for 1; without it, the mean edge length of the patch.
 
@@ -34,12 +36,14 @@ class Patch:
     gradient, hessian : (3,), (3, 3) float64
     """
 
-    def __init__(self, mesh: Mesh, points: np.ndarray, node: int, p: float, delta: float, unit: float | None = None):
+    def __init__(
+        self, mesh: Mesh, points: np.ndarray, node: int, power: Power, delta: float, unit: float | None = None
+    ):
         star = mesh.topology.node_corners[node]
         self.hexes = star // 8
-        self.p, self.delta = float(p), float(delta)
+        self.power, self.delta = power, float(delta)
         self._factor, self.energy, gradient, second = local.look(
-            points, mesh.hexes, star, 1 / unit if unit else 0.0, self.delta, self.p
+            points, mesh.hexes, star, 1 / unit if unit else 0.0, self.delta, self.power
         )
         self._where = points, mesh.hexes, star, self._factor
         self.unit = 1 / self._factor if self._factor else 0.0
@@ -51,13 +55,13 @@ class Patch:
         """The energy along a direction, in `unit`, from alpha = 0 to `reach`: alpha, energy, (PLACES, 2)."""
         answer = np.empty((PLACES, 2))
         answer[:, 0] = np.linspace(0, reach, PLACES)
-        local.along(*self._where, direction, self.delta, self.p, answer)
+        local.along(*self._where, direction, self.delta, self.power, answer)
         return answer
 
     def value(self, direction: np.ndarray, alpha: float) -> float:
         """The energy at alpha of a direction, in `unit`."""
         answer = np.array([[alpha, 0.0]])
-        local.along(*self._where, direction, self.delta, self.p, answer)
+        local.along(*self._where, direction, self.delta, self.power, answer)
         return float(answer[0, 1])
 
 

@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from hexmend.energy import Power
+
 
 class Verdict(Enum):
     """What became of the node, as a sentence."""
@@ -68,8 +70,10 @@ class NodeStep:
     unit : float
         The length that the energy takes for 1: the mean edge length of the patch, or, where the energy is that of the
         whole mesh, of the mesh.
-    p, delta : float
-        Of the energy, (3.3); delta in the cube of `unit`.
+    power : Power
+        p and offset of the energy, (3.3).
+    delta : float
+        Of the energy, in the cube of `unit`.
     energy : float
         Sum of eta(H)^p, with the node at `before`: over the patch, or over the whole mesh.
     gradient, hessian : (3,), (3, 3) float64
@@ -106,7 +110,7 @@ class NodeStep:
     after: np.ndarray
     verdict: Verdict
     unit: float
-    p: float
+    power: Power
     delta: float
     energy: float
     gradient: np.ndarray

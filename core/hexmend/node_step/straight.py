@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from hexmend.energy import SQUARES
 from hexmend.mesh import Mesh
 from hexmend.node_step.patch import MORE, Patch
 from hexmend.node_step.record import NodeStep, Pull, Verdict
@@ -42,8 +43,8 @@ def straight_step(
     wanted, target = target is not None, after if target is None else target
     hexes = mesh.topology.node_corners[node] // 8
     tangled = measure(mesh.points, np.ascontiguousarray(mesh.hexes[hexes])).n_inverted > 0
-    p, delta = getattr(smoother, "p", 2.0), SOFTNESS if tangled else 0.0
-    patch = Patch(mesh, mesh.points, node, p, delta)
+    power, delta = getattr(smoother, "power", SQUARES), SOFTNESS if tangled else 0.0
+    patch = Patch(mesh, mesh.points, node, power, delta)
     way, gone = target - before, after - before
     far = float(way @ way)
     alpha = float(gone @ way) / far if far > 0 else 0.0
@@ -52,7 +53,7 @@ def straight_step(
         verdict = Verdict.MOVED if np.allclose(after, target, rtol=0, atol=1e-9 * patch.unit) else Verdict.SHORTENED
     direction = way / patch.unit if patch.unit else way
     return NodeStep(
-        smoother.name, node, hexes, before, after, verdict, patch.unit, p, delta, patch.energy, patch.gradient,
+        smoother.name, node, hexes, before, after, verdict, patch.unit, power, delta, patch.energy, patch.gradient,
         patch.hessian,
         energy_after=patch.value(direction, alpha),
         direction=way,

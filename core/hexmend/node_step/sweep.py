@@ -87,7 +87,7 @@ class Sweep(Iterator[NodeStep]):
         groups = self.mesh.topology.wavefronts(self.nodes[self.done : last])
         local.sweep(
             self._points, self.mesh.hexes, corners.start, corners.items, groups.start, groups.items,
-            method.direction, self.delta, method.p, method.first_step, method.shrink, method.c1, method.max_cuts,
+            method.direction, self.delta, method.power, method.first_step, method.shrink, method.c1, method.max_cuts,
         )  # fmt: skip
         self.done = last
         return next(self)

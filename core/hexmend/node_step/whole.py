@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexmend.energy import POLICIES, MeshEnergy
+from hexmend.energy import MeshEnergy
 from hexmend.mesh import Mesh
 from hexmend.node_step.patch import Patch, reach_of
 from hexmend.node_step.record import NodeStep, Trial, Verdict
@@ -39,14 +39,14 @@ class _Recorded(BackLineSearch):
 
 def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     """What the method's next step does to a node."""
-    energy, policy = MeshEnergy(mesh, smoother.p), POLICIES[smoother.delta_policy](smoother.delta)
+    energy = MeshEnergy(mesh, smoother.power)
     search = _Recorded(smoother.first_step, smoother.shrink, smoother.c1, smoother.max_cuts)
     x, before = energy.scaled(mesh.points), mesh.points[node].copy()
-    delta = policy.at(measure(mesh.points, mesh.hexes), energy.unit)
-    patch = Patch(mesh, mesh.points, node, smoother.p, delta, energy.unit)
+    delta = smoother.policy(energy).at(measure(mesh.points, mesh.hexes), energy.unit)
+    patch = Patch(mesh, mesh.points, node, smoother.power, delta, energy.unit)
     known = {
         "method": smoother.name, "node": node, "hexes": patch.hexes, "before": before, "unit": energy.unit,
-        "p": smoother.p, "delta": delta, "gradient": patch.gradient, "hessian": patch.hessian, "whole": True,
+        "power": smoother.power, "delta": delta, "gradient": patch.gradient, "hessian": patch.hessian, "whole": True,
     }  # fmt: skip
     taken = descend(energy, x, delta, smoother.direction(), search)
     if taken is None:

@@ -76,7 +76,7 @@ def descend(
         return None
     gradient = energy.gradient(x, delta)
     length = norm(gradient)
-    if perfect(value, energy.mesh.n_hexes):
+    if perfect(energy, value, delta):
         return Descent(x, value, 0.0, length, Found(np.zeros_like(gradient)), 0.0, 0)
     hessian = energy.hessian(x, delta)
     found = find(value, gradient, hessian)  # A.2, A.3, A.4
@@ -105,6 +105,9 @@ def descend(
 #: stay.
 TRIALS = 6
 
+#: By how many roundings the energy of a cube may be off.
+ROUNDING = 8
+
 #: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others; of
 #: what share of its step on a node stays where it is that would stray: it is at the end of its room.
 WORSE, MORE, HALVINGS, STAYS = 2.0, 1.0, 8, 0.25
@@ -130,6 +133,8 @@ def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) 
     step *= share[energy.nodes, None]
 
 
-def perfect(value: float, hexes: int) -> bool:
+def perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
     """Whether every hex is a cube but for rounding, so that gradient and Hessian are nothing but noise."""
-    return value <= hexes * np.finfo(float).eps ** 2
+    eps, hexes = np.finfo(float).eps, energy.mesh.n_hexes
+    least = energy.least if delta == 0 else 0.0  # softened, a hex may have less energy than a cube
+    return value <= (1 + ROUNDING * eps) * least + hexes * eps**2

@@ -41,7 +41,7 @@ class Direction(Protocol):
 
 def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
     """Algorithm A.2: p_k = -grad f of (3.3), f being the p-th root of the sum."""
-    p = hessian.energy.p
+    p = hessian.energy.power.p
     return Found(-(value ** (1 / p - 1) / p) * gradient)  # (C.2)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.energy import Hessian
 from hexmend.optimise.blas import one_blas_thread
+from hexmend.optimise.minres import minres
 
 Vector = np.ndarray
 
@@ -36,24 +37,12 @@ class Minres:
 
     tolerance: float = 1e-6
     iterations: int = 1000
-    precision: type = np.float32
-
-    def __post_init__(self):
-        import scipy.sparse.linalg  # noqa: F401  (now, while nobody's clock runs)
+    precision: type = np.float64
 
     def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
-        from scipy.sparse.linalg import minres
-
-        count = 0
-
-        def tick(_: Vector) -> None:
-            nonlocal count
-            count += 1
-
         matrix = hessian.assembled(self.precision)
         with one_blas_thread():
-            solution, _ = minres(matrix, right, rtol=self.tolerance, maxiter=self.iterations, callback=tick)
-        return solution, count
+            return minres(matrix.matvec, right, self.tolerance, self.iterations)
 
 
 @dataclass(frozen=True)

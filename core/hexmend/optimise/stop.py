@@ -17,7 +17,13 @@ class Stop(Parametrised):
         low=0,
         high=1,
         unit="mean edge length",
-        help="Converged when no node moves further than this in an iteration (Algorithm A.1).",
+        help="Converged when no node moves further than this in an iteration (A.1), unless the method goes on to other "
+        "steps or, of an optimiser, the objective still falls by more than a thousandth.",
+    )
+    move: str = parameter(
+        "length",
+        choices=("length", "coordinate"),
+        help="How far a node moves: the length of its way, or the greatest change of a coordinate, as A.1 is written.",
     )
     max_seconds: float = parameter(
         0.0,

@@ -124,7 +124,7 @@ def node(mesh: Mesh, number: int) -> Node:
     energy, downhill = float(np.square(measure(x, hexes).eta).sum()), np.zeros(3)
     if np.isfinite(energy):
         shares = np.empty((ring.size, 8, 3))
-        gradient(x, hexes, 0.0, 2.0, np.zeros(ring.size, np.uint8), shares)
+        gradient(x, hexes, 0.0, (2.0, 1.0), np.zeros(ring.size, np.uint8), shares)
         downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
     kind = "boundary" if mesh.topology.boundary[number] else "pinned" if mesh.fixed[number] else "free"
     pinned = mesh.pinned is not None and bool(mesh.pinned[number])

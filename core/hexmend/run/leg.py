@@ -105,18 +105,25 @@ class Leg:
             return None
         seconds = self.last.seconds + perf_counter() - began
         points, before = read_only(as_points(step.points)), self.at
-        move = float(np.sqrt(np.square(points - before.points).sum(axis=1).max())) / self._unit
+        moves = points - before.points
+        move = float(np.sqrt(np.square(moves).sum(axis=1).max())) / self._unit
         figures = step.figures if step.figures is not None else measure(points, self._hexes)
         notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
         now = self.last = self.at = Iteration(self.last.number + 1, points, figures, seconds, move, notes)
         self.decision, self.limits = step.decision, step.limits or self.limits
         if not step.detour:
             self._consider(now)
-        if move < self.stage.stop.tolerance and not step.more and not self._falling(before, now):  # Algorithm A.1
+        if (
+            self._move(moves, move) < self.stage.stop.tolerance and not step.more and not self._falling(before, now)
+        ):  # Algorithm A.1
             self.end(Outcome.CONVERGED)
         else:
             self._end_at_a_limit()
         return now
+
+    def _move(self, moves: np.ndarray, length: float) -> float:
+        """What A.1 compares with the tolerance."""
+        return length if self.stage.stop.move == "length" else float(np.abs(moves).max()) / self._unit
 
     def limit(self, stop: Stop) -> None:
         """Go on under other limits."""

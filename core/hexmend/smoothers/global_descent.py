@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-from hexmend.energy import POLICIES, MeshEnergy, SlidingEnergy
+from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, SlidingEnergy
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.optimise.descent import descend
@@ -13,30 +13,18 @@ from hexmend.optimise.direction import Direction
 from hexmend.optimise.line_search import BackLineSearch
 from hexmend.parameters import parameter
 from hexmend.quality import measure
-from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.optimiser import Optimiser
 from hexmend.smoothers.smoother import Steps
 
 
 @dataclass(frozen=True)
-class GlobalDescent(SlidingSmoother):
+class GlobalDescent(Optimiser):
     """A search direction for all free nodes, a line search along it, and so on; a method names the direction."""
 
-    optimises = True
-
-    p: float = parameter(
-        2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
-    )
-    delta: float = parameter(
-        0.01,
-        low=0,
-        high=10,
-        unit="mean edge length³",
-        help="Softness of the barrier (3.2) while any hex is inverted; then zero. Large values move the optimum.",
-    )
-    delta_policy: str = parameter(
-        "fixed",
-        choices=tuple(POLICIES),
-        help="fixed: delta as given; adaptive: as large as the worst hex asks, falling to delta as it recovers.",
+    delta_unit: str = parameter(
+        "edge",
+        choices=("edge", "mesh"),
+        help="Of what delta is in cubes: the mesh's mean edge length, or its own unit of length (Table 4.3).",
     )
     first_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
     shrink: float = parameter(0.7, low=0.01, high=0.99, help="Factor λ by which the line search cuts a step (A.5).")
@@ -47,11 +35,15 @@ class GlobalDescent(SlidingSmoother):
     def direction(self) -> Direction:
         """The search direction: Algorithm A.2, A.3 or A.4."""
 
+    def policy(self, energy: MeshEnergy) -> DeltaPolicy:
+        """What delta is, in the energy's unit of length."""
+        return POLICIES[self.delta_policy](self.delta / (1.0 if self.delta_unit == "edge" else energy.unit**3))
+
     def steps(self, mesh: Mesh) -> Steps:
-        sliding, policy = self.sliding(mesh), POLICIES[self.delta_policy](self.delta)
-        energy = MeshEnergy(mesh, self.p) if sliding is None else SlidingEnergy(sliding, self.p)
+        sliding = self.sliding(mesh)
+        energy = MeshEnergy(mesh, self.power) if sliding is None else SlidingEnergy(sliding, self.power)
         search = BackLineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
-        find = self.direction()
+        find, policy = self.direction(), self.policy(energy)
         points = energy.mesh.points
         x = energy.scaled(points)
         yield Step(points)

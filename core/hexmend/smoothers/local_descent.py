@@ -55,7 +55,7 @@ class LocalDescent(LocalOptimiser):
         corners, visited = mesh.topology.node_corners, groups.without(stays)
         sweep_of = (
             points, mesh.hexes, corners.start, corners.items, visited.start, visited.items, self.direction,
-            delta, self.p, self.first_step, self.shrink, self.c1, self.max_cuts,
+            delta, self.power, self.first_step, self.shrink, self.c1, self.max_cuts,
         )  # fmt: skip
         if sliding is None:
             return local.sweep(*sweep_of)

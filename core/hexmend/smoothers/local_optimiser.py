@@ -10,29 +10,20 @@ from hexmend.energy import POLICIES
 from hexmend.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import measure
-from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.optimiser import Optimiser
+
+#: How many mean edge lengths the units of delta are: a patch of eight hexes is two wide.
+EDGES = {"edge": 1.0, "extent": 2.0}
 
 
 @dataclass(frozen=True)
-class LocalOptimiser(SlidingSmoother):
+class LocalOptimiser(Optimiser):
     """Line-searched steps for the energy of one patch after another, each scaled to unit mean edge length."""
 
-    optimises = True
-
-    p: float = parameter(
-        2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
-    )
-    delta: float = parameter(
-        0.01,
-        low=0,
-        high=10,
-        unit="mean edge length³",
-        help="Softness of the barrier (3.2) while any hex is inverted; then zero. Large values move the optimum.",
-    )
-    delta_policy: str = parameter(
-        "fixed",
-        choices=tuple(POLICIES),
-        help="fixed: delta as given; adaptive: as large as the worst hex asks, falling to delta as it recovers.",
+    delta_unit: str = parameter(
+        "edge",
+        choices=tuple(EDGES),
+        help="Of what delta is in cubes: the patch's mean edge length, or its extent, which is two edges (Table 4.4).",
     )
     first_step: float = parameter(1.0, low=1e-6, high=1e3, help="First trial step α of the line search (A.5).")
     shrink: float = parameter(0.7, low=0.01, high=0.99, help="Factor λ by which the line search cuts a step (A.5).")
@@ -41,4 +32,6 @@ class LocalOptimiser(SlidingSmoother):
 
     def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
         """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""
-        return POLICIES[self.delta_policy](self.delta).at(measure(points, mesh.hexes), mesh.mean_edge_length or 1.0)
+        return POLICIES[self.delta_policy](self.delta * EDGES[self.delta_unit] ** 3).at(
+            measure(points, mesh.hexes), mesh.mean_edge_length or 1.0
+        )

@@ -49,7 +49,7 @@ class LocalPatch(LocalOptimiser):
             groups = alone.without(stays)
             return on_surface.local(
                 moved, mesh.hexes, corners.start, corners.items, groups.start, groups.items, local.NEWTON,
-                delta, self.p, self.first_step, self.shrink, self.c1, self.max_cuts,
+                delta, self.power, self.first_step, self.shrink, self.c1, self.max_cuts,
                 sliding.tangents(moved), *sliding.ground,
             )  # fmt: skip
 
@@ -67,7 +67,7 @@ class LocalPatch(LocalOptimiser):
                 patches.colours.start,
                 patches.colours.items,
                 delta,
-                self.p,
+                self.power,
                 self.first_step,
                 self.shrink,
                 self.c1,

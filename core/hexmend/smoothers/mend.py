@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.energy import MeshEnergy, SlidingEnergy, energies
+from hexmend.energy import MeshEnergy, Power, SlidingEnergy, energies
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
@@ -17,8 +17,8 @@ from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.raising import Raising
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
+from hexmend.smoothers.optimiser import Objective
 from hexmend.smoothers.raised import AIM, CLUSTERS, SOUND, SPARED, lifted, limits_of, raise_least, what_limits
-from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.smoothers.smoother import Steps, method
 from hexmend.smoothers.tangled import brought_near, inverted_corners, locked_corners, tangled_in
 from hexmend.smoothers.told import what_is_left, what_sliding_freed
@@ -54,22 +54,18 @@ SEARCH = BackLineSearch(shrink=0.5)
 
 @method
 @dataclass(frozen=True)
-class Mend(SlidingSmoother):
+class Mend(Objective):
     """Every free node at once by truncated Newton steps, on a barrier that hardens until no hex is inverted."""
 
     name = "mend"
     title = "Mend"
     help = "Untangles whatever its fixed nodes allow, then goes to the optimum, of shape or of the worst corner."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
-    optimises = True
 
     goal: str = parameter(
         "shape",
         choices=("shape", "scaled-jacobian"),
         help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
-    )
-    p: float = parameter(
-        2.0, low=1, high=32, help="Exponent of the objective (3.3): the higher, the more the worst hexes count."
     )
     highest_p: float = parameter(
         1.0, low=1, high=32, help="If higher than p: at the optimum p is doubled until it is this, for the worst hexes."
@@ -93,7 +89,7 @@ class Mend(SlidingSmoother):
         given, raises = mesh, self.goal != "shape"
         if self.slides and mesh.target is not None:
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
-        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.p), self.slides or raises)
+        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.power), self.slides or raises)
         places, sliding, limits = [mesh.points, points], None, None
         words: list[str] = []
         if self.slides:
@@ -101,7 +97,7 @@ class Mend(SlidingSmoother):
             sliding = Sliding(mesh, self.feature_angle, SPARED * room if room else np.inf)
             freeing = Raising(sliding.mesh, points, sliding)
             yield from raise_least(freeing, SOUND, clusters=1)
-            energy = SlidingEnergy(sliding, self.p)
+            energy = SlidingEnergy(sliding, self.power)
             points, outcome = yield from self._shaped(sliding.mesh.with_points(freeing.points), energy, True)
             places += [freeing.points, points]
         if raises or self.slides:
@@ -125,7 +121,7 @@ class Mend(SlidingSmoother):
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Untangle, then go to the optimum of shape; `more` where that is not the end."""
         locked = locked_corners(mesh)
-        energy = energy.but(self.p, locked)
+        energy = energy.but(self.power, locked)
         points, left_out = yield from self._untangled(mesh, energy, locked)
         if left_out.any() and not self.slides:
             yield Step(points, decision=what_is_left(left_out, locked), more=True)
@@ -141,7 +137,9 @@ class Mend(SlidingSmoother):
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
         p = max(self.p, self.highest_p)
         with np.errstate(over="ignore"):  # beside the barrier
-            before, after = (np.power(figures.eta[~figures.inverted], p).sum() for figures in (start, now))
+            before, after = (
+                np.power(figures.eta[~figures.inverted] + (1 - self.offset), p).sum() for figures in (start, now)
+            )
         return now.n_inverted, harmed, after > before
 
     def instead(self, worse: tuple[str, ...]) -> str:
@@ -184,7 +182,7 @@ class Mend(SlidingSmoother):
                 if not tangled:
                     break
             if tangled:
-                x = _swept(energy, x, figures.inverted, locked, delta, self.p, sweeps)
+                x = _swept(energy, x, figures.inverted, locked, delta, sweeps)
                 points = energy.placed(x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True, figures=figures)
@@ -200,7 +198,7 @@ class Mend(SlidingSmoother):
         """Behind the barrier to the optimum, then, where it is asked for, with higher and higher p."""
         p = self.p
         while True:
-            energy = energy.but(p, left_out)
+            energy = energy.but(Power(p, self.offset), left_out)
             find = self._direction()
             x, rises = energy.scaled(points), p < self.highest_p
             whole = False  # whether the last step was taken whole: then no hex is in the way
@@ -209,11 +207,11 @@ class Mend(SlidingSmoother):
             while True:
                 poor = None if whole else energies(x, mesh.hexes, 0.0, left_out) > POOR
                 if poor is not None and poor.any():
-                    x = _swept(energy, x, poor, left_out, 0.0, p, POOR_SWEEPS)
+                    x = _swept(energy, x, poor, left_out, 0.0, POOR_SWEEPS)
                 taken = descend(energy, x, 0.0, find, SEARCH, REACH)
                 if taken is None or (taken.alpha == 0 and (taken.slope < 0 or more)):
                     break
-                values.append(taken.value)
+                values.append(taken.value - energy.least)
                 if energy.faceted and len(values) > LATELY and values[-LATELY] - values[-1] < slow * values[-1]:
                     return points, Outcome.NO_IMPROVEMENT
                 move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))
@@ -227,7 +225,7 @@ class Mend(SlidingSmoother):
 
 
 def _swept(
-    energy: MeshEnergy, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, p: float, sweeps: int
+    energy: MeshEnergy, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, sweeps: int
 ) -> np.ndarray:
     """Sweeps of local Newton steps over the nodes of some hexes and of their neighbours, those that slide left out.
 
@@ -243,7 +241,7 @@ def _swept(
     for _ in range(sweeps):
         local.sweep(
             swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            local.MODIFIED_NEWTON, delta, p, 1.0, 0.7, 1e-4, 60,
+            local.MODIFIED_NEWTON, delta, energy.power, 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
     return swept
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.energy import Couplings, MeshEnergy
+from hexmend.energy import Couplings, MeshEnergy, Power
 from hexmend.gallery import make
 from hexmend.kernels import elements, local, objective, plain, set_threads, threads
 from hexmend.study.section import Section
@@ -41,7 +41,7 @@ def _kernels() -> dict[str, Any]:
     def sweep(by: Callable[..., None]) -> None:
         by(
             x.copy(), hexes, corners.start, corners.items, colours.start, colours.items,
-            local.STEEPEST_DESCENT, 0.0, 2.0, 1.0, 0.7, 1e-4, 60,
+            local.STEEPEST_DESCENT, 0.0, Power(), 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
 
     # Of a kernel: itself and the plain loop, and how often the call repeats it.
@@ -50,11 +50,11 @@ def _kernels() -> dict[str, Any]:
         *(
             (name, lambda call=call: call(objective), lambda call=call: call(plain), 1)
             for name, call in (
-                ("energy", lambda by: by.energies(x, hexes, 0.0, none, figures[0])),
-                ("gradient", lambda by: by.gradient(x, hexes, 0.0, 2.0, none, shares)),
+                ("energy", lambda by: by.energies(x, hexes, 0.0, 1.0, none, figures[0])),
+                ("gradient", lambda by: by.gradient(x, hexes, 0.0, Power(), none, shares)),
                 (
                     "hessian product, by formulas",
-                    lambda by: by.hessian_product(x, hexes, energy.slots, gradient, 0.0, 2.0, none, shares),
+                    lambda by: by.hessian_product(x, hexes, energy.slots, gradient, 0.0, Power(), none, shares),
                 ),
             )
         ),

@@ -14,6 +14,7 @@
 #include <unistd.h>
 #endif
 
+#include "../power.hpp"
 #include "../rows.hpp"
 
 namespace nanobind::detail {
@@ -55,6 +56,20 @@ template <class T> struct type_caster<std::span<T>> {
 
   private:
     make_caster<Array> array_;
+};
+
+// (p, offset)
+template <> struct type_caster<hexmend::Power> {
+    using Numbers = std::pair<double, double>;
+    NB_TYPE_CASTER(hexmend::Power, make_caster<Numbers>::Name)
+
+    bool from_python(handle source, uint8_t flags, cleanup_list *cleanup) noexcept {
+        make_caster<Numbers> numbers;
+        if (!numbers.from_python(source, flags, cleanup)) return false;
+        auto [p, offset] = static_cast<Numbers>(numbers);
+        value = {p, offset};
+        return true;
+    }
 };
 
 template <class T, std::size_t width> struct type_caster<hexmend::Made<T, width>> {

@@ -7,7 +7,7 @@ namespace {
 
 template <class Real> void bind_assemble(nb::module_ &m) {
     m.def(
-        "assemble", &assemble<Real>, "points"_a, "delta"_a, "p"_a, "left_out"_a, "bounds"_a, "start"_a, "chosen"_a,
+        "assemble", &assemble<Real>, "points"_a, "delta"_a, "power"_a, "left_out"_a, "bounds"_a, "start"_a, "chosen"_a,
         "hexes"_a, "slots"_a, "target"_a, "off"_a, "diagonal"_a, Unlocked(),
         "Assemble the Hessian of sum eta(H)^p: add it to off and diagonal, in their precision.\n\n"
         "Slots are shared out, and each share takes all hexes at its slots: some hexes are computed twice, and every\n"

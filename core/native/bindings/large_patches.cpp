@@ -16,11 +16,12 @@ void bind_large_patches(nb::module_ &m) {
         "Patches in groups, greedily, so that two of one group share none of so many hexes: (start, patches), int32.");
     m.def(
         "sweep", static_cast<decltype(&sweep)>(&sweep), "points"_a, "hexes"_a, "slots"_a, "hex_start"_a, "node_start"_a,
-        "nodes"_a, "groups"_a, "patches"_a, "delta"_a, "p"_a, "first"_a, "shrink"_a, "c1"_a, "cuts"_a, Unlocked(),
+        "nodes"_a, "groups"_a, "patches"_a, "delta"_a, "power"_a, "first"_a, "shrink"_a, "c1"_a, "cuts"_a, Unlocked(),
         "Give the nodes of every patch one Newton step together, in place, the rest being fixed.\n\n"
         "hexes (.., 8) are those of the patches, one patch after another. Group k is patches[groups[k]:groups[k + 1]]\n"
         "and shares no hex: the result is that of one patch after another, whatever the number of threads. delta is\n"
-        "meant for the patch scaled to mean edge length 1; p is the exponent of the objective; first, shrink, c1 and\n"
+        "meant for the patch scaled to mean edge length 1; power is (p, offset) of the objective; first, shrink, c1 "
+        "and\n"
         "cuts are those of the line search, A.5. Returns how often hexes were asked for their energy in line\n"
         "searches, and for its derivatives.");
 }

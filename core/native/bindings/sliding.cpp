@@ -15,8 +15,9 @@ void bind_sliding(nb::module_ &m) {
         "their normals at first, or 0; quads_at holds 4 * quad + corner of each node that slides, from quads_start\n"
         "(k + 1,) on. A step that turns a quad against that normal is none; one that is turned may be.";
     m.def("local", &sliding_local, "points"_a, "hexes"_a, "start"_a, "corners"_a, "groups"_a, "nodes"_a, "direction"_a,
-          "delta"_a, "p"_a, "first"_a, "shrink"_a, "c1"_a, "cuts"_a, "tangents"_a, "slots"_a, "roots"_a, "vertices"_a,
-          "pieces"_a, "boxes"_a, "links"_a, "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a, Unlocked(),
+          "delta"_a, "power"_a, "first"_a, "shrink"_a, "c1"_a, "cuts"_a, "tangents"_a, "slots"_a, "roots"_a,
+          "vertices"_a, "pieces"_a, "boxes"_a, "links"_a, "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a,
+          Unlocked(),
           "`hexmend.kernels.local.sweep`; nodes that slide step along the surface, T'g and T'HT being their\n"
           "derivatives, and the line search asks for the energy where they are put back. tangents (k, 6): two\n"
           "directions of each where it is, the second 0 on a curve.");

@@ -63,13 +63,15 @@ def _scale(step: NodeStep) -> str:
 
 
 def _power(step: NodeStep) -> str:
-    return "²" if step.p == 2 else f"^{short_number(step.p)}"
+    p = step.power.p
+    return "²" if p == 2 else f"^{short_number(p)}"
 
 
 def _energy(step: NodeStep) -> Row:
     before, after = _finite(step.energy), _finite(step.energy_after)
     of = "of the whole mesh" if step.whole else f"of its {counted(step.hexes.size, 'hex')}, the patch"
-    meaning = f"The sum of η(H){_power(step)} {of}, in mean edge lengths of it; 0 if all were cubes."
+    least = short_number(step.power.least)
+    meaning = f"The sum of η(H){_power(step)} {of}, in mean edge lengths of it; a cube has {least}."
     rises = step.move > 0 and step.energy_after > step.energy * (1 + _ROUNDING)
     if rises:
         why = "other nodes move too" if METHODS[step.method].optimises else "this method does not look at it"

@@ -19,6 +19,9 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
         if limit.type is bool:
             parser.add_argument(option, action="store_const", const="true", help=limit.help)
             continue
+        if limit.choices is not None:
+            parser.add_argument(option, choices=limit.choices, help=f"{limit.help} Default {limit.default}.")
+            continue
         unit = f" in {limit.unit}" if limit.unit else ""
         parser.add_argument(option, metavar="X", help=f"{limit.help} Default {limit.default:g}{unit}.")
 

@@ -1,0 +1,70 @@
+"""Minimum residuals (Paige and Saunders 1975), ended by the residual beside the right-hand side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from hexmend.arrays import dot, norm
+
+
+def minres(
+    product: Callable[[np.ndarray], np.ndarray], right: np.ndarray, tolerance: float, iterations: int
+) -> tuple[np.ndarray, int]:
+    """Solve A x = b with a symmetric A, which may be indefinite, from x = 0.
+
+    It ends where |b - A x| <= tolerance |b|, which is the rule of MATLAB's `minres` (4.1.2). SciPy's ends where the
+    residual is small beside |A| |x|: with a matrix of bad condition much sooner, and the direction is a poor one.
+
+    Parameters
+    ----------
+    product : callable
+        v (n,) -> A v (n,).
+    right : (n,) float64
+        b.
+    tolerance : float
+    iterations : int
+        Limit, after which the solution so far is returned: no other in the Krylov space has a smaller residual.
+
+    Returns
+    -------
+    x : (n,) float64
+    iterations : int
+
+    Examples
+    --------
+    >>> matrix = np.diag([3.0, -2.0, 0.5])
+    >>> x, count = minres(matrix.__matmul__, np.array([3.0, 2.0, 1.0]), 1e-10, 100)
+    >>> x.round(8).tolist(), count
+    ([1.0, -1.0, 2.0], 3)
+    """
+    x = np.zeros(right.size)
+    beta = residual = goal = norm(right)
+    goal *= tolerance
+    if residual == 0:
+        return x, 0
+    last, now = np.zeros(right.size), right / beta  # Lanczos's vectors
+    before, way = np.zeros(right.size), np.zeros(right.size)  # columns of V R^-1
+    below = off = epsilon = 0.0
+    c, s = -1.0, 0.0  # the last Givens rotation
+    for count in range(1, iterations + 1):
+        # Lanczos: A now = below last + alpha now + beta next.
+        following = product(now)
+        if count > 1:
+            following -= below * last
+        alpha = dot(now, following)
+        following -= alpha * now
+        beta = norm(following)
+        # A column of the tridiagonal matrix becomes one of R = Q T.
+        upper, delta, gamma = epsilon, c * off + s * alpha, s * off - c * alpha
+        epsilon, off = s * beta, -c * beta
+        length = float(np.hypot(gamma, beta)) or np.finfo(float).tiny
+        c, s = gamma / length, beta / length
+        before, way = way, (now - upper * before - delta * way) / length
+        x += c * residual * way
+        residual *= s
+        if residual <= goal or beta == 0:
+            return x, count
+        last, now, below = now, following / beta, beta
+    return x, iterations

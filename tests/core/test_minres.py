@@ -1,0 +1,62 @@
+"""Minimum residuals against a direct solver, and when they end."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.energy import MeshEnergy
+from hexmend.gallery import make
+from hexmend.optimise.linear import Minres
+from hexmend.optimise.minres import minres
+
+
+def indefinite(size, seed, condition):
+    """A symmetric matrix of this condition with eigenvalues of both signs, and a right-hand side."""
+    random = np.random.default_rng(seed)
+    q, _ = np.linalg.qr(random.normal(size=(size, size)))
+    return (q * (np.geomspace(1, condition, size) * random.choice([-1, 1], size))) @ q.T, random.normal(size=size)
+
+
+@settings(max_examples=50)
+@given(st.integers(2, 40), st.integers(0, 2**32 - 1), st.sampled_from([1e1, 1e3]))
+def test_it_solves_what_has_eigenvalues_of_both_signs(size, seed, condition):
+    matrix, right = indefinite(size, seed, condition)
+    x, _ = minres(matrix.__matmul__, right, 1e-9, 100 * size)
+    np.testing.assert_allclose(matrix @ x, right, atol=1e-7 * np.linalg.norm(right))
+
+
+@settings(max_examples=50)
+@given(st.integers(5, 40), st.integers(0, 2**32 - 1), st.sampled_from([1e-1, 1e-3, 1e-6]))
+def test_it_ends_by_the_residual_beside_the_right_hand_side(size, seed, tolerance):
+    matrix, right = indefinite(size, seed, 1e3)
+    goal = tolerance * np.linalg.norm(right)
+
+    def left(x):
+        return np.linalg.norm(right - matrix @ x)
+
+    x, count = minres(matrix.__matmul__, right, tolerance, 1000)
+    assert left(x) <= 1.01 * goal
+    before, _ = minres(matrix.__matmul__, right, tolerance, count - 1)
+    assert count == 1 or left(before) > 0.99 * goal
+
+
+def test_its_residuals_never_rise():
+    matrix, right = indefinite(30, 3, 1e3)
+    left = [np.linalg.norm(right - matrix @ minres(matrix.__matmul__, right, 0.0, count)[0]) for count in range(1, 30)]
+    assert (np.diff(left) <= 1e-9).all()
+
+
+def test_nothing_is_solved_by_nothing():
+    x, count = minres(np.eye(3).__matmul__, np.zeros(3), 1e-6, 10)
+    assert (x == 0).all()
+    assert count == 0
+
+
+def test_a_newton_direction_is_as_good_as_its_tolerance_says():
+    energy = MeshEnergy(make("bridge-sharp", size=500))
+    x = energy.scaled(energy.mesh.points)
+    hessian, right = energy.hessian(x), -energy.gradient(x).ravel()
+    step, count = Minres(tolerance=1e-6, iterations=10_000)(hessian, right)
+    assert count < 10_000
+    assert np.linalg.norm(right - hessian @ step) == pytest.approx(0, abs=2e-6 * np.linalg.norm(right))

@@ -1,0 +1,79 @@
+"""What every optimiser of (3.3) has: the objective's offset, the unit of delta; and what A.1 measures."""
+
+import numpy as np
+import pytest
+
+from hexmend.energy import Power, objective
+from hexmend.gallery import make
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.optimiser import Objective, Optimiser
+from tests.core.grids import grid, scrambled
+
+OBJECTIVES = sorted(name for name, cls in METHODS.items() if issubclass(cls, Objective))
+OPTIMISERS = sorted(name for name, cls in METHODS.items() if issubclass(cls, Optimiser))
+TOWARDS = Stop(max_iterations=300, tolerance=1e-6)
+
+
+def best(mesh, name, offset):
+    return smooth(mesh, METHODS[name](offset=offset), TOWARDS).mesh
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.5])
+def test_local_and_global_methods_go_to_the_same_optimum_whatever_the_offset(offset):
+    mesh = scrambled(grid(3, 4, 5), 0.25, 2)
+    places = [best(mesh, name, offset).points for name in ("mend", "global-nr", "local-nr", "local-patch")]
+    for place in places[1:]:
+        np.testing.assert_allclose(place, places[0], atol=1e-3 * mesh.mean_edge_length)
+
+
+def test_each_offset_has_the_lower_objective_of_its_kind_and_zero_the_higher_mean():
+    mesh = make("five-side", size=500)
+    ones, zeros = best(mesh, "mend", 1.0), best(mesh, "mend", 0.0)
+
+    def value(mesh, offset):
+        return objective(mesh.points, mesh.hexes, power=Power(2.0, offset))
+
+    assert value(ones, 1.0) < value(zeros, 1.0)
+    assert value(zeros, 0.0) < value(ones, 0.0)
+    assert smooth(zeros, "laplacian", Stop(max_iterations=0)).after.q_mean > (
+        smooth(ones, "laplacian", Stop(max_iterations=0)).after.q_mean
+    )
+
+
+@pytest.mark.parametrize("name", OBJECTIVES)
+def test_a_perfect_grid_stays_whatever_the_offset(name):
+    mesh = grid(3)
+    result = smooth(mesh, METHODS[name](offset=0.0))
+    np.testing.assert_allclose(result.mesh.points, mesh.points, atol=1e-9)
+    assert result.outcome.name in ("CONVERGED", "NO_DESCENT")
+
+
+@pytest.mark.parametrize("name", OPTIMISERS)
+def test_delta_in_another_unit_is_another_number(name):
+    mesh = scrambled(grid(4), 1.2, 1)
+    mesh = mesh.with_points(3.0 * mesh.points)
+    other = next(parameter for parameter in METHODS[name].to_json()["parameters"] if parameter["name"] == "delta_unit")
+    unit = next(choice for choice in other["choices"] if choice != "edge")
+    edges = 2.0 if unit == "extent" else 1 / mesh.mean_edge_length
+    runs = [
+        smooth(mesh, METHODS[name](delta=delta, delta_unit=unit), Stop(max_iterations=2, keep_last=True))
+        for delta, unit in ((0.02, unit), (0.02 * edges**3, "edge"))
+    ]
+    np.testing.assert_allclose(runs[0].mesh.points, runs[1].mesh.points, rtol=1e-12)
+    assert runs[0].history[1]["inverted"] > 0
+
+
+def test_moves_are_lengths_or_changes_of_a_coordinate():
+    mesh = scrambled(grid(4), 0.3, 5)
+    first = smooth(mesh, "laplacian", Stop(max_iterations=1, keep_last=True))
+    moves = (first.mesh.points - mesh.points) / mesh.mean_edge_length
+    length, coordinate = np.linalg.norm(moves, axis=1).max(), np.abs(moves).max()
+    assert coordinate < length
+    between = (coordinate + length) / 2
+    iterations = {
+        move: smooth(mesh, "laplacian", Stop(tolerance=between, move=move)).iterations
+        for move in ("length", "coordinate")
+    }
+    assert iterations["coordinate"] == 1
+    assert iterations["length"] > 1
