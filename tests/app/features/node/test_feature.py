@@ -72,7 +72,7 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
     assert "Shift" in texts(window)
     window.features["smooth"].panel.form.set_values({"p": 3.0})
     window.features["smooth"].panel.form.changed.emit()
-    qtbot.waitUntil(lambda: shown(window).p == 3, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: shown(window).power.p == 3, timeout=PATIENCE)
     assert shown(window).energy != step.energy
 
 
