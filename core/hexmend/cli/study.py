@@ -56,7 +56,7 @@ class Study:
             study = run_experiments(thesis, quick=args.quick, watch=progress.show, done=done)
         record = {"machine": machine()} | study.record()
         for claim in record["claims"]:
-            print(f"\n{claim['claim']} {VERDICTS[claim['reproduced']]} {claim['figures']}")
+            print(f"\n{claim['claim']} ({claim['section']}) {VERDICTS[claim['reproduced']]} {claim['figures']}")
         if study.interrupted:
             print("Interrupted: the report holds what was done so far.", file=sys.stderr)
         write_study(folder, record)

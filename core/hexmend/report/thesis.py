@@ -17,7 +17,7 @@ from hexmend.report.records import write_json
 from hexmend.report.tables import Table
 
 #: What is said of a claim, by whether it was reproduced.
-VERDICTS = {True: "Reproduced.", False: "Not reproduced.", None: "Not measured."}
+VERDICTS = {True: "Reproduced.", False: "Not reproduced.", None: "Not judged."}
 
 #: Said below every table.
 OURS = "The mesh is ours, of the structure of the thesis's, whose file is not published."
@@ -128,7 +128,8 @@ def _preface(study: Mapping[str, Any]) -> str:
 
 def _claims(claims: Sequence[Mapping[str, Any]]) -> str:
     return "\n".join(
-        f"- {escaped(one['claim'])} **{VERDICTS[one['reproduced']]}** {escaped(one['figures'])}" for one in claims
+        f"- {escaped(one['claim'])} ({one['section']}) **{VERDICTS[one['reproduced']]}** {escaped(one['figures'])}"
+        for one in claims
     )
 
 
