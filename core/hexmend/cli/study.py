@@ -38,6 +38,7 @@ class Study:
         from hexmend.report.thesis import VERDICTS
         from hexmend.study.bench import machine
         from hexmend.study.experiments import load
+        from hexmend.study.mesh_figures import draw_figures
         from hexmend.study.outlook import Tried
         from hexmend.study.thesis import chosen_tables, run_experiments
 
@@ -54,11 +55,14 @@ class Study:
 
         with Progress() as progress:
             study = run_experiments(thesis, quick=args.quick, watch=progress.show, done=done)
-        record = {"machine": machine()} | study.record()
+        figures, missing = draw_figures(folder, study.measured)
+        record = {"machine": machine()} | study.record() | {"figures": figures, "missing": missing}
         for claim in record["claims"]:
-            print(f"\n{claim['claim']} {VERDICTS[claim['reproduced']]} {claim['figures']}")
+            print(f"\n{claim['claim']} ({claim['section']}) {VERDICTS[claim['reproduced']]} {claim['figures']}")
         if study.interrupted:
             print("Interrupted: the report holds what was done so far.", file=sys.stderr)
+        if missing:
+            print(missing, file=sys.stderr)
         write_study(folder, record)
         print(f"\nWritten to {folder / 'study.md'}.")
         return 130 if study.interrupted else 0

@@ -17,7 +17,7 @@ from hexmend.report.records import write_json
 from hexmend.report.tables import Table
 
 #: What is said of a claim, by whether it was reproduced.
-VERDICTS = {True: "Reproduced.", False: "Not reproduced.", None: "Not measured."}
+VERDICTS = {True: "Reproduced.", False: "Not reproduced.", None: "Not judged."}
 
 #: Said below every table.
 OURS = "The mesh is ours, of the structure of the thesis's, whose file is not published."
@@ -48,7 +48,8 @@ def write_study(folder: Path, study: Mapping[str, Any]) -> list[Path]:
     folder : Path
         Where the tables were written.
     study : mapping
-        `hexmend.study.thesis.Study.record`.
+        `hexmend.study.thesis.Study.record`; where meshes were drawn (`hexmend.study.mesh_figures`), with "figures" and
+        "missing".
 
     Raises
     ------
@@ -57,14 +58,14 @@ def write_study(folder: Path, study: Mapping[str, Any]) -> list[Path]:
     """
     problem = None
     try:
-        figures = _write_figures(folder, study)
+        figures, paths = _write_figures(folder, study)
     except HexmendError as error:
-        problem, figures = error, []
+        problem, figures, paths = error, [], []
     write_json(folder / "study.json", study)
-    write_text(folder / "study.md", index(study, [path.name for path in figures if path.suffix == ".png"]))
+    write_text(folder / "study.md", index(study, [*study.get("figures", ()), *figures]))
     if problem is not None:
         raise problem
-    return [folder / "study.md", folder / "study.json", *figures]
+    return [folder / "study.md", folder / "study.json", *paths]
 
 
 def experiment_table(experiment: Mapping[str, Any]) -> Table:
@@ -91,11 +92,12 @@ def stem(experiment: Mapping[str, Any]) -> str:
     return f"table-{experiment['table']}-{words}"
 
 
-def index(study: Mapping[str, Any], pictures: Sequence[str]) -> str:
-    """`study.md`."""
+def index(study: Mapping[str, Any], figures: Sequence[Mapping[str, str]]) -> str:
+    """`study.md`; of each figure its number, caption and file."""
     parts = ["# The thesis's Chapter 4, measured again", _preface(study), "## Claims", _claims(study["claims"])]
-    if pictures:
-        parts += ["## Figures", *(f"![{name}]({name})" for name in pictures)]
+    missing = study.get("missing", "")
+    if figures or missing:
+        parts += ["## Figures", *map(_figure, sorted(figures, key=_number))] + ([escaped(missing)] if missing else [])
     for head, tables in (
         ("## Tables", [(stem(one), experiment_table(one)) for one in study["experiments"]]),
         ("## What section 5.2 hopes for", [(outlook_stem(one), outlook_table(one)) for one in study["outlooks"]]),
@@ -128,12 +130,23 @@ def _preface(study: Mapping[str, Any]) -> str:
 
 def _claims(claims: Sequence[Mapping[str, Any]]) -> str:
     return "\n".join(
-        f"- {escaped(one['claim'])} **{VERDICTS[one['reproduced']]}** {escaped(one['figures'])}" for one in claims
+        f"- {escaped(one['claim'])} ({one['section']}) **{VERDICTS[one['reproduced']]}** {escaped(one['figures'])}"
+        for one in claims
     )
 
 
-def _write_figures(folder: Path, study: Mapping[str, Any]) -> list[Path]:
-    paths = []
+def _figure(figure: Mapping[str, str]) -> str:
+    title = f"Figure {figure['number']}"
+    return f"![{title}]({figure['file']})\n\n**{title}**, {escaped(figure['caption'])}."
+
+
+def _number(figure: Mapping[str, str]) -> list[int]:
+    return [int(part) for part in figure["number"].split(".")]
+
+
+def _write_figures(folder: Path, study: Mapping[str, Any]) -> tuple[list[dict[str, str]], list[Path]]:
+    """What plots show, and the files."""
+    figures, paths = [], []
     ours: dict[str, list[tuple[int, float]]] = {}
     theirs: dict[str, list[tuple[int, float]]] = {}
     for experiment in (one for one in study["experiments"] if one["mesh"] == "five-side"):
@@ -145,10 +158,18 @@ def _write_figures(folder: Path, study: Mapping[str, Any]) -> list[Path]:
                 point = (experiment["thesis"]["free_nodes"], record["seconds_per_iteration"])
                 theirs.setdefault(name, []).append(point)
     if ours:
-        paths += plots.scaling(folder / "figure-4.4-scaling", ours, theirs)
+        stem = "figure-4.4-scaling"
+        paths += plots.scaling(folder / stem, ours, theirs)
+        caption = (
+            "Scaling of smoothing algorithms with number of free nodes in FiveSide geometry: ours and the thesis's"
+        )
+        figures.append({"number": "4.4", "caption": caption, "file": f"{stem}.png"})
     for experiment in study["experiments"]:
         if experiment["table"] == "4.14":
             counts = {name: one["distribution"] for name, one in experiment["columns"].items() if one["distribution"]}
             title = f"{experiment['mesh']}, {experiment['hexes']:,} hexes"
-            paths += plots.distributions(folder / "figure-4.9-distributions", counts, title)
-    return paths
+            stem = "figure-4.9-distributions"
+            paths += plots.distributions(folder / stem, counts, title)
+            caption = f"Quality distributions for Plane mesh: ours, {experiment['hexes']:,} hexes"
+            figures.append({"number": "4.9", "caption": caption, "file": f"{stem}.png"})
+    return figures, paths

@@ -38,11 +38,12 @@ class Experiment:
     columns: tuple[str, ...]
     published: Mapping[str, Mapping[str, float | int]]
     delta: float | None = None
+    beside: tuple[str, ...] = ()
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """The columns that are runs from the start."""
-        return self.columns[1:]
+        """The columns that are runs from the start, and those that the thesis's table does not have."""
+        return (*self.columns[1:], *self.beside)
 
     def asked(self, quick: bool) -> int:
         """The number of hexes asked of the gallery."""
@@ -108,8 +109,9 @@ def load(source: Path | Traversable | None = None) -> Experiments:
 def _experiment(entry: Mapping[str, Any]) -> Experiment:
     columns = tuple(entry["columns"])
     published: dict[str, dict[str, float | int]] = {column: {} for column in columns}
-    for figure, values in entry["published"].items():
+    for figure, values in entry.get("published", {}).items():
         for column, value in zip(columns, values, strict=True):
             if not math.isnan(value):
                 published[column][figure] = value
-    return Experiment(**{**entry, "columns": columns, "published": published})
+    beside = tuple(entry.get("beside", ()))
+    return Experiment(**{**entry, "columns": columns, "beside": beside, "published": published})

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from hexmend.study.claims import Claim
+from hexmend.study.claims.claim import Claim, Finding, judges
 from hexmend.study.outlook import Point, Tried, Variant
 
 #: An order pays where it arrives after less than this share of the sweeps by colour.
 _PAYS = 0.9
 
 
-def middle_ground(tried: Sequence[Tried]) -> Claim:
+@judges(
+    "5.2.5",
+    "Patches of connected nodes, one after another, are a more efficient middle ground of local and global steps.",
+)
+def middle_ground(tried: Sequence[Tried]) -> Finding:
     """5.2.5: the fastest of the patches of several nodes against one node at a time, and all nodes at once."""
-    claim = (
-        "Patches of connected nodes, one after another, are a more efficient middle ground of local and global steps."
-    )
     told, faster = [], []
     for one in _of_section(tried, "5.2.5"):
         patches = [run for run in one.variants if run.values.get("patch", 0) > 1]
@@ -33,13 +34,13 @@ def middle_ground(tried: Sequence[Tried]) -> Claim:
             f"{single.evaluations:.3g}; the quickest, {_told(quick)}, {quick_point.seconds:.2g} s, {others}"
         )
     if not faster:
-        return Claim(claim, None, "Patches, and one node and all nodes at a time, did not all arrive on a mesh.")
-    return Claim(claim, all(faster), f"Until 0.1 % above the optimum. {'. '.join(told)}.")
+        return None, "Patches, and one node and all nodes at a time, did not all arrive on a mesh."
+    return all(faster), f"Until 0.1 % above the optimum. {'. '.join(told)}."
 
 
-def from_the_boundary(tried: Sequence[Tried]) -> Claim:
+@judges("5.2.6", "Visiting levels of nodes from the boundary inward takes fewer sweeps.")
+def from_the_boundary(tried: Sequence[Tried]) -> Finding:
     """5.2.6: the order inward against that by colour, by sweeps, for the methods that go to an optimum."""
-    claim = "Visiting levels of nodes from the boundary inward takes fewer sweeps."
     told, pays = [], []
     for one in _of_section(tried, "5.2.6"):
         for method in one.outlook.methods:
@@ -51,9 +52,9 @@ def from_the_boundary(tried: Sequence[Tried]) -> Claim:
             each = ", ".join(f"{order} {count}" for order, count in sweeps.items())
             told.append(f"{one.outlook.mesh}, {one.initial.hexes:,} hexes, {method}: {each}")
     if not pays:
-        return Claim(claim, None, "No method arrived in both orders, inward and by colour.")
+        return None, "No method arrived in both orders, inward and by colour."
     told_all = f"So in {sum(pays)} of {len(pays)} cases. Sweeps until 0.1 % above the optimum. {'. '.join(told)}."
-    return Claim(claim, sum(pays) > len(pays) / 2, told_all)
+    return sum(pays) > len(pays) / 2, told_all
 
 
 #: Every hope, in the order of the report.

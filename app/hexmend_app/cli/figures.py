@@ -1,0 +1,129 @@
+"""The figures of `hexmend study` that show meshes; joined through the entry-point group `hexmend.figures`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from vtkmodules.vtkRenderingCore import vtkCamera
+
+from hexmend.hexahedron import EDGES
+from hexmend.mesh import Mesh
+from hexmend.quality import measure
+from hexmend.study.mesh_figures import MeshFigure
+from hexmend_app.scene.camera.directions import look_from
+from hexmend_app.scene.camera.fitting import fit
+from hexmend_app.scene.export.picture import picture, strip_height, write_picture
+from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.graphics import prepare_off_screen
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.look import Isolation, Look, Structure
+
+#: Width and height in pixels.
+SIZE = (900, 600)
+
+#: How often the colour bar counts when 256 colours are chosen.
+_BAR = 30
+
+#: How much of the mesh around what lies in its middle a section shows, by the extent of that.
+_AROUND = 0.35
+
+#: How far the plane of a section is beside the middle, where elements have their centres, by the same extent.
+_ASIDE = -0.02
+
+#: Thickness to which the layer on what lies in the middle of a domain is pressed, so that what is seen is the surface.
+_PRESSED = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class _Scene:
+    """What is drawn, how, and the places (k, 3) that the picture is to hold."""
+
+    mesh: Mesh
+    look: Look
+    places: np.ndarray
+
+
+def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
+    """Draw a figure of the thesis, off screen.
+
+    Raises
+    ------
+    GraphicsError
+        Where nothing can be drawn here.
+    FileError
+        Where the file cannot be written.
+    """
+    prepare_off_screen()
+    scene = _SCENES[figure.shows](mesh)
+    bar = 0 if scene.look.neutral else strip_height(SIZE)
+    width, height = SIZE
+    camera = vtkCamera()
+    look_from(camera, figure.view, figure.up)
+    fit(camera, scene.places, width / (height - bar))
+    figures = measure(scene.mesh.points, scene.mesh.hexes)
+    image = picture(Frame(scene.mesh, figures, look=scene.look), SIZE, camera=camera)
+    write_picture(path, _with_palette(image.convert("RGB"), bar))
+
+
+def _with_palette(image: Image.Image, bar: int) -> Image.Image:
+    """The picture in 256 colours, which make it a third as large; small areas, and the bar so high, count for more."""
+    pixels = np.asarray(image)
+    seen = np.concatenate([pixels.reshape(-1, 3), np.tile(pixels[image.height - bar :].reshape(-1, 3), (_BAR, 1))])
+    colours, counts = np.unique(seen, axis=0, return_counts=True)
+    palette = Image.fromarray(np.repeat(colours, np.sqrt(counts).astype(int), axis=0)[None]).quantize(256, kmeans=3)
+    return image.quantize(palette=palette, dither=Image.Dither.NONE)
+
+
+def _geometry(mesh: Mesh) -> _Scene:
+    return _Scene(mesh, Look(neutral=True, edges=False, structure=Structure(sharp=True)), mesh.points)
+
+
+def _mesh(mesh: Mesh) -> _Scene:
+    return _Scene(mesh, Look(neutral=True), mesh.points)
+
+
+def _domain(mesh: Mesh) -> _Scene:
+    """What lies in the middle, in the outline of the whole."""
+    surface = _inside(mesh)
+    layer = np.flatnonzero(surface[mesh.hexes].sum(axis=1) >= 4)
+    ends = mesh.hexes[layer][:, EDGES].reshape(-1, 2)
+    ends = np.concatenate([ends, ends[:, ::-1]])
+    below, above = ends[surface[ends[:, 0]] & ~surface[ends[:, 1]]].T
+    points = mesh.points.copy()
+    points[above] = points[below] + _PRESSED * (points[above] - points[below])
+    isolation = Isolation(tuple(layer.tolist()), rings=0)
+    return _Scene(mesh.with_points(points), Look(isolation=isolation, neutral=True, edges=False), mesh.points)
+
+
+def _section(mesh: Mesh) -> _Scene:
+    """The half behind the middle plane y of what lies inside, around that."""
+    points = mesh.points[_inside(mesh)]
+    low, high = points.min(axis=0), points.max(axis=0)
+    clip = PlaneClip.at((0.0, -1.0, 0.0), tuple((low + high) / 2 + _ASIDE * (high - low)))
+    around = _AROUND * (high - low).max()
+    places = np.array([(x, (low + high)[1] / 2, z) for x in (low[0] - around, high[0] + around)
+                       for z in (low[2] - around, high[2] + around)])  # fmt: skip
+    return _Scene(mesh, Look(clip=clip), places)
+
+
+def _inside(mesh: Mesh) -> np.ndarray:
+    """The nodes (n,) bool of boundary faces that are not on the mesh's box."""
+    used = mesh.points[mesh.topology.used]
+    ends = np.stack([used.min(axis=0), used.max(axis=0)])
+    on_box = np.isclose(mesh.points[:, None], ends, atol=1e-9 * np.ptp(ends)).reshape(-1, 6)
+    faces = mesh.topology.boundary_faces
+    nodes = np.zeros(mesh.n_nodes, dtype=bool)
+    nodes[faces[~on_box[faces].all(axis=1).any(axis=1)]] = True
+    return nodes
+
+
+_SCENES: dict[str, Callable[[Mesh], _Scene]] = {
+    "geometry": _geometry,
+    "mesh": _mesh,
+    "domain": _domain,
+    "section": _section,
+}

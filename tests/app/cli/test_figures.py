@@ -1,0 +1,70 @@
+"""The figures of the study that show meshes, drawn in a process that has no display."""
+
+import os
+import subprocess
+import sys
+import tomllib
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from hexmend.study.mesh_figures import MESH_FIGURES
+
+ROOT = Path(__file__).resolve().parents[3]
+
+#: Draws every figure, of small meshes.
+DRAW = """
+import sys
+from pathlib import Path
+from hexmend.gallery import make
+from hexmend.study.mesh_figures import MESH_FIGURES
+from hexmend_app.cli.figures import draw
+for figure in MESH_FIGURES:
+    draw(figure, make(figure.mesh, size=3000), Path(sys.argv[1]) / f"{figure.number}.png")
+"""
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("figures")
+    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    subprocess.run([sys.executable, "-c", DRAW, str(folder)], env=environment, check=True)
+    return {figure.number: folder / f"{figure.number}.png" for figure in MESH_FIGURES}
+
+
+def test_the_project_joins_with_it():
+    data = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    (value,) = data["project"]["entry-points"]["hexmend.figures"].values()
+    from hexmend_app.cli.figures import draw
+
+    assert EntryPoint("meshes", value, "hexmend.figures").load() is draw
+
+
+@pytest.mark.parametrize("figure", MESH_FIGURES, ids=lambda figure: figure.number)
+def test_a_figure_is_small_and_shows_something(drawn, figure):
+    path = drawn[figure.number]
+    assert path.stat().st_size < 150_000
+    image = Image.open(path)
+    assert image.size[0] == 900
+    pixels = np.asarray(image.convert("RGB")).reshape(-1, 3)
+    colours, counts = np.unique(pixels, axis=0, return_counts=True)
+    assert len(colours) > 8
+    assert counts.max() < 0.99 * len(pixels)  # not the background alone
+
+
+def test_sections_alone_are_coloured_by_quality(drawn):
+    """Colours far from grey, and a bar below, are there where q(H) is shown."""
+    for figure in MESH_FIGURES:
+        pixels = np.asarray(Image.open(drawn[figure.number]).convert("RGB")).astype(int)
+        vivid = float((np.ptp(pixels, axis=2) > 120).mean())
+        assert (vivid > 0.2) is (figure.shows == "section"), figure.number
+
+
+def test_sections_have_one_plane_and_one_camera(drawn):
+    """Of one mesh the three are the same picture."""
+    pictures = [drawn[figure.number].read_bytes() for figure in MESH_FIGURES if figure.shows == "section"]
+    assert len(pictures) == 3
+    assert len(set(pictures)) == 1

@@ -1,0 +1,111 @@
+"""Figures that show meshes: drawn by who joins, and said to be missing where nobody does."""
+
+import json
+import re
+
+import pytest
+
+from hexmend.errors import HexmendError
+from hexmend.quality import summarise
+from hexmend.report import write_study
+from hexmend.study import mesh_figures
+from hexmend.study.experiments import load
+from hexmend.study.measured import Measured
+from hexmend.study.mesh_figures import MESH_FIGURES, draw_figures
+from hexmend.study.row import Row
+
+
+class Joined:
+    """An entry point that gives a drawer, or lacks its libraries."""
+
+    def __init__(self, draw):
+        self._draw = draw
+
+    def load(self):
+        if self._draw is None:
+            raise ImportError("no vtk")
+        return self._draw
+
+
+@pytest.fixture
+def joining(monkeypatch):
+    """Lets drawers join; None is one whose libraries are not installed."""
+
+    def join(*draws):
+        monkeypatch.setattr(mesh_figures, "entry_points", lambda group: [Joined(draw) for draw in draws])
+
+    return join
+
+
+@pytest.fixture(scope="module")
+def measured():
+    """The plane as made, and as getme leaves it; five-side as made; nothing of bridge-sharp."""
+    plane, five = (next(one for one in load().experiments if one.mesh == name) for name in ("plane", "five-side"))
+    mesh = plane.build(quick=True)
+    row = Row("getme", {}, "converged", "", mesh, summarise(mesh))
+    pentagon = five.build(quick=True)
+    return [
+        Measured(five, pentagon, summarise(pentagon), {}),
+        Measured(plane, mesh, summarise(mesh), {"getme": row}),
+    ]
+
+
+def test_what_was_measured_is_drawn(tmp_path, measured, joining):
+    drawn = []
+    joining(None, lambda figure, mesh, path: drawn.append((figure.number, mesh)))
+    figures, missing = draw_figures(tmp_path, measured)
+    assert missing == ""
+    assert [figure["number"] for figure in figures] == [number for number, _ in drawn] == ["4.3", "4.5", "4.6", "4.7"]
+    assert json.loads(json.dumps(figures)) == figures
+    by_number = dict(drawn)
+    plane = measured[1]
+    assert by_number["4.6"] is plane.mesh
+    assert by_number["4.7"] is plane.rows["getme"].mesh
+    assert by_number["4.3"].n_hexes == measured[0].experiment.build(quick=False).n_hexes
+    assert f"{plane.initial.inverted:,} inverted" in next(one["caption"] for one in figures if one["number"] == "4.6")
+
+
+def test_without_the_viewer_it_is_said_in_a_line_which_are_missing_and_how_to_get_them(tmp_path, measured, joining):
+    for there in ((), (None,)):
+        joining(*there)
+        figures, missing = draw_figures(tmp_path, measured)
+        assert figures == []
+        assert missing == "Without figures 4.3, 4.5, 4.6, 4.7, of meshes: run  pip install 'hexmend[app]'"
+
+
+def test_where_nothing_can_be_drawn_the_reason_is_said(tmp_path, measured, joining):
+    def draw(figure, mesh, path):
+        if figure.number == "4.7":
+            raise HexmendError("pictures need OpenGL")
+
+    joining(draw)
+    figures, missing = draw_figures(tmp_path, measured)
+    assert [figure["number"] for figure in figures] == ["4.3", "4.5", "4.6"]
+    assert missing == "Without figure 4.7, of meshes: pictures need OpenGL"
+
+
+def test_nothing_is_missing_where_nothing_was_measured(tmp_path, joining):
+    joining()
+    assert draw_figures(tmp_path, []) == ([], "")
+
+
+def test_the_report_shows_the_figures_in_the_thesis_s_order_under_its_captions(tmp_path, measured, joining):
+    joining(lambda figure, mesh, path: None)
+    figures, _ = draw_figures(tmp_path, measured)
+    study = {
+        "quick": True, "max_seconds": 5, "max_seconds_of": {}, "interrupted": False, "claims": [], "outlooks": [],
+        "experiments": [one.record() for one in measured], "figures": figures, "missing": "Without figure 9.9.",
+    }  # fmt: skip
+    write_study(tmp_path, study)
+    text = (tmp_path / "study.md").read_text(encoding="utf-8")
+    assert re.findall(r"!\[Figure ([\d.]+)\]\((\S+)\)", text) == [
+        *((figure["number"], figure["file"]) for figure in figures),
+        ("4.9", "figure-4.9-distributions.png"),
+    ]
+    for figure in figures:
+        assert f"**Figure {figure['number']}**, {figure['caption']}." in text
+    assert "Without figure 9.9." in text
+
+
+def test_figures_are_named_once():
+    assert len({figure.number for figure in MESH_FIGURES}) == len({figure.stem for figure in MESH_FIGURES})
