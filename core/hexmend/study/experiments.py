@@ -13,10 +13,10 @@ from typing import Any
 
 from hexmend.gallery import make
 from hexmend.mesh import Mesh
-from hexmend.parameters import declared
 from hexmend.run import Stop
-from hexmend.smoothers import METHODS, Smoother
+from hexmend.smoothers import Smoother
 from hexmend.study.outlook import Outlook, outlooks
+from hexmend.study.settings import Settings
 
 #: The start that is no method's.
 INITIAL = "initial"
@@ -53,12 +53,6 @@ class Experiment:
         """The mesh before its start."""
         return make(self.mesh, size=self.asked(quick))
 
-    def smoother(self, name: str) -> Smoother:
-        """A method with this experiment's delta, where it has one."""
-        cls = METHODS[name]
-        takes = self.delta is not None and "delta" in {one.name for one in declared(cls)}
-        return cls(delta=self.delta) if takes else cls()
-
 
 @dataclass(frozen=True)
 class Experiments:
@@ -75,6 +69,10 @@ class Experiments:
         Most seconds of a run in the quick study, of methods for which it is another.
     outlooks : tuple of Outlook
         What section 5.2 hopes for.
+    settings : Settings
+        Of the methods in experiments.
+    move : str
+        Of `Stop`.
     """
 
     experiments: tuple[Experiment, ...]
@@ -82,12 +80,18 @@ class Experiments:
     seconds: Mapping[str, float]
     quick_seconds: Mapping[str, float] = field(default_factory=dict)
     outlooks: tuple[Outlook, ...] = ()
+    settings: Settings = field(default_factory=Settings)
+    move: str = Stop().move
+
+    def smoother(self, experiment: Experiment, name: str) -> Smoother:
+        """A method with the study's settings and the experiment's delta, as far as it has these parameters."""
+        return self.settings.of(name, **({} if experiment.delta is None else {"delta": experiment.delta}))
 
     def stop(self, method: str, quick: bool) -> Stop:
         """The limits of a run; what the thesis tells of a method is its last iterate."""
         limit = self.iterations.get(method, Stop().max_iterations)
         seconds = self.quick_seconds.get(method, self.seconds["quick"]) if quick else self.seconds["full"]
-        return Stop(max_iterations=limit, max_seconds=seconds, keep_last=True)
+        return Stop(max_iterations=limit, max_seconds=seconds, move=self.move, keep_last=True)
 
 
 def load(source: Path | Traversable | None = None) -> Experiments:
@@ -102,8 +106,15 @@ def load(source: Path | Traversable | None = None) -> Experiments:
     source = source or files("hexmend.study") / "thesis.toml"
     data = tomllib.loads(source.read_text(encoding="utf-8"))
     experiments = tuple(_experiment(entry) for entry in data["experiment"])
-    quick_seconds, hopes = data.get("quick_seconds", {}), outlooks(data.get("outlook", ()))
-    return Experiments(experiments, data["iterations"], data["seconds"], quick_seconds, hopes)
+    return Experiments(
+        experiments,
+        data["iterations"],
+        data["seconds"],
+        data.get("quick_seconds", {}),
+        outlooks(data.get("outlook", ())),
+        Settings(data.get("settings", {}), data.get("settings_of", {})),
+        data.get("move", Stop().move),
+    )
 
 
 def _experiment(entry: Mapping[str, Any]) -> Experiment:

@@ -149,7 +149,7 @@ class _Laboratory:
         if mesh is None:
             return Row(method, {}, "failed", f"Failed: {start} left no mesh to start from.")
         try:
-            smoother = experiment.smoother(method)
+            smoother = self._thesis.smoother(experiment, method)
         except ParameterError as error:  # the other columns are worth having
             return Row(method, {}, "failed", f"Failed: {error}")
         key = (experiment.mesh, experiment.asked(self._quick), start, smoother)
