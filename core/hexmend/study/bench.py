@@ -18,6 +18,7 @@ from hexmend.smoothers import METHODS
 from hexmend.study.boundaries import BOUNDARIES
 from hexmend.study.kernels import KERNELS, PRECONDITIONERS
 from hexmend.study.mending import OPTIMA, SIZES, TANGLED
+from hexmend.study.offsets import OFFSETS
 from hexmend.study.processes import PROCESSES
 from hexmend.study.section import Section, by_size
 
@@ -36,7 +37,7 @@ THESIS_SECONDS_PER_NODE = {
 
 def sections() -> dict[str, Section]:
     """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
-    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, SCALING, SIZES
+    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, OFFSETS, SCALING, SIZES
     found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:
