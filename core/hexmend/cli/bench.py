@@ -17,8 +17,8 @@ class Bench:
             metavar="PART",
             action="append",
             default=[],
-            help="kernels, processes, iterations, preconditioners, optima, tangled, boundaries, offsets, scaling, sizes, "
-            "start, viewer, filters, views or watching; may be repeated",
+            help="kernels, processes, iterations, preconditioners, optima, tangled, boundaries, offsets, scaling, "
+            "sizes, start, viewer, filters, views or watching; may be repeated",
         )
         parser.add_argument("--json", metavar="FILE", help="write the figures")
 
