@@ -241,3 +241,20 @@ def test_an_unknown_table_is_wrong_usage(tmp_path, capsys):
     assert main(["study", "thesis", "--only", "9", "-o", str(tmp_path / "x")]) == 2
     assert "there is no table '9'" in capsys.readouterr().err
     assert not (tmp_path / "x").exists()
+
+
+def test_methods_have_the_studys_settings_and_runs_its_measure_of_convergence():
+    thesis = load()
+    assert thesis.stop("local-sd", quick=False).move == "coordinate"
+    by_table = {one.table: one for one in thesis.experiments if one.start == "laplacian"}
+    values = thesis.smoother(by_table["4.4"], "local-nr").values()
+    assert (values["offset"], values["delta"], values["delta_unit"]) == (0.0, 0.2, "extent")
+    assert thesis.smoother(by_table["4.3"], "global-nr").values()["delta_unit"] == "mesh"
+    assert thesis.smoother(by_table["4.3"], "getme").values()["weights"] == "paper"
+
+
+def test_every_run_can_be_given_another_limit(capsys, tmp_path):
+    assert load().limited(7.0).stop("local-sd", quick=True).max_seconds == 7
+    assert load().limited(7.0).stop("getme", quick=False).max_seconds == 7
+    assert main(["study", "thesis", "-o", str(tmp_path), "--max-seconds", "soon"]) == 2
+    assert "max_seconds = 'soon' is not a number" in capsys.readouterr().err

@@ -25,6 +25,11 @@ class Study:
             "--quick", action="store_true", help="small meshes and a few seconds a run: minutes in place of hours"
         )
         parser.add_argument(
+            "--max-seconds",
+            metavar="S",
+            help="most seconds of a run, in place of 4 hours, or of 5 s and for local-sd 60 s with --quick",
+        )
+        parser.add_argument(
             "--only",
             metavar="TABLE",
             action="append",
@@ -34,8 +39,10 @@ class Study:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.progress import Progress
+        from hexmend.parameters import from_strings
         from hexmend.report import made_folder, write_experiment, write_outlook, write_study
         from hexmend.report.thesis import VERDICTS
+        from hexmend.run import Stop
         from hexmend.study.bench import machine
         from hexmend.study.experiments import load
         from hexmend.study.mesh_figures import draw_figures
@@ -43,6 +50,9 @@ class Study:
         from hexmend.study.thesis import chosen_tables, run_experiments
 
         thesis = chosen_tables(load(), args.only) if args.only else load()
+        if args.max_seconds is not None:
+            limit = from_strings(Stop, {"max_seconds": args.max_seconds}, owner="the run")
+            thesis = thesis.limited(limit.max_seconds)
         folder = made_folder(args.output)
 
         def done(one: Measured | Tried) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -86,6 +86,10 @@ class Experiments:
     def smoother(self, experiment: Experiment, name: str) -> Smoother:
         """A method with the study's settings and the experiment's delta, as far as it has these parameters."""
         return self.settings.of(name, **({} if experiment.delta is None else {"delta": experiment.delta}))
+
+    def limited(self, seconds: float) -> Experiments:
+        """The same with another limit of the time of every run."""
+        return replace(self, seconds=dict.fromkeys(self.seconds, seconds), quick_seconds={})
 
     def stop(self, method: str, quick: bool) -> Stop:
         """The limits of a run; what the thesis tells of a method is its last iterate."""
