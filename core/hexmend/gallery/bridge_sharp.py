@@ -11,13 +11,21 @@ from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
 from hexmend.mesh import Mesh
 from hexmend.parameters import parameter
 
+#: The left half of the underside, from its corner to the ridge, in heights of the block's sides; (4, 2). The last two
+#: pieces have SHARE of the half's segments each, the first has the rest.
+UNDERSIDE = np.array([(-1.473, 0.0), (-0.0994, -0.1758), (-0.0406, 0.5012), (0.0, 0.5761)])
+SHARE = 0.15
+#: Width of the deck over that of the underside; how far its middle is above its ends; how evenly its nodes stand.
+OVERHANG, CROWN, EVEN = 1.3038, 0.7984, 0.31
+
 
 @gallery_mesh
 @dataclass(frozen=True)
 class BridgeSharp(GalleryMesh):
     """A block whose underside rises to a sharp ridge, which Laplacian smoothing pulls nodes through.
 
-    Nodes stand at equal distances along the underside and along the deck, and on straight lines between the two.
+    Nodes stand at equal distances along each piece of the underside; along the deck they stand partly as beneath and
+    partly at equal distances across; and at equal distances on straight lines between the two (a Coons patch).
     """
 
     name = "bridge-sharp"
@@ -25,19 +33,18 @@ class BridgeSharp(GalleryMesh):
     help = "A structured block over a sharp arch: valid as it is made, inverted at the ridge by Laplacian smoothing."
     source = "Wilson 4.2; shape by trial, the thesis's own file being unpublished"
 
-    size: int = parameter(32000, low=4, high=10**8, help="About how many hexes, divided 2 : 2 : 1.")
-    rise: float = parameter(0.4, low=0, high=0.95, unit="height", help="How far the arch's ridge rises into the block.")
-    sharpness: float = parameter(3.5, low=1, high=8, help="1 is a roof with straight sides; higher is a thinner ridge.")
-    arch: float = parameter(0.35, low=0.01, high=1, unit="width", help="Width of the arch; the rest is flat.")
-    width: float = parameter(0.66, low=0.1, high=10, unit="height", help="Width of the block.")
-    depth: float = parameter(0.46, low=0.05, high=10, unit="height", help="Depth of the block.")
+    size: int = parameter(32000, low=4, high=10**8, help="About how many hexes, divided 2 : 1 : 2.")
+    rise: float = parameter(0.5761, low=0, high=0.95, unit="height", help="How far the ridge rises into the block.")
+    depth: float = parameter(4.094, low=0.05, high=100, unit="height", help="Depth of the block.")
 
     def regular(self) -> Mesh:
         n = max(1, round((self.size / 4) ** (1 / 3)))
-        nx, ny, nz = 2 * n, 2 * n, n
+        nx, ny, nz = 2 * n, n, 2 * n
         half = self._underside(n)
-        floor = np.concatenate([half[::-1] * [-1, 1], half[1:]])
-        deck = np.column_stack([np.linspace(-self.width / 2, self.width / 2, nx + 1), np.ones(nx + 1)])
+        floor = np.concatenate([half, half[-2::-1] * [-1, 1]])
+        end = -OVERHANG * half[0, 0]
+        x = EVEN * np.linspace(-end, end, nx + 1) + (1 - EVEN) * OVERHANG * floor[:, 0]
+        deck = np.column_stack([x, 1 + CROWN * (1 - np.abs(x) / end)])
         v = np.linspace(0, 1, ny + 1)[:, None, None]
         points = np.empty((nz + 1, ny + 1, nx + 1, 3))
         points[..., :2] = (1 - v) * floor + v * deck
@@ -50,9 +57,8 @@ class BridgeSharp(GalleryMesh):
         )
 
     def _underside(self, segments: int) -> np.ndarray:
-        """Points at equal distances along the underside from the ridge to the right-hand corner, (segments + 1, 2)."""
-        x = np.linspace(0, 1, 4001)
-        y = self.rise * np.clip(1 - x / self.arch, 0, None) ** self.sharpness
-        run = np.concatenate([[0], np.cumsum(np.hypot(np.diff(x) * self.width / 2, np.diff(y)))])
-        even = np.linspace(0, run[-1], segments + 1)
-        return np.column_stack([np.interp(even, run, x) * self.width / 2, np.interp(even, run, y)])
+        """Points along the underside from the left-hand corner to the ridge, (segments + 1, 2)."""
+        few = max(min(1, segments / 3), round(SHARE * segments))
+        at = [0, segments - 2 * few, segments - few, segments]
+        x, y = (np.interp(np.arange(segments + 1), at, column) for column in UNDERSIDE.T)
+        return np.column_stack([x, y * self.rise / UNDERSIDE[-1, 1]])

@@ -1,0 +1,172 @@
+"""Unstructured quad meshes of a regular pentagon, with a given number of quads and of nodes on its boundary.
+
+A mesh of Q quads with b nodes on the boundary has Q - b / 2 + 1 nodes within, however they are connected.
+"""
+
+from __future__ import annotations
+
+from itertools import count
+
+import numpy as np
+
+from hexmend.gallery.pairing import angles, paired
+
+#: The corners, counter-clockwise, on a circle about the origin with the radius 1.
+CORNERS = np.column_stack([np.cos(0.4 * np.pi * np.arange(5)), np.sin(0.4 * np.pi * np.arange(5))])
+#: How often points within are moved to the middle of what is around them.
+SWEEPS = 30
+
+
+def pentagon(quads: int, boundary: int, jitter: float = 0.4, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    """An unstructured quad mesh, all quads convex.
+
+    One paved ring along the boundary; within, points of a lattice, moved as by Lloyd, and their Delaunay triangles,
+    matched in pairs. Then each node within goes half the way to where it is the mean of its neighbours, which leaves
+    something to be gained; all the way, if not all quads are convex there. At the end of it they are (Tutte 1963).
+
+    Parameters
+    ----------
+    quads : int
+    boundary : int
+        Nodes on the boundary: even, and at least 15.
+    jitter : float
+        How far points of the lattice are displaced at most, over its step. 0.05 leaves a grid that is irregular only
+        beside the ring, 0.6 leaves nothing of it.
+    seed : int
+        The first to try; the next is tried where triangles cannot be matched.
+
+    Returns
+    -------
+    points : (n, 2) float64
+        Those of the boundary first, from the first corner on.
+    quads : (k, 4) int64
+        Counter-clockwise.
+
+    Examples
+    --------
+    >>> points, quads = pentagon(245, 70)
+    >>> points.shape, quads.shape
+    ((281, 2), (245, 4))
+    """
+    rim, paved = _ring(boundary)
+    ring = rim[boundary:]
+    for attempt in count(seed):
+        points = _relaxed(ring, _lattice(len(ring), quads - boundary // 2 + 1 - len(ring), jitter, attempt))
+        triangles = _triangles(points)
+        degree = np.bincount(np.unique(np.sort(_sides(triangles), axis=1), axis=0).ravel())
+        degree[: len(ring)] += 1  # the edge to the boundary
+        matched = paired(points, triangles, degree - 3)
+        if matched is None:
+            continue
+        found = np.concatenate([paved, matched + boundary])
+        points = np.concatenate([rim[:boundary], points])
+        smooth = _tutte(points, found, boundary)
+        for placed in ((points + smooth) / 2, smooth):
+            if angles(placed, found).max() < np.pi:
+                return placed, found
+    raise AssertionError("unreachable")
+
+
+def divided(points: np.ndarray, quads: np.ndarray, times: int) -> tuple[np.ndarray, np.ndarray]:
+    """A mesh whose quads are grids of times by times quads, bilinear; arrays as of `pentagon`."""
+    v, u = (grid[..., None] for grid in np.meshgrid(*[np.linspace(0, 1, times + 1)] * 2, indexing="ij"))
+    a, b, c, d = (points[quads[:, i], None, None] for i in range(4))
+    everything = ((1 - u) * (1 - v) * a + u * (1 - v) * b + u * v * c + (1 - u) * v * d).reshape(-1, 2)
+    _, first, inverse = np.unique(np.round(everything, 9) + 0.0, axis=0, return_index=True, return_inverse=True)
+    number = inverse.reshape(len(quads), times + 1, times + 1)
+    low, high = slice(None, -1), slice(1, None)
+    places = [(low, low), (low, high), (high, high), (high, low)]
+    return everything[first], np.column_stack([number[:, *place].ravel() for place in places])
+
+
+def fan() -> tuple[np.ndarray, np.ndarray]:
+    """The coarsest mesh: five quads about the centre. Arrays as of `pentagon`."""
+    points = np.concatenate([_polygon(CORNERS, np.full(5, 2)), np.zeros((1, 2))])
+    i = np.arange(5)
+    return points, np.column_stack([np.full(5, 10), (2 * i - 1) % 10, 2 * i, 2 * i + 1])
+
+
+def _polygon(corners: np.ndarray, segments: np.ndarray) -> np.ndarray:
+    """Points at equal distances along each side, segments (5,) of them from a corner on."""
+    at = np.concatenate([k + np.arange(n) / n for k, n in enumerate(segments)])
+    return np.column_stack([np.interp(at, np.arange(6), [*column, column[0]]) for column in corners.T])
+
+
+def _ring(boundary: int) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes of the boundary, then those of the ring's inside; and its quads, of which one is in each corner."""
+    segments = np.diff(np.round(np.arange(6) * boundary / 5).astype(int))
+    depth = 1 - 10 * np.tan(np.pi / 5) / boundary  # of the ring's inside over the pentagon: a ring of squares
+    points = np.concatenate([_polygon(CORNERS, segments), _polygon(depth * CORNERS, segments - 2)])
+    outer, inner, quads = 0, 0, []
+    for n in segments:
+        i = np.arange(n - 2)
+        first = boundary + inner
+        beside = boundary + (inner + i + 1) % (boundary - 10)
+        quads.append([[(outer - 1) % boundary, outer, outer + 1, first]])
+        quads.append(np.column_stack([outer + 1 + i, outer + 2 + i, beside, first + i]))
+        outer, inner = outer + n, inner + n - 2
+    quads = np.concatenate(quads)
+    quads[quads == boundary + (boundary - 10)] = boundary
+    return points, quads
+
+
+def _lattice(ring: int, wanted: int, jitter: float, seed: int) -> np.ndarray:
+    """So many points within a ring of nodes: those of a turned and shifted lattice that are nearest to the centre."""
+    random = np.random.default_rng(seed)
+    shift, turn = random.uniform(size=2), random.uniform(0, np.pi / 2)
+    reach = int(np.sqrt(wanted)) + 4
+    x, y = np.meshgrid(np.arange(-reach, reach + 1), np.arange(-reach, reach + 1))
+    points = np.column_stack([x.ravel(), y.ravel()]) + shift
+    points += random.uniform(-jitter, jitter, points.shape)
+    c, s = np.cos(turn), np.sin(turn)
+    points = points @ [[c, s], [-s, c]]
+    gauge = (points @ -CORNERS.T).max(axis=1)  # 1 on the sides of the pentagon whose inner radius is 1
+    nearest = np.argsort(gauge, kind="stable")[:wanted]
+    inside = np.cos(np.pi / 5) * (1 - 2.2 * np.tan(np.pi / 5) * 5 / (ring + 10) * 1.2)
+    return points[nearest] * inside / gauge[nearest[-1]]
+
+
+def _triangles(points: np.ndarray) -> np.ndarray:
+    """Delaunay triangles, counter-clockwise, (t, 3), without the flat ones along straight sides."""
+    from scipy.spatial import Delaunay
+
+    triangles = Delaunay(points).simplices.astype(np.int64)
+    area = _double_area(points, triangles)
+    return triangles[area > 1e-6 * area.mean()]
+
+
+def _relaxed(ring: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """The ring's nodes and the points, these moved to the centroids of the triangles around them, so many times."""
+    points = np.concatenate([ring, points])
+    for _ in range(SWEEPS):
+        triangles = _triangles(points)
+        weight = np.repeat(_double_area(points, triangles), 3)
+        centre = np.repeat(points[triangles].mean(axis=1), 3, axis=0)
+        total = [np.bincount(triangles.ravel(), weight * c, len(points)) for c in (*centre.T, np.ones(len(weight)))]
+        points[len(ring) :] = (np.array(total[:2]) / total[2]).T[len(ring) :]
+    return points
+
+
+def _double_area(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Twice the areas of triangles, (t,)."""
+    (ax, ay), (bx, by) = ((points[triangles[:, i]] - points[triangles[:, 0]]).T for i in (1, 2))
+    return ax * by - ay * bx
+
+
+def _sides(cells: np.ndarray) -> np.ndarray:
+    """The sides of polygons with k corners, (k m, 2)."""
+    return np.concatenate([cells[:, [i, (i + 1) % cells.shape[1]]] for i in range(cells.shape[1])])
+
+
+def _tutte(points: np.ndarray, quads: np.ndarray, boundary: int) -> np.ndarray:
+    """Put each node that is not of the boundary, the first ones, into the mean of those it shares a side with."""
+    from scipy.sparse import coo_array, diags_array
+    from scipy.sparse.linalg import spsolve
+
+    sides = np.unique(np.sort(_sides(quads), axis=1), axis=0)
+    ends = np.concatenate([sides, sides[:, ::-1]]).T
+    beside = coo_array((np.ones(len(ends[0])), ends), (len(points), len(points))).tocsr()
+    laplacian = (diags_array(beside.sum(axis=1)) - beside).tocsr()[boundary:]
+    placed = points.copy()
+    placed[boundary:] = spsolve(laplacian[:, boundary:].tocsc(), -laplacian[:, :boundary] @ points[:boundary])
+    return placed
