@@ -31,7 +31,10 @@ def global_sd_slow(measured: Sequence[Measured]) -> Finding:
     return tally(cases, "In no experiment did another optimiser converge within the limits.", most=True)
 
 
-@judges("4.1.3", "It arrives at the optimum on the two smallest meshes, FiveSide4 and FiveSide5, alone.")
+@judges(
+    "4.1.3",
+    "Global steepest descent arrives at the optimum on the two smallest meshes, FiveSide4 and FiveSide5, alone.",
+)
 def global_sd_smallest(measured: Sequence[Measured]) -> Finding:
     """4.1.3; in Table 4.6 it stops at its iteration limit, so that whether it converged is not asked."""
     cases, kinds = [], set()
@@ -45,7 +48,7 @@ def global_sd_smallest(measured: Sequence[Measured]) -> Finding:
     )
 
 
-@judges("4.2.1", "It is unable to smooth bridge-sharp in any of the cases.")
+@judges("4.2.1", "Global steepest descent is unable to smooth bridge-sharp in any of the cases.")
 def global_sd_bridge(measured: Sequence[Measured]) -> Finding:
     """4.2.1, Tables 4.1 to 4.4."""
     cases = []

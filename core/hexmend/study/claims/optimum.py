@@ -32,7 +32,7 @@ def same_optimum(measured: Sequence[Measured]) -> Finding:
     return _both_kinds(measured, tangled=False)
 
 
-@judges("5.1", "They do so too where they have to untangle the mesh first.")
+@judges("5.1", "Local and global optimisation reach the same optimum where they have to untangle the mesh first, too.")
 def same_optimum_untangled(measured: Sequence[Measured]) -> Finding:
     """5.1, "untangling and smoothing": judged where both kinds converged from a start with inverted hexes."""
     return _both_kinds(measured, tangled=True)
@@ -68,10 +68,9 @@ def norm_is_objective(measured: Sequence[Measured]) -> Finding:
         ]
         wrong = [f"{a.method} before {b.method}" for a, b in pairs if a.after.q_norm < b.after.q_norm]
         if pairs:
-            cases.append((not wrong, f"{name(one)}: {', '.join(wrong) or 'the same order'}"))
-    said = "In no experiment did two optimisers end at objectives that differ."
-    reproduced, told = tally(cases, said)
-    return reproduced, f"By the objective, and not by q norm, are in order: {told}" if reproduced is False else told
+            told = f"by the objective, not by q norm, {', '.join(wrong)}" if wrong else "the same order"
+            cases.append((not wrong, f"{name(one)}: {told}"))
+    return tally(cases, "In no experiment did two optimisers end at objectives that differ.")
 
 
 @judges("4.4", "On plane all optimisers that converge generate the same final quality.")
