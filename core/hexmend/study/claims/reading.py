@@ -66,11 +66,11 @@ def objective(row: Row) -> float | None:
     return float(np.square(eta - offset).sum())
 
 
-def near_best(one: Measured, row: Row) -> bool:
-    """Whether no optimiser of the experiment found a clearly better objective."""
+def near_best(one: Measured, row: Row, share: float = SAME) -> bool:
+    """Whether no optimiser of the experiment found an objective that is better by more than a share."""
     known = [found for other in optimisers(one) if (found := objective(other)) is not None]
     mine = objective(row)
-    return mine is not None and mine <= min(known) * (1 + SAME)
+    return mine is not None and mine <= min(known) * (1 + share)
 
 
 def arrived(one: Measured, row: Row) -> bool | None:
