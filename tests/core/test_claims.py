@@ -371,6 +371,14 @@ def test_the_objective_is_the_one_that_was_minimised():
     assert objective(replace(row, parameters={"offset": 0.0})) == pytest.approx(np.square(eta + 1).sum())
 
 
+def test_where_no_optimiser_arrives_one_that_converges_elsewhere_is_what_optimisation_ends_at():
+    rows = {"laplacian": run(), "getme": run(q_min=0.1, q_mean=0.8)}
+    rows["local-sd"] = run(q_min=0.2, q_mean=0.9, inverted=5, objective=None)
+    claim = optimum.optimum_is_best([table("4.14", rows)])
+    assert claim.reproduced is True
+    assert "5 inverted" in claim.figures
+
+
 def test_all_cases_must_hold_or_most_where_most_is_said():
     cases = [(True, "a"), (True, "b"), (False, "c")]
     assert [tally(cases, "none", most=most)[0] for most in (False, True)] == [False, True]

@@ -18,6 +18,7 @@ from hexmend.study.claims.reading import (
     optimised,
     optimisers,
     optimum,
+    settled,
     tables,
 )
 from hexmend.study.measured import Measured
@@ -78,7 +79,7 @@ def one_quality(measured: Sequence[Measured]) -> Finding:
     """4.4."""
     cases = []
     for one in of_mesh(measured, "plane"):
-        rows = [row for row in optimisers(one) if optimised(row)]
+        rows = settled(one)
         if len(rows) > 1:
             spans = [
                 max(values) - min(values)
@@ -96,13 +97,15 @@ def one_quality(measured: Sequence[Measured]) -> Finding:
 def optimum_is_best(measured: Sequence[Measured]) -> Finding:
     """4.4.1, Table 4.14."""
     for one in of_mesh(measured, "plane", "initial"):
-        rows, found = ended(one, "laplacian", "getme"), arrivals(one)
+        rows, found = ended(one, "laplacian", "getme"), settled(one)
         if rows and found:
             top = found[0]
             others = {"initial": one.initial} | {row.method: row.after for row in rows}
             told = "; ".join(f"{who} {it.q_min:.4f}, {it.q_mean:.4f}" for who, it in others.items())
             higher = all(it.q_min < top.after.q_min and it.q_mean < top.after.q_mean for it in others.values())
-            return higher, f"q min and q mean: {top.method} {top.after.q_min:.4f}, {top.after.q_mean:.4f}; {told}."
+            left = f"{top.after.inverted:,} inverted"
+            mine = f"{top.method} {top.after.q_min:.4f}, {top.after.q_mean:.4f} ({left})"
+            return higher, f"q min and q mean: {mine}; {told}."
     return None, "The heuristics and an optimiser that converges were not all run on plane."
 
 

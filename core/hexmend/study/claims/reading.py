@@ -89,6 +89,12 @@ def arrivals(one: Measured, scope: str = "") -> list[Row]:
     return sorted(rows, key=lambda row: row.seconds)
 
 
+def settled(one: Measured) -> list[Row]:
+    """The arrivals; where there are none, runs that converged elsewhere, that with the fewest inverted hexes first."""
+    elsewhere = [row for row in optimisers(one) if row.outcome == Outcome.CONVERGED.key]
+    return arrivals(one) or sorted(elsewhere, key=lambda row: row.after.inverted)
+
+
 def best(rows: Iterable[Row]) -> Row | None:
     """The row of the lowest objective."""
     return min(rows, key=objective, default=None)
