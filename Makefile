@@ -15,7 +15,7 @@ help:
 	@echo "make lint              check the style;  make format  mends it"
 	@echo "make bench             measure speed and memory"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
-	@echo "make docs              write the tables and the page of keys anew"
+	@echo "make docs              write the tables, the figures of the mathematics and the page of keys anew"
 	@echo "make wheel             build a wheel and the sources' archive, and try the wheel: dist/"
 	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
@@ -50,6 +50,7 @@ study: $(VENV)/.app $(VENV)/.kernels
 
 docs: $(VENV)/.app $(VENV)/.kernels
 	@$(BIN)/python scripts/tables.py
+	@$(BIN)/python scripts/draw_method_figures.py docs
 	@QT_QPA_PLATFORM=offscreen $(BIN)/python scripts/write_keys.py
 
 wheel: $(VENV)/.wheel

@@ -151,7 +151,7 @@ def _write_figures(folder: Path, study: Mapping[str, Any]) -> tuple[list[dict[st
     theirs: dict[str, list[tuple[int, float]]] = {}
     for experiment in (one for one in study["experiments"] if one["mesh"] == "five-side"):
         for name, record in experiment["columns"].items():
-            if record.get("seconds_per_iteration"):
+            if record.get("seconds_per_iteration") and name in experiment["published"]:
                 ours.setdefault(name, []).append((experiment["free_nodes"], record["seconds_per_iteration"]))
         for name, record in experiment["published"].items():
             if record.get("seconds_per_iteration"):

@@ -11,6 +11,10 @@ from hexmend.study.measured import Measured
 #: "Negligible advantage": less than this share of the seconds is saved.
 _NEGLIGIBLE = 0.1
 
+#: "Arrives", though short of converging: the objective is within this share. By q norm the thesis's global-sd is 0.0016
+#: above the optimum in Table 4.6, where it is said to arrive, and 0.0065 in Table 4.2, where it is not.
+_THERE = 3e-3
+
 #: "Competitive": within this factor of the fastest local method. The thesis's global-nr, where it converged in Tables
 #: 4.1 to 4.10, took 0.9 to 2.8 times as long as local-sd.
 _COMPETITIVE = 3.0
@@ -31,13 +35,16 @@ def global_sd_slow(measured: Sequence[Measured]) -> Finding:
     return tally(cases, "In no experiment did another optimiser converge within the limits.", most=True)
 
 
-@judges("4.1.3", "It arrives at the optimum on the two smallest meshes, FiveSide4 and FiveSide5, alone.")
+@judges(
+    "4.1.3",
+    "Global steepest descent arrives at the optimum on the two smallest meshes, FiveSide4 and FiveSide5, alone.",
+)
 def global_sd_smallest(measured: Sequence[Measured]) -> Finding:
     """4.1.3; in Table 4.6 it stops at its iteration limit, so that whether it converged is not asked."""
     cases, kinds = [], set()
     for one in tables(measured):
         if (rows := ended(one, "global-sd")) and any(row not in rows for row in arrivals(one)):
-            there, small = near_best(one, rows[0]), one.experiment.table in ("4.5", "4.6")
+            there, small = near_best(one, rows[0], _THERE), one.experiment.table in ("4.5", "4.6")
             kinds.add(small)
             cases.append((there is small, f"{name(one)}: {'arrives' if there else 'does not'}"))
     return tally(
@@ -45,7 +52,7 @@ def global_sd_smallest(measured: Sequence[Measured]) -> Finding:
     )
 
 
-@judges("4.2.1", "It is unable to smooth bridge-sharp in any of the cases.")
+@judges("4.2.1", "Global steepest descent is unable to smooth bridge-sharp in any of the cases.")
 def global_sd_bridge(measured: Sequence[Measured]) -> Finding:
     """4.2.1, Tables 4.1 to 4.4."""
     cases = []
@@ -119,10 +126,10 @@ def competitive(measured: Sequence[Measured]) -> Finding:
 
 @judges("4.3.1", "MINRES solves well conditioned global Hessians effectively, without a preconditioner.")
 def minres_suffices(measured: Sequence[Measured]) -> Finding:
-    """4.3.1: judged on five-side from valid starts, hexes of similar size, by whether Newton-Raphson arrives."""
+    """4.3.1: judged on five-side from valid starts, in most of which the thesis's Newton-Raphson arrives."""
     cases = []
     for one in of_mesh(measured, "five-side"):
         rows = ended(one, "global-nr") if one.start.inverted == 0 else []
         if rows and (reached := arrived(one, rows[0])) is not None:
             cases.append((reached, f"{name(one)}: {end(rows[0])}, {rows[0].seconds:.3g} s"))
-    return tally(cases, "On five-side global-nr was not run from a valid start, or had too little time.")
+    return tally(cases, "On five-side global-nr was not run from a valid start, or had too little time.", most=True)

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.quality import measure
 from hexmend.study.claims.claim import Finding, judges, tally
-from hexmend.study.claims.reading import arrivals, ended, name, of_mesh, tables, times
+from hexmend.study.claims.reading import arrivals, ended, name, of_mesh, settled, tables, times
 from hexmend.study.measured import Measured
 
 #: "An order of magnitude".
@@ -44,12 +44,13 @@ def laplacian_lowers_mean(measured: Sequence[Measured]) -> Finding:
 def getme_between(measured: Sequence[Measured]) -> Finding:
     """4.4.1, Table 4.14."""
     for one in of_mesh(measured, "plane", "initial"):
-        if (rows := ended(one, "getme")) and (found := arrivals(one)):
-            three = one.initial, rows[0].after, found[0].after
+        if (rows := ended(one, "getme")) and (found := settled(one)):
+            top = found[0]
+            three = one.initial, rows[0].after, top.after
             least, mean = [it.q_min for it in three], [it.q_mean for it in three]
             told = (
-                f"q min is {least[0]:.4f} at the start, {least[1]:.4f} by getme, {least[2]:.4f} by {found[0].method}; "
-                f"q mean is {mean[0]:.4f}, {mean[1]:.4f}, {mean[2]:.4f}."
+                f"q min is {least[0]:.4f} at the start, {least[1]:.4f} by getme, {least[2]:.4f} by {top.method} "
+                f"({top.after.inverted:,} inverted); q mean is {mean[0]:.4f}, {mean[1]:.4f}, {mean[2]:.4f}."
             )
             return least[0] < least[1] < least[2] and mean[0] < mean[1] < mean[2], told
     return None, "GETMe and an optimiser that converges were not both run on plane."

@@ -18,6 +18,7 @@ from hexmend.study.claims.reading import (
     optimised,
     optimisers,
     optimum,
+    settled,
     tables,
 )
 from hexmend.study.measured import Measured
@@ -32,7 +33,7 @@ def same_optimum(measured: Sequence[Measured]) -> Finding:
     return _both_kinds(measured, tangled=False)
 
 
-@judges("5.1", "They do so too where they have to untangle the mesh first.")
+@judges("5.1", "Local and global optimisation reach the same optimum where they have to untangle the mesh first, too.")
 def same_optimum_untangled(measured: Sequence[Measured]) -> Finding:
     """5.1, "untangling and smoothing": judged where both kinds converged from a start with inverted hexes."""
     return _both_kinds(measured, tangled=True)
@@ -68,10 +69,9 @@ def norm_is_objective(measured: Sequence[Measured]) -> Finding:
         ]
         wrong = [f"{a.method} before {b.method}" for a, b in pairs if a.after.q_norm < b.after.q_norm]
         if pairs:
-            cases.append((not wrong, f"{name(one)}: {', '.join(wrong) or 'the same order'}"))
-    said = "In no experiment did two optimisers end at objectives that differ."
-    reproduced, told = tally(cases, said)
-    return reproduced, f"By the objective, and not by q norm, are in order: {told}" if reproduced is False else told
+            told = f"by the objective, not by q norm, {', '.join(wrong)}" if wrong else "the same order"
+            cases.append((not wrong, f"{name(one)}: {told}"))
+    return tally(cases, "In no experiment did two optimisers end at objectives that differ.")
 
 
 @judges("4.4", "On plane all optimisers that converge generate the same final quality.")
@@ -79,7 +79,7 @@ def one_quality(measured: Sequence[Measured]) -> Finding:
     """4.4."""
     cases = []
     for one in of_mesh(measured, "plane"):
-        rows = [row for row in optimisers(one) if optimised(row)]
+        rows = settled(one)
         if len(rows) > 1:
             spans = [
                 max(values) - min(values)
@@ -97,13 +97,15 @@ def one_quality(measured: Sequence[Measured]) -> Finding:
 def optimum_is_best(measured: Sequence[Measured]) -> Finding:
     """4.4.1, Table 4.14."""
     for one in of_mesh(measured, "plane", "initial"):
-        rows, found = ended(one, "laplacian", "getme"), arrivals(one)
+        rows, found = ended(one, "laplacian", "getme"), settled(one)
         if rows and found:
             top = found[0]
             others = {"initial": one.initial} | {row.method: row.after for row in rows}
             told = "; ".join(f"{who} {it.q_min:.4f}, {it.q_mean:.4f}" for who, it in others.items())
             higher = all(it.q_min < top.after.q_min and it.q_mean < top.after.q_mean for it in others.values())
-            return higher, f"q min and q mean: {top.method} {top.after.q_min:.4f}, {top.after.q_mean:.4f}; {told}."
+            left = f"{top.after.inverted:,} inverted"
+            mine = f"{top.method} {top.after.q_min:.4f}, {top.after.q_mean:.4f} ({left})"
+            return higher, f"q min and q mean: {mine}; {told}."
     return None, "The heuristics and an optimiser that converges were not all run on plane."
 
 

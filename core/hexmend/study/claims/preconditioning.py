@@ -55,9 +55,7 @@ def preconditioning_compensates(measured: Sequence[Measured]) -> Finding:
     return tally(cases, _UNKNOWN)
 
 
-@judges(
-    "4.4.1", "On plane it is not: local steepest descent is faster from the mesh as it is than from GETMe's result."
-)
+@judges("4.4.1", "On plane local steepest descent is faster from the mesh as it is than from GETMe's result.")
 def preconditioning_in_vain(measured: Sequence[Measured]) -> Finding:
     """4.4.1, Table 4.15: by the seconds of local steepest descent alone."""
     cases = [

@@ -66,11 +66,11 @@ def objective(row: Row) -> float | None:
     return float(np.square(eta - offset).sum())
 
 
-def near_best(one: Measured, row: Row) -> bool:
-    """Whether no optimiser of the experiment found a clearly better objective."""
+def near_best(one: Measured, row: Row, share: float = SAME) -> bool:
+    """Whether no optimiser of the experiment found an objective that is better by more than a share."""
     known = [found for other in optimisers(one) if (found := objective(other)) is not None]
     mine = objective(row)
-    return mine is not None and mine <= min(known) * (1 + SAME)
+    return mine is not None and mine <= min(known) * (1 + share)
 
 
 def arrived(one: Measured, row: Row) -> bool | None:
@@ -87,6 +87,12 @@ def arrivals(one: Measured, scope: str = "") -> list[Row]:
     """The runs of optimisers that converged on the optimum, the quickest first."""
     rows = (row for row in optimisers(one, scope) if optimised(row) and near_best(one, row))
     return sorted(rows, key=lambda row: row.seconds)
+
+
+def settled(one: Measured) -> list[Row]:
+    """The arrivals; where there are none, runs that converged elsewhere, that with the fewest inverted hexes first."""
+    elsewhere = [row for row in optimisers(one) if row.outcome == Outcome.CONVERGED.key]
+    return arrivals(one) or sorted(elsewhere, key=lambda row: row.after.inverted)
 
 
 def best(rows: Iterable[Row]) -> Row | None:
