@@ -24,7 +24,7 @@ def main(folder: Path) -> None:
         mesh = window.session.document.now.mesh
         set_method(window, "local-sd")
         window.show_panel("node")
-        node = int(mesh.free.nonzero()[0][2000])
+        node = int(mesh.free.nonzero()[0][2010])
         window.session.selection.choose(int(mesh.topology.node_corners[node][0] // 8), node)
         until(lambda: window.canvas.viewport.chosen.node_step is not None)
         click(window, "Patch alone")

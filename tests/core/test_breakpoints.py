@@ -11,7 +11,7 @@ from hexmend.quality import measure
 from hexmend.run import Stop, iterate
 from hexmend.run.breakpoints import Breakpoints
 
-MESH = gallery.make("bridge-sharp", size=500)  # Laplacian inverts hexes of it
+MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
 
 
 def iteration(number, points, **notes):

@@ -90,4 +90,4 @@ def test_sets_and_layers_name_the_parts():
     five = make("five-side")
     assert len(five.node_sets["bottom"]) == len(five.node_sets["top"]) == 281
     assert np.bincount(five.hex_data["layer"])[1:].tolist() == [245] * 30
-    assert len(make("bridge-sharp").node_sets["arch"]) == 41 * 21
+    assert len(make("bridge-sharp").node_sets["arch"]) == 41 * 41

@@ -96,7 +96,7 @@ def test_steps_of_untangling_soften_the_barrier_less_and_less():
 
 
 def test_higher_p_lifts_the_worst_hex():
-    mesh = make("bridge-sharp", size=500)
+    mesh = make("bridge-sharp", size=864)
     plain, raised = (smooth(mesh, Mend(highest_p=p), Stop(max_iterations=500)) for p in (1.0, 16.0))
     assert raised.outcome is Outcome.CONVERGED
     assert raised.after.q_min > plain.after.q_min + 0.01

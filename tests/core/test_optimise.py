@@ -158,7 +158,7 @@ def test_adaptive_delta_gives_the_worst_determinant_the_h_that_is_asked():
 
 
 def test_a_truncated_newton_step_is_as_good_as_the_model_deserves():
-    mesh = make("five-side", size=500, scramble=0.1)
+    mesh = make("five-side", size=300, scramble=0.1)
     energy, find = MeshEnergy(mesh), TruncatedNewton()
     x, residuals, norms = energy.scaled(mesh.points), [], []
     for _ in range(7):

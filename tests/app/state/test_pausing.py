@@ -16,7 +16,7 @@ from hexmend_app.state.session import Session
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
-MESH = gallery.make("bridge-sharp", size=500)  # Laplacian inverts hexes of it
+MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
 
 
 @pytest.fixture(scope="module")
