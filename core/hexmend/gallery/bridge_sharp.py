@@ -18,8 +18,8 @@ SHARE = 0.15
 #: Width of the deck over that of the underside; how far its middle is above its ends; how evenly its nodes stand.
 OVERHANG, CROWN, EVEN = 1.3038, 0.7984, 0.31
 
-#: Height of the block's sides: edges of 32,000 hexes are 1.25 long, so that delta in raw units does to global methods what
-#: Tables 4.3 and 4.4 say.
+#: Height of the block's sides: edges of 32,000 hexes are 1.25 long, so that delta in raw units does to global methods
+#: what Tables 4.3 and 4.4 say.
 HEIGHT = 13.5
 
 

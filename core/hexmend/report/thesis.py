@@ -10,6 +10,7 @@ from typing import Any
 from hexmend.errors import HexmendError
 from hexmend.report import plots
 from hexmend.report.comparison import comparison_table
+from hexmend.report.differences import differences_table, same_counts
 from hexmend.report.documents import write_documents, write_text
 from hexmend.report.markdown import escaped, markdown
 from hexmend.report.outlook import outlook_stem, outlook_table
@@ -71,7 +72,7 @@ def write_study(folder: Path, study: Mapping[str, Any]) -> list[Path]:
 def experiment_table(experiment: Mapping[str, Any]) -> Table:
     """A table of the thesis with a line of the published figures below each line of ours."""
     thesis, notes = experiment["thesis"], [OURS]
-    if (experiment["hexes"], experiment["free_nodes"]) != (thesis["hexes"], thesis["free_nodes"]):
+    if not same_counts(experiment):
         notes.append(f"The thesis's has {thesis['hexes']:,} hexes and {thesis['free_nodes']:,} free nodes.")
     notes.append(f"Inverted at the start: {experiment['inverted']:,}, in the thesis {thesis['inverted']:,}.")
     delta = f", δ = {experiment['delta']:g}" if experiment["delta"] is not None else ""
@@ -95,6 +96,8 @@ def stem(experiment: Mapping[str, Any]) -> str:
 def index(study: Mapping[str, Any], figures: Sequence[Mapping[str, str]]) -> str:
     """`study.md`; of each figure its number, caption and file."""
     parts = ["# The thesis's Chapter 4, measured again", _preface(study), "## Claims", _claims(study["claims"])]
+    differences = differences_table(study["experiments"])
+    parts += ["## Beside the thesis, cell by cell", markdown(differences)] if differences else []
     missing = study.get("missing", "")
     if figures or missing:
         parts += ["## Figures", *map(_figure, sorted(figures, key=_number))] + ([escaped(missing)] if missing else [])
