@@ -121,7 +121,7 @@ def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
 
 
 def test_what_is_worse_than_the_initial_mesh_stands_out(comparing, qtbot, tmp_path):
-    io.write(tmp_path / "sound.vtu", make("bridge-sharp", size=500))
+    io.write(tmp_path / "sound.vtu", make("bridge-sharp", size=864))
     open_and_wait(qtbot, comparing, tmp_path / "sound.vtu")
     choose(comparing, "laplacian", Stop(keep_last=True))
     choose_methods(comparing, "laplacian", "smart-laplacian")

@@ -5,7 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.gallery import make
+from hexmend.gallery.blocks import extruded
+from hexmend.gallery.pentagon import divided, fan
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
 from hexmend.surface import Kind
@@ -31,7 +32,16 @@ from hexmend_app.state.look import Look, Structure
 from tests.core.grids import grid
 from tests.core.test_structure import tetrahedron
 
-FIVE = make("five-side", size=500)
+
+def five_blocks(segments, layers):
+    """A pentagonal prism of five blocks that meet in the axis, as high as 1.5."""
+    plane, quads = divided(*fan(), segments)
+    height = np.repeat(np.linspace(0, 1.5, layers + 1), len(plane))
+    points = np.column_stack([np.tile(plane, (layers + 1, 1)), height])
+    return Mesh(points, extruded(quads, len(plane), layers))
+
+
+FIVE = five_blocks(3, 11)
 BELOW = PlaneClip.at((0, 0, 1), (0, 0, 0.7))
 
 
