@@ -38,6 +38,7 @@ class Experiment:
     columns: tuple[str, ...]
     published: Mapping[str, Mapping[str, float | int]]
     delta: float | None = None
+    settings_of: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     beside: tuple[str, ...] = ()
 
     @property
@@ -85,7 +86,8 @@ class Experiments:
 
     def smoother(self, experiment: Experiment, name: str) -> Smoother:
         """A method with the study's settings and the experiment's delta, as far as it has these parameters."""
-        return self.settings.of(name, **({} if experiment.delta is None else {"delta": experiment.delta}))
+        delta = {} if experiment.delta is None else {"delta": experiment.delta}
+        return self.settings.of(name, **delta, **experiment.settings_of.get(name, {}))
 
     def limited(self, seconds: float) -> Experiments:
         """The same with another limit of the time of every run."""
@@ -116,7 +118,7 @@ def load(source: Path | Traversable | None = None) -> Experiments:
         data["seconds"],
         data.get("quick_seconds", {}),
         outlooks(data.get("outlook", ())),
-        Settings(data.get("settings", {}), data.get("settings_of", {})),
+        Settings(data.get("settings", {})),
         data.get("move", Stop().move),
     )
 

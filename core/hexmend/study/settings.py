@@ -18,22 +18,18 @@ class Settings:
     ----------
     common : mapping of str to value
         Of every method that declares the parameter.
-    own : mapping of str to mapping
-        Of one method, by its name.
 
     Examples
     --------
-    >>> settings = Settings({"offset": 0.0, "weights": "paper"}, {"local-nr": {"delta_unit": "extent"}})
-    >>> settings.of("getme").weights, settings.of("local-nr").offset, settings.of("local-nr", delta=0.2).delta_unit
-    ('paper', 0.0, 'extent')
+    >>> settings = Settings({"offset": 0.0, "weights": "paper"})
+    >>> settings.of("getme").weights, settings.of("local-nr").offset, settings.of("local-nr", delta=0.2).delta
+    ('paper', 0.0, 0.2)
     """
 
     common: Mapping[str, Any] = field(default_factory=dict)
-    own: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def of(self, name: str, **more: Any) -> Smoother:
         """A method with these values, and with `more` as far as it declares them."""
         cls = METHODS[name]
         known = {one.name for one in declared(cls)}
-        chosen = {key: value for key, value in {**self.common, **more}.items() if key in known}
-        return cls(**{**chosen, **self.own.get(name, {})})
+        return cls(**{key: value for key, value in {**self.common, **more}.items() if key in known})
