@@ -6,13 +6,14 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.hexahedron import EDGES
 from hexmend.kernels import elements
+from hexmend.second_order import check_mid_nodes, following
 from hexmend.topology import Topology
 
 #: By what factor the longest edges may raise the mean length of all.
@@ -21,20 +22,57 @@ SPOILED = 4.0
 _LOOKED_AT = 10_000
 
 
+class CellKind(NamedTuple):
+    """A kind of cell that is no hex: its dimension, its number of nodes, in the order of VTK, and its number there."""
+
+    dimension: int
+    nodes: int
+    vtk: int
+
+
+#: Every kind of cell that is carried beside hexes.
+CELL_KINDS = {
+    "vertex": CellKind(0, 1, 1),
+    "line": CellKind(1, 2, 3),
+    "triangle": CellKind(2, 3, 5),
+    "quad": CellKind(2, 4, 9),
+    "tetra": CellKind(3, 4, 10),
+    "wedge": CellKind(3, 6, 13),
+    "pyramid": CellKind(3, 5, 14),
+    "line3": CellKind(1, 3, 21),
+    "triangle6": CellKind(2, 6, 22),
+    "quad8": CellKind(2, 8, 23),
+    "quad9": CellKind(2, 9, 28),
+    "tetra10": CellKind(3, 10, 24),
+    "wedge15": CellKind(3, 15, 26),
+    "pyramid13": CellKind(3, 13, 27),
+}
+
+
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Cells of lower dimension that a file holds beside its hexes; carried through, never computed with.
+    """Cells of another kind that a file holds beside its hexes; carried through, never computed with.
 
     Parameters
     ----------
-    kind : {"vertex", "line", "triangle", "quad"}
+    kind : str
+        One of `CELL_KINDS`.
     nodes : (k, width) int32
+        In the order of VTK.
     data : mapping of name to (k, ...) array
+    sets : mapping of name to (j,) int array
+        Named groups of these cells.
     """
 
     kind: str
     nodes: np.ndarray
     data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def dimension(self) -> int:
+        """0 for vertices up to 3 for cells that fill space."""
+        return CELL_KINDS[self.kind].dimension
 
 
 class Target(Protocol):
@@ -65,9 +103,18 @@ class Mesh:
     node_sets, hex_sets : mapping of name to (k,) int array
         Named groups.
     cells : tuple of Cells
-        Cells of lower dimension (boundary quads with references, feature edges).
+        Cells of other kinds: boundary quads with references, feature edges, tetrahedra beside the hexes...
     name : str
         What to call the mesh; the file's stem.
+    side_sets : mapping of name to (k, 2) int array
+        Named groups of faces: the hex, and which of `hexmend.hexahedron.FACES` it is.
+    mid_nodes : (m, 19) int32, optional
+        Further nodes of hexes of second order, -1 where there is none: see `hexmend.second_order`. They follow the
+        corners.
+    field_data : mapping of name to array or list of str
+        What belongs to the mesh as a whole.
+    notes : tuple of str
+        What was done to the mesh on reading, in sentences.
 
     Raises
     ------
@@ -91,6 +138,10 @@ class Mesh:
     hex_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
     cells: tuple[Cells, ...] = ()
     name: str = ""
+    side_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    mid_nodes: np.ndarray | None = None
+    field_data: Mapping[str, object] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
     topology: Topology = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -112,6 +163,8 @@ class Mesh:
             if pinned.shape != (self.n_nodes,):
                 raise MeshError(f"pinned has shape {pinned.shape}: expected ({self.n_nodes},)")
             self._set(pinned=_frozen(pinned))
+        if self.mid_nodes is not None:
+            self._set(mid_nodes=_frozen(check_mid_nodes(self.mid_nodes, self.n_hexes, self.n_nodes)))
         for kind, data, length in (("node", self.node_data, self.n_nodes), ("hex", self.hex_data, self.n_hexes)):
             for name, values in data.items():
                 if len(values) != length:
@@ -156,6 +209,8 @@ class Mesh:
     def with_points(self, points: np.ndarray) -> Mesh:
         """The same mesh with its nodes elsewhere; connectivity, topology, sets and data are shared.
 
+        Nodes of second order go where the corners of their hexes take them, whatever `points` says of them.
+
         Parameters
         ----------
         points : (n, 3) float64
@@ -165,6 +220,8 @@ class Mesh:
         if points.shape != self.points.shape:
             raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
         check_finite(points)
+        if self.mid_nodes is not None:
+            points = following(self.points, points, self.hexes, self.mid_nodes)
         copy = self._copy("fixed", "free")
         copy._set(points=_frozen(points))
         return copy
@@ -218,7 +275,7 @@ class Mesh:
     def replace(self, **changes: object) -> Mesh:
         """A copy with other pins, data, sets or name (not points or hexes); all else is shared."""
         if "points" in changes or "hexes" in changes:
-            raise MeshError("replace() changes what is carried; use with_points() or make a new Mesh")
+            raise MeshError("replace() changes what is carried; use with_points() or rebuilt()")
         unknown = changes.keys() - {one.name for one in dataclasses.fields(self) if one.init}
         if unknown:
             raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")
@@ -226,6 +283,10 @@ class Mesh:
         copy._set(**changes)
         copy._check_carried()
         return copy
+
+    def rebuilt(self, **changes: object) -> Mesh:
+        """A mesh of its own with other points, hexes, or whatever else; what is not named is taken over."""
+        return Mesh(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init} | changes)
 
     def _copy(self, *known: str) -> Mesh:
         """A copy that shares everything, and what is known or was told under some names; nothing is checked."""

@@ -13,7 +13,9 @@ class Info:
     help = "Print the quality and the counts of a mesh."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+        from hexmend.cli.command.files import add_mesh
+
+        add_mesh(parser)
         parser.add_argument("--metrics", action="store_true", help="add least, mean and greatest value of every metric")
         parser.add_argument("--json", action="store_true", help="print JSON for other programs")
 
@@ -27,10 +29,12 @@ class Info:
                 gc.enable()
 
     def _run(self, args: argparse.Namespace) -> int:
+        from hexmend.cli.command.files import say_notes
         from hexmend.io import doctor, read
         from hexmend.quality import measure, spreads, summarise
 
-        mesh = read(args.mesh)
+        mesh = read(args.mesh, as_is=args.as_is)
+        say_notes(mesh)
         figures = measure(mesh.points, mesh.hexes)
         summary = summarise(mesh, figures)
         metrics = spreads(mesh, figures) if args.metrics else {}

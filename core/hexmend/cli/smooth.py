@@ -12,9 +12,10 @@ class Smooth:
     help = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run; what was reached is written."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
+        from hexmend.cli.command.files import add_mesh
         from hexmend.cli.command.method import add_method, add_surface
 
-        parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+        add_mesh(parser)
         parser.add_argument("-o", "--output", metavar="OUT", required=True, help="where to write the smoothed mesh")
         add_method(parser)
         add_surface(parser)
@@ -24,6 +25,7 @@ class Smooth:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.advice import advise
+        from hexmend.cli.command.files import say_left_out, say_notes
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
         from hexmend.cli.tables import print_summaries
@@ -33,7 +35,10 @@ class Smooth:
 
         what, stop = chosen(args)
         write = writer_for(args.output)  # an unknown suffix is said before the work, not after
-        run = iterate(on_surface(args, read(args.mesh), what), what, stop)
+        mesh = read(args.mesh, as_is=args.as_is)
+        say_notes(mesh)
+        say_left_out(args.output, mesh)
+        run = iterate(on_surface(args, mesh, what), what, stop)
         if args.save_recipe:
             write_recipe(args.save_recipe, run.recipe)
         follow(run)

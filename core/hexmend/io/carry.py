@@ -1,33 +1,41 @@
-"""What files hold beside points and hexes, in the terms of VTK: data, sets as arrays, cells of lower dimension."""
+"""An unstructured grid as VTK's formats hold it, and the content that it is."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.hexahedron import VOXEL_ORDER
-from hexmend.mesh import Cells, Mesh, check_node_numbers
+from hexmend.io.content import FIXED, HEX_KINDS, Block, Content, joined
+from hexmend.io.content import from_mesh as content_of
+from hexmend.io.content import to_mesh as mesh_of
+from hexmend.mesh import CELL_KINDS, Mesh
 
-HEXAHEDRON, VOXEL = 12, 11
+HEXAHEDRON, VOXEL, QUAD, PIXEL = 12, 11, 9, 8
 
-#: VTK's number of each cell of lower dimension that is carried: its kind and nodes.
-LOWER = {1: ("vertex", 1), 3: ("line", 2), 5: ("triangle", 3), 9: ("quad", 4)}
+#: VTK's number of every kind of cell that is read.
+KINDS = {12: "hex", 25: "hex20", 29: "hex27", **{kind.vtk: name for name, kind in CELL_KINDS.items()}}
+NUMBERS = {name: number for number, name in KINDS.items()}
+WIDTHS = {number: HEX_KINDS[name] if name in HEX_KINDS else CELL_KINDS[name].nodes for number, name in KINDS.items()}
+WIDTHS |= {VOXEL: 8, PIXEL: 4}
 
-#: Nodes of every cell type whose number of nodes is fixed, and its name for messages.
+#: Types whose cells may have any number of nodes; of these, those with the nodes of another kind are of that one.
+_ANY = {2: {1: 1}, 4: {2: 3, 3: 21}, 7: {3: 5, 4: 9}}
+#: Names of types that are not read, for messages.
 NAMES = {
     0: "VTK_EMPTY_CELL", 2: "VTK_POLY_VERTEX", 4: "VTK_POLY_LINE", 6: "VTK_TRIANGLE_STRIP", 7: "VTK_POLYGON",
-    8: "VTK_PIXEL", 10: "VTK_TETRA", 13: "VTK_WEDGE", 14: "VTK_PYRAMID", 15: "VTK_PENTAGONAL_PRISM",
-    16: "VTK_HEXAGONAL_PRISM", 21: "VTK_QUADRATIC_EDGE", 22: "VTK_QUADRATIC_TRIANGLE", 23: "VTK_QUADRATIC_QUAD",
-    24: "VTK_QUADRATIC_TETRA", 25: "VTK_QUADRATIC_HEXAHEDRON", 26: "VTK_QUADRATIC_WEDGE", 27: "VTK_QUADRATIC_PYRAMID",
-    29: "VTK_TRIQUADRATIC_HEXAHEDRON", 42: "VTK_POLYHEDRON", 72: "VTK_LAGRANGE_HEXAHEDRON",
+    10: "VTK_TETRA", 15: "VTK_PENTAGONAL_PRISM", 16: "VTK_HEXAGONAL_PRISM", 42: "VTK_POLYHEDRON",
+    72: "VTK_LAGRANGE_HEXAHEDRON",
 }  # fmt: skip
 
+#: quad = pixel[PIXEL_ORDER].
+PIXEL_ORDER = np.array([0, 1, 3, 2])
+
 _SET = "set:"
-_FIXED = "fixed"
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +51,7 @@ class Grid:
         Nodes of cell i are nodes[start[i]:start[i + 1]].
     nodes : (start[-1],) int64
     node_data, cell_data : mapping of name to (n, ...) or (c, ...) array
+    field_data : mapping of name to array or list of str
     """
 
     points: np.ndarray
@@ -51,96 +60,141 @@ class Grid:
     nodes: np.ndarray
     node_data: Mapping[str, np.ndarray]
     cell_data: Mapping[str, np.ndarray]
+    field_data: Mapping[str, object] = field(default_factory=dict)
 
 
 def to_mesh(path: Path, grid: Grid) -> Mesh:
     """The mesh that a grid holds.
 
+    Cells of eight nodes that are labelled as tetrahedra are hexes where all of them are, and a note says so. Cells of
+    kinds that are not known (polyhedra, Lagrange's) are left out, and a note says so.
+
     Raises
     ------
     FileError
-        For cells that are neither hexahedra nor of lower dimension, or none that are hexahedra.
+        Where no cell is a hex, or a cell has not the nodes of its type.
     MeshError
         From `Mesh`.
     """
-    types = np.asarray(grid.types)
-    known = np.isin(types, [HEXAHEDRON, VOXEL, *LOWER])
-    if not known.all():
-        first, others = int(np.flatnonzero(~known)[0]), int(np.count_nonzero(~known))
-        name = NAMES.get(int(types[first]), f"cell of type {types[first]}")
-        which = "the cell" if others == 1 else f"the {others} other cells"
-        raise FileError(
-            path, f"cell {first} is a {name}; Hexmend reads hexahedra (types 11, 12)", f"Convert or remove {which}."
-        )
-    is_hex = (types == HEXAHEDRON) | (types == VOXEL)
-    if not is_hex.any():
-        raise FileError(path, "holds no hexahedra (cell types 11, 12)", "Hexmend works on hexahedral meshes only.")
-    check_sizes(path, grid)
-    hexes = _rows(grid, np.flatnonzero(is_hex), 8)
-    voxel = types[is_hex] == VOXEL
-    hexes[voxel] = hexes[voxel][:, VOXEL_ORDER]
-    lower = []
-    for number, (kind, width) in LOWER.items():
+    types, notes = _true_types(grid)
+    check_sizes(path, grid, types)
+    blocks = []
+    for number in dict.fromkeys(types.tolist()):
+        if number not in WIDTHS:
+            continue
         chosen = np.flatnonzero(types == number)
-        if len(chosen):
-            rows = _rows(grid, chosen, width)
-            check_node_numbers(rows, len(grid.points))
-            data = {name: values[chosen] for name, values in grid.cell_data.items()}
-            lower.append(Cells(kind, rows.astype(np.int32), data))
+        rows = _rows(grid, chosen, WIDTHS[number])
+        rows = rows[:, VOXEL_ORDER] if number == VOXEL else rows[:, PIXEL_ORDER] if number == PIXEL else rows
+        data, sets = _parted({name: _taken(values, chosen) for name, values in grid.cell_data.items()})
+        blocks.append(Block(KINDS[{VOXEL: HEXAHEDRON, PIXEL: QUAD}.get(number, number)], rows, data, sets))
+    unknown = np.flatnonzero(~np.isin(types, list(WIDTHS)))
+    if unknown.size:
+        if not any(block.kind in HEX_KINDS for block in blocks):
+            first = int(unknown[0])
+            name = NAMES.get(int(types[first]), f"cell of type {types[first]}")
+            raise FileError(
+                path,
+                f"cell {first} is a {name}; Hexmend reads hexahedra (types 11, 12, 25, 29)",
+                "Hexmend works on hexahedral meshes only.",
+            )
+        names = sorted({NAMES.get(int(number), f"type {number}") for number in types[unknown]})
+        notes.append(f"{unknown.size:,} cells of other kinds ({', '.join(names)}) are left out.")
+    blocks.sort(key=lambda block: [*HEX_KINDS, *CELL_KINDS].index(block.kind))
     node_data, node_sets = _parted(grid.node_data)
-    hex_data, hex_sets = _parted({name: values[is_hex] for name, values in grid.cell_data.items()})
-    marks = [np.asarray(v) for k, v in node_data.items() if k.lower() == _FIXED and np.ndim(v) == 1]
-    return Mesh(
-        grid.points,
-        hexes,
-        pinned=marks[0] != 0 if marks else None,
-        node_data=node_data,
-        hex_data=hex_data,
-        node_sets=node_sets,
-        hex_sets=hex_sets,
-        cells=tuple(lower),
-    )
+    if all(block.kind != "hex20" and block.kind != "hex27" for block in blocks):
+        blocks = _in_order(grid, types, blocks)
+    content = Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=tuple(notes))
+    return mesh_of(path, content)
 
 
 def from_mesh(mesh: Mesh) -> Grid:
-    """The grid that holds a mesh: hexahedra first, cells of lower dimension after them."""
-    number = {kind: key for key, (kind, _) in LOWER.items()}
-    blocks = [(HEXAHEDRON, mesh.hexes), *((number[cells.kind], cells.nodes) for cells in mesh.cells)]
-    types = np.concatenate([np.full(len(rows), kind, np.uint8) for kind, rows in blocks])
-    widths = np.concatenate([np.full(len(rows), rows.shape[1], np.int64) for _, rows in blocks])
-    node_data = dict(mesh.node_data)
+    """The grid that holds a mesh, hexahedra first; sets are arrays named "set:...", pins one named "fixed"."""
+    content = content_of(mesh)
+    lengths = [len(block) for block in content.blocks]
+    node_data = dict(content.node_data)
     if mesh.pinned is not None:
-        name = next((name for name in node_data if name.lower() == _FIXED), _FIXED)
+        name = next((name for name in node_data if name.lower() == FIXED), FIXED)
         if name not in node_data or not np.array_equal(np.asarray(node_data[name]) != 0, mesh.pinned):
             node_data[name] = mesh.pinned.astype(np.int32)  # what the file said, unless the pins have changed since
-    for name, members in mesh.node_sets.items():
+    for name, members in content.node_sets.items():
         node_data[_SET + name] = _mask(members, mesh.n_nodes)
-    hex_data = dict(mesh.hex_data) | {_SET + k: _mask(v, mesh.n_hexes) for k, v in mesh.hex_sets.items()}
+    widths = np.concatenate([np.full(len(block), block.nodes.shape[1], np.int64) for block in content.blocks])
     return Grid(
-        points=mesh.points,
-        types=types,
+        points=content.points,
+        types=np.concatenate([np.full(len(block), NUMBERS[block.kind], np.uint8) for block in content.blocks]),
         start=np.concatenate([[0], np.cumsum(widths)]),
-        nodes=np.concatenate([rows.ravel() for _, rows in blocks]),
+        nodes=np.concatenate([block.nodes.ravel() for block in content.blocks]),
         node_data=node_data,
-        cell_data=_joined([hex_data, *(dict(cells.data) for cells in mesh.cells)], [len(rows) for _, rows in blocks]),
+        cell_data=joined(
+            [
+                {**block.data, **{_SET + name: _mask(members, len(block)) for name, members in block.sets.items()}}
+                for block in content.blocks
+            ],
+            lengths,
+        ),
+        field_data=content.field_data,
     )
 
 
-def check_sizes(path: Path, grid: Grid) -> None:
+def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
     """Raise `FileError` naming the first cell whose number of nodes is not that of its type."""
     widths = np.diff(grid.start)
-    expected = np.zeros(256, np.int64)
-    expected[[HEXAHEDRON, VOXEL]] = 8
-    for number, (_, width) in LOWER.items():
-        expected[number] = width
-    wrong = np.flatnonzero(widths != expected[np.asarray(grid.types)])
+    expected = np.array([WIDTHS.get(number, -1) for number in range(256)])[types]
+    wrong = np.flatnonzero((widths != expected) & (expected >= 0))
     if len(wrong):
         i = int(wrong[0])
         raise FileError(
             path,
-            f"cell {i} is of type {grid.types[i]} and has {widths[i]} nodes: expected {expected[grid.types[i]]}",
+            f"cell {i} is of type {types[i]} and has {widths[i]} nodes: expected {expected[i]}",
             "Write the file again with the program that made it.",
         )
+
+
+def _true_types(grid: Grid) -> tuple[np.ndarray, list[str]]:
+    """Types of the cells by what they are, and what is to be said of it."""
+    given, widths, notes = np.asarray(grid.types).astype(np.int64), np.diff(grid.start), []
+    outside = np.flatnonzero((given < 0) | (given > 255))
+    types = np.where((given < 0) | (given > 255), 0, given)
+    if outside.size:
+        types[outside] = 0
+    for number, others in _ANY.items():
+        for width, other in others.items():
+            types[(given == number) & (widths == width)] = other
+    tetra = given == NUMBERS["tetra"]
+    if tetra.any() and (widths[tetra] == 8).all():
+        types[tetra] = HEXAHEDRON
+        notes.append(
+            f"{int(tetra.sum()):,} cells of eight nodes are labelled as tetrahedra in the file: read as hexes."
+        )
+    return types, notes
+
+
+def _in_order(grid: Grid, types: np.ndarray, blocks: list[Block]) -> list[Block]:
+    """Hexahedra and voxels as one block, in the order of the file."""
+    hexes = [block for block in blocks if block.kind == "hex"]
+    if len(hexes) < 2:
+        return blocks
+    places = [np.flatnonzero(types == number) for number in dict.fromkeys(types.tolist()) if number in (11, 12)]
+    order = np.argsort(np.concatenate(places), kind="stable")
+    lengths = [len(block) for block in hexes]
+    data, sets = _parted(
+        joined(
+            [
+                {**block.data, **{_SET + name: _mask(members, len(block)) for name, members in block.sets.items()}}
+                for block in hexes
+            ],
+            lengths,
+        )
+    )
+    nodes = np.concatenate([block.nodes for block in hexes])[order]
+    place = np.argsort(order)
+    whole = Block(
+        "hex",
+        nodes,
+        {name: values[order] for name, values in data.items()},
+        {name: np.sort(place[members]) for name, members in sets.items()},
+    )
+    return [whole, *(block for block in blocks if block.kind != "hex")]
 
 
 def _rows(grid: Grid, chosen: np.ndarray, width: int) -> np.ndarray:
@@ -149,12 +203,18 @@ def _rows(grid: Grid, chosen: np.ndarray, width: int) -> np.ndarray:
     return np.asarray(grid.nodes, dtype=np.int64)[grid.start[chosen][:, None] + np.arange(width)]
 
 
+def _taken(values: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    return values if len(chosen) == len(values) else np.asarray(values)[chosen]
+
+
 def _parted(data: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Arrays, and the sets among them."""
     arrays, sets = {}, {}
     for name, values in data.items():
         if name.startswith(_SET) and np.ndim(values) == 1:
-            sets[name[len(_SET) :]] = np.flatnonzero(values)
+            members = np.flatnonzero(values)
+            if members.size:
+                sets[name[len(_SET) :]] = members
         else:
             arrays[name] = values
     return arrays, sets
@@ -162,19 +222,5 @@ def _parted(data: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict
 
 def _mask(members: np.ndarray, length: int) -> np.ndarray:
     mask = np.zeros(length, np.uint8)
-    mask[members] = 1
+    mask[np.asarray(members, dtype=np.int64)] = 1
     return mask
-
-
-def _joined(blocks: list[dict[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
-    """One array over all cells for each name; zeros where a block has none of that name."""
-    joined = {}
-    for name in dict.fromkeys(name for block in blocks for name in block):
-        sample = next(np.asarray(block[name]) for block in blocks if name in block)
-        parts = [
-            np.asarray(block[name]) if name in block else np.zeros((length, *sample.shape[1:]), sample.dtype)
-            for block, length in zip(blocks, lengths, strict=True)
-        ]
-        if all(part.shape[1:] == sample.shape[1:] for part in parts):
-            joined[name] = np.concatenate(parts)
-    return joined

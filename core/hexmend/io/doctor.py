@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.io.orientation import turned
 from hexmend.mesh import Mesh
 from hexmend.quality import measure
 
@@ -28,7 +29,12 @@ def examine(mesh: Mesh) -> tuple[Finding, ...]:
         if count:
             found.append(Finding(kind, count, message.format(count=f"{count:,}"), remedy))
 
-    unused = int(np.count_nonzero(~mesh.topology.used))
+    used = mesh.topology.used.copy()
+    for nodes in (() if mesh.mid_nodes is None else (mesh.mid_nodes[mesh.mid_nodes >= 0],)) + tuple(
+        cells.nodes for cells in mesh.cells
+    ):
+        used[nodes] = True
+    unused = int(np.count_nonzero(~used))
     add("unused-nodes", unused, "{count} nodes belong to no hex; they are kept and never moved.")
     places = mesh.points[mesh.topology.used]
     add(
@@ -69,17 +75,7 @@ def examine(mesh: Mesh) -> tuple[Finding, ...]:
 
 def mirrored(mesh: Mesh) -> Mesh:
     """The mesh with the lower and the upper face of every hex swapped, which turns each inside out."""
-    return Mesh(
-        mesh.points,
-        mesh.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]],
-        pinned=mesh.pinned,
-        node_data=mesh.node_data,
-        hex_data=mesh.hex_data,
-        node_sets=mesh.node_sets,
-        hex_sets=mesh.hex_sets,
-        cells=mesh.cells,
-        name=mesh.name,
-    )
+    return turned(mesh, np.ones(mesh.n_hexes, dtype=bool))
 
 
 def _repeated(rows: np.ndarray) -> int:

@@ -1,30 +1,36 @@
-"""Reading and writing by suffix: the one door through which every format is used."""
+"""Reading and writing by suffix and content: the one door through which every format is used."""
 
 from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import NoReturn
 
 from hexmend.errors import FileError, MeshError
 from hexmend.io.atomic import replacing
+from hexmend.io.carried import found_in
 from hexmend.io.format import FORMATS, Format
+from hexmend.io.orientation import upright
 from hexmend.mesh import Mesh
 
 
-def read(path: str | os.PathLike[str]) -> Mesh:
+def read(path: str | os.PathLike[str], *, as_is: bool = False) -> Mesh:
     """Read a hexahedral mesh.
 
     Parameters
     ----------
     path : path-like
-        A file with one of `readable_suffixes()`.
+        A file of one of the formats, which its content tells where its suffix does not.
+    as_is : bool
+        Keep parts whose hexes are all wound the other way as they are; else they are turned.
 
     Returns
     -------
     Mesh
-        Named after the file's stem. Node and hex order, data, sets, pins and cells of lower dimension are kept.
+        Named after the file's stem. Node and hex order, data, sets, pins and other cells are kept. Its `notes`
+        say what was done to it.
 
     Raises
     ------
@@ -33,9 +39,10 @@ def read(path: str | os.PathLike[str]) -> Mesh:
     """
     path = Path(path)
     check_readable(path, "a mesh file")
-    format = _by_suffix(path, "read")
+    format = _format_of(path)
     try:
-        return format.read(path).replace(name=path.stem)
+        mesh = format.read(path).replace(name=path.stem)
+        return mesh if as_is else upright(mesh)
     except MeshError as error:
         raise FileError(
             path, str(error), "Correct the file, or write it again with the program that made it."
@@ -65,7 +72,7 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
         Where the place cannot be written to, or the format cannot hold the mesh.
     """
     path = Path(path)
-    format = _by_suffix(path, "write")
+    format = _writer(path)
     encoding = format.encodings[0] if encoding is None else encoding
     if encoding not in format.encodings:
         raise FileError(
@@ -87,7 +94,7 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
         For an unknown suffix, or a folder that does not exist.
     """
     path = Path(path)
-    _by_suffix(path, "write")
+    _writer(path)
     if not path.absolute().parent.is_dir():
         raise FileError(
             path, f"cannot be written: there is no folder {path.parent}", "Make the folder or choose another."
@@ -96,8 +103,9 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
 
 
 def left_out(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
-    """The named groups of hexes that a file with this suffix cannot hold."""
-    return [] if _by_suffix(Path(path), "write").holds_hex_sets else sorted(mesh.hex_sets)
+    """What comes with a mesh that a file with this suffix cannot hold, in words."""
+    format = _writer(Path(path))
+    return [words for kind, words in found_in(mesh, format.names).items() if kind not in format.holds]
 
 
 def readable_suffixes() -> tuple[str, ...]:
@@ -107,14 +115,37 @@ def readable_suffixes() -> tuple[str, ...]:
 
 def writable_suffixes() -> tuple[str, ...]:
     """Suffixes of the files that `write` makes, with the dot."""
-    return readable_suffixes()
+    return tuple(suffix for format in FORMATS.values() if format.write for suffix in format.suffixes)
 
 
-def _by_suffix(path: Path, verb: str) -> Format:
+#: How much of a file is looked at to recognise its format.
+_HEAD = 4096
+
+
+def _format_of(path: Path) -> Format:
+    """The format of a file: that of its suffix, unless the content is plainly that of another."""
+    named = [format for format in FORMATS.values() if path.suffix.lower() in format.suffixes]
+    with open(path, "rb") as file:
+        head = file.read(_HEAD)
+    for format in named:
+        if format.recognised is None or format.recognised(head):
+            return format
     for format in FORMATS.values():
+        if format.recognised is not None and format.recognised(head):
+            return format
+    return named[0] if named else _unknown(path, "read", FORMATS.values())
+
+
+def _writer(path: Path) -> Format:
+    formats = [format for format in FORMATS.values() if format.write]
+    for format in formats:
         if path.suffix.lower() in format.suffixes:
             return format
-    known = ", ".join(f"{suffix} ({format.title})" for format in FORMATS.values() for suffix in format.suffixes)
+    return _unknown(path, "write", formats)
+
+
+def _unknown(path: Path, verb: str, formats: Iterable[Format]) -> NoReturn:
+    known = ", ".join(f"{suffix} ({format.title})" for format in formats for suffix in format.suffixes)
     problem = f"the suffix {path.suffix!r} is unknown" if path.suffix else "the name has no suffix"
     raise FileError(path, problem, f"Hexmend can {verb} {known}.")
 

@@ -1,13 +1,30 @@
-"""What a file format is, and the registry in which formats announce themselves."""
+"""What a file format is, what it can hold, and the registry in which formats announce themselves."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
 
 from hexmend.mesh import Mesh
 from hexmend.registry import Registry
+
+
+class Holds(Enum):
+    """Something that comes with a mesh, in words; whether a mesh has it is asked by `found_in`."""
+
+    NODE_DATA = "point data"
+    HEX_DATA = "cell data"
+    IDS = "ids of nodes and elements"
+    NODE_SETS = "node sets"
+    HEX_SETS = "element sets"
+    SIDE_SETS = "side sets"
+    PINS = "fixed nodes"
+    LOWER_CELLS = "cells of lower dimension"
+    OTHER_CELLS = "tetrahedra, pyramids and wedges"
+    SECOND_ORDER = "nodes of second order"
+    FIELD_DATA = "field data"
 
 
 @dataclass(frozen=True)
@@ -23,13 +40,17 @@ class Format:
     suffixes : tuple of str
         Lower case, with the dot.
     encodings : tuple of str
-        How its numbers can be written ("binary", "ascii", ...); the first is the default.
+        How its numbers can be written ("binary", "ascii", ...); the first is the default. Empty where it is read only.
     read : callable
         From path to Mesh; raises FileError or MeshError, and OSError where the file system fails.
-    write : callable
+    write : callable, optional
         From path, mesh and an encoding to nothing; opens the path itself.
-    holds_hex_sets : bool
-        Whether named groups of hexes are written; where not, they are left out.
+    holds : frozenset of Holds
+        What is written, and read again as it was; all else is left out, which `left_out` says.
+    names : frozenset of str
+        Data and sets that are held by their names, though others are not.
+    recognised : callable, optional
+        Whether a file that begins with these bytes (some 4,096, or all) is of this format, whatever its suffix.
     """
 
     name: str
@@ -37,8 +58,10 @@ class Format:
     suffixes: tuple[str, ...]
     encodings: tuple[str, ...]
     read: Callable[[Path], Mesh]
-    write: Callable[[Path, Mesh, str], None]
-    holds_hex_sets: bool = True
+    write: Callable[[Path, Mesh, str], None] | None = None
+    holds: frozenset[Holds] = frozenset()
+    names: frozenset[str] = frozenset()
+    recognised: Callable[[bytes], bool] | None = None
 
 
 #: Every format by name.

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.io.decimals import blocks, lines
 from hexmend.io.format import FORMATS, Format
-from hexmend.io.medit_content import SECTIONS, from_mesh, to_mesh
+from hexmend.io.medit_content import HELD, NAMES_HELD, SECTIONS, from_mesh, to_mesh
 from hexmend.io.source import Source, shown
 from hexmend.mesh import Mesh
 
@@ -80,4 +80,4 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(b"End\n")
 
 
-FORMATS.add("medit", Format("medit", "Medit", (".mesh",), ("ascii",), read, write, holds_hex_sets=False))
+FORMATS.add("medit", Format("medit", "Medit", (".mesh",), ("ascii",), read, write, holds=HELD, names=NAMES_HELD))

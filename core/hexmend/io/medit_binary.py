@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.format import FORMATS, Format
-from hexmend.io.medit_content import SECTIONS, from_mesh, to_mesh
+from hexmend.io.medit_content import HELD, NAMES_HELD, SECTIONS, from_mesh, to_mesh
 from hexmend.io.source import Source
 from hexmend.mesh import Mesh
 
@@ -94,5 +94,6 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 
 FORMATS.add(
-    "medit-binary", Format("medit-binary", "binary Medit", (".meshb",), ("binary",), read, write, holds_hex_sets=False)
+    "medit-binary",
+    Format("medit-binary", "binary Medit", (".meshb",), ("binary",), read, write, holds=HELD, names=NAMES_HELD),
 )

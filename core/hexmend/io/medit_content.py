@@ -8,7 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.mesh import Cells, Mesh, check_node_numbers
+from hexmend.io.content import Block, Content
+from hexmend.io.content import to_mesh as mesh_of
+from hexmend.io.format import Holds
+from hexmend.mesh import Mesh
 
 
 @dataclass(frozen=True)
@@ -44,8 +47,10 @@ SECTIONS = {
     )
 }
 REF = "medit:ref"
-_LOWER = {"Edges": "line", "Triangles": "triangle", "Quadrilaterals": "quad"}
-_REFUSED = ("Tetrahedra", "Prisms", "Pyramids")
+_CELLS = {
+    "Edges": "line", "Triangles": "triangle", "Quadrilaterals": "quad",
+    "Tetrahedra": "tetra", "Prisms": "wedge", "Pyramids": "pyramid",
+}  # fmt: skip
 #: Lists of cells, as flags on these cells: section, kind of cell, name of the flag.
 _FLAGS = (
     ("Ridges", "line", "medit:ridge"),
@@ -53,6 +58,9 @@ _FLAGS = (
     ("RequiredTriangles", "triangle", "medit:required"),
     ("RequiredQuadrilaterals", "quad", "medit:required"),
 )
+#: What the format holds, and which names of data and sets.
+HELD = frozenset({Holds.PINS, Holds.LOWER_CELLS, Holds.OTHER_CELLS})
+NAMES_HELD = frozenset({REF, "corners", "required"})
 _NODE_SETS = {"Corners": "corners", "RequiredVertices": "required"}
 
 
@@ -67,25 +75,16 @@ def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str
     sections : mapping of keyword to (rows, width) int array
         Numbers from 1, as the format counts.
     """
-    for name in _REFUSED:
-        if len(sections.get(name, ())):
-            rows = len(sections[name])
-            raise FileError(
-                path, f"holds {rows} {name}; Hexmend reads Hexahedra", f"Convert or remove the {rows} {name}."
-            )
-    if not len(sections.get("Hexahedra", ())):
-        raise FileError(path, "holds no Hexahedra", "Hexmend works on hexahedral meshes only.")
     flags = {(kind, flag): sections[name][:, 0] - 1 for name, kind, flag in _FLAGS if name in sections}
-    cells = []
-    for name, kind in _LOWER.items():
+    blocks = []
+    for name, kind in _CELLS.items():
         if len(sections.get(name, ())):
             rows = sections[name]
-            check_node_numbers(rows[:, :-1] - 1, len(points))
             data = {REF: rows[:, -1].copy()}
             for (of, flag), members in flags.items():
                 if of == kind:
                     data[flag] = _mask(path, flag, members, len(rows))
-            cells.append(Cells(kind, (rows[:, :-1] - 1).astype(np.int32), data))
+            blocks.append(Block(kind, rows[:, :-1] - 1, data))
     node_sets = {}
     for name, title in _NODE_SETS.items():
         if name in sections:
@@ -95,22 +94,16 @@ def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str
     pinned = None
     if "required" in node_sets:
         pinned = _mask(path, "RequiredVertices", node_sets["required"], len(points)).astype(bool)
-    hexes = sections["Hexahedra"]
-    return Mesh(
-        points,
-        hexes[:, :8] - 1,
-        pinned=pinned,
-        node_data={REF: refs},
-        hex_data={REF: hexes[:, 8].copy()},
-        node_sets=node_sets,
-        cells=tuple(cells),
-    )
+    hexes = sections.get("Hexahedra", np.empty((0, 9), np.int64))
+    blocks.append(Block("hex", hexes[:, :8] - 1, {REF: hexes[:, 8].copy()}))
+    content = Content(points, tuple(blocks), {REF: refs}, node_sets, pinned=pinned)
+    return mesh_of(path, content)
 
 
 def from_mesh(mesh: Mesh) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """References of the nodes (n,), and the sections by keyword, numbers from 1."""
     sections: dict[str, np.ndarray] = {}
-    for name, kind in _LOWER.items():
+    for name, kind in _CELLS.items():
         blocks = [cells for cells in mesh.cells if cells.kind == kind]
         if blocks:
             sections[name] = np.concatenate([_with_refs(cells.nodes, cells.data.get(REF)) for cells in blocks])

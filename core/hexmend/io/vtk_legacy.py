@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.carry import Grid, from_mesh, to_mesh
 from hexmend.io.decimals import blocks, lines
-from hexmend.io.format import FORMATS, Format
+from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.source import Source, shown
 from hexmend.mesh import Mesh
 
@@ -282,4 +282,16 @@ def _of_one_width(widths: np.ndarray) -> list[tuple[int, int]]:
     return list(pairwise([0, *ends]))
 
 
-FORMATS.add("vtk", Format("vtk", "VTK legacy", (".vtk",), ("binary", "ascii"), read, write))
+FORMATS.add(
+    "vtk",
+    Format(
+        "vtk",
+        "VTK legacy",
+        (".vtk",),
+        ("binary", "ascii"),
+        read,
+        write,
+        holds=frozenset(Holds) - {Holds.SIDE_SETS, Holds.FIELD_DATA},
+        recognised=lambda head: head[:40].lower().lstrip().startswith(b"# vtk datafile"),
+    ),
+)

@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.carry import LOWER, Grid, from_mesh, to_mesh
-from hexmend.io.format import FORMATS, Format
-from hexmend.mesh import Mesh
+from hexmend.io.carry import Grid, from_mesh, to_mesh
+from hexmend.io.format import FORMATS, Format, Holds
+from hexmend.mesh import CELL_KINDS, Mesh
 
 log = logging.getLogger(__name__)
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 #: meshlane's names of the cells that it tells us of, and VTK's numbers.
-_NUMBERS = {"hexahedron": 12, "voxel": 11, **{kind: number for number, (kind, _) in LOWER.items()}}
+_NUMBERS = {"hexahedron": 12, "voxel": 11, **{name: kind.vtk for name, kind in CELL_KINDS.items()}}
 
 
 def read(path: Path) -> Mesh:
@@ -128,4 +128,6 @@ def _native(values: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("="))
 
 
-FORMATS.add("vtu", Format("vtu", "VTU", (".vtu",), ("binary",), read, write))
+HELD = frozenset(Holds) - {Holds.SIDE_SETS, Holds.FIELD_DATA}
+
+FORMATS.add("vtu", Format("vtu", "VTU", (".vtu",), ("binary",), read, write, HELD))

@@ -9,7 +9,6 @@ from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.questions import Answer, ask_target, ask_unsaved
-from hexmend_app.widgets.wording import counted
 
 
 class FeatureSave(Feature):
@@ -74,9 +73,8 @@ class FeatureSave(Feature):
         saved = self.host.said("The mesh was not saved", lambda: left_out.extend(save(path)), f"Saved to {path}")
         if left_out:
             self.host.messages.show_warning(
-                "The tags are not in it",
-                f"A {Path(path).suffix} file cannot hold {counted(len(left_out), 'tag')}: {', '.join(left_out)}. "
-                "Save as .vtu or .vtk to keep them.",
+                "Not all is in it",
+                f"A {Path(path).suffix} file cannot hold {', '.join(left_out)}. Save as .vtu to keep more.",
             )
         return saved
 

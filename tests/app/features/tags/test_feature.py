@@ -150,5 +150,5 @@ def test_a_format_that_cannot_hold_tags_is_said(window, panel, tmp_path):
     window.session.commands.tag("lost", [5])
     assert window.features["save"].mesh(tmp_path / "mesh.mesh")
     kind, title, text = window.messages.messages()[-1]
-    assert (kind, title) == ("warning", "The tags are not in it")
+    assert (kind, title) == ("warning", "Not all is in it")
     assert "lost" in text

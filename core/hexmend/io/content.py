@@ -1,0 +1,197 @@
+"""What a file holds, as every reader hands it over and every writer takes it: blocks of cells of one kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.mesh import CELL_KINDS, Cells, Mesh, check_node_numbers
+
+#: Kinds of hexes, and how many nodes they have; in the order of VTK's types 12, 25 and 29.
+HEX_KINDS = {"hex": 8, "hex20": 20, "hex27": 27}
+
+#: Name of point data that mark fixed nodes.
+FIXED = "fixed"
+
+#: Names of data that hold the file's own numbers of nodes and cells.
+ID = "id"
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Cells of one kind.
+
+    Parameters
+    ----------
+    kind : str
+        One of `HEX_KINDS` or `CELL_KINDS`.
+    nodes : (k, width) int array
+        From 0, in the order of VTK.
+    data : mapping of name to (k, ...) array
+        "id" holds the file's own numbers of the cells.
+    sets : mapping of name to (j,) int array
+        Named groups of the block's cells, by their places in it.
+    """
+
+    kind: str
+    nodes: np.ndarray
+    data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.nodes)
+
+
+@dataclass(frozen=True, eq=False)
+class Content:
+    """Points, blocks of cells, and what is said of them.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    blocks : sequence of Block
+    node_data : mapping of name to (n, ...) array
+    node_sets : mapping of name to (k,) int array
+    side_sets : mapping of name to (k, 2) int array
+        The hex, counted through the blocks of hexes, and which of `hexmend.hexahedron.FACES`.
+    pinned : (n,) bool, optional
+    field_data : mapping
+    notes : sequence of str
+    """
+
+    points: np.ndarray
+    blocks: tuple[Block, ...]
+    node_data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    node_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    side_sets: Mapping[str, np.ndarray] = field(default_factory=dict)
+    pinned: np.ndarray | None = None
+    field_data: Mapping[str, object] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+
+def to_mesh(path: Path, content: Content) -> Mesh:
+    """The mesh that a file's content makes.
+
+    Raises
+    ------
+    FileError
+        Where no cell is a hex: it says what there is.
+    MeshError
+        From `Mesh`.
+    """
+    hexes = [block for block in content.blocks if block.kind in HEX_KINDS and len(block)]
+    others = [block for block in content.blocks if block.kind not in HEX_KINDS and len(block)]
+    if not hexes:
+        what = f", but {_inventory(others)}" if others else ""
+        raise FileError(path, f"holds no hexahedra{what}", "Hexmend works on hexahedral meshes only.")
+    for block in content.blocks:
+        if len(block):
+            check_node_numbers(block.nodes, len(content.points))
+    lengths = [len(block) for block in hexes]
+    volumes = [block for block in others if CELL_KINDS[block.kind].dimension == 3]
+    notes = list(content.notes)
+    if volumes:
+        notes.append(f"{_inventory(volumes)} beside the hexes are kept as they are, and their nodes fixed.")
+    pinned = _pinned(content)
+    if volumes:
+        pinned = np.zeros(len(content.points), bool) if pinned is None else pinned.copy()
+        for block in volumes:
+            pinned[block.nodes] = True
+    return Mesh(
+        content.points,
+        np.concatenate([block.nodes[:, :8] for block in hexes]),
+        pinned=pinned,
+        node_data=content.node_data,
+        hex_data=joined([block.data for block in hexes], lengths),
+        node_sets=content.node_sets,
+        hex_sets=_joined_sets([block.sets for block in hexes], lengths),
+        cells=tuple(Cells(block.kind, block.nodes.astype(np.int32), block.data, block.sets) for block in others),
+        side_sets=content.side_sets,
+        mid_nodes=_mid_nodes(hexes),
+        field_data=content.field_data,
+        notes=tuple(notes),
+    )
+
+
+def from_mesh(mesh: Mesh) -> Content:
+    """The content that a file of the mesh holds: blocks of hexes first, by the number of their nodes."""
+    return Content(
+        mesh.points,
+        (*(block for block, _ in hex_blocks(mesh)), *(Block(c.kind, c.nodes, c.data, c.sets) for c in mesh.cells)),
+        mesh.node_data,
+        mesh.node_sets,
+        mesh.side_sets,
+        mesh.pinned,
+        mesh.field_data,
+    )
+
+
+def hex_blocks(mesh: Mesh) -> Iterator[tuple[Block, np.ndarray]]:
+    """The hexes of first and second order as blocks, with their numbers in the mesh."""
+    if mesh.mid_nodes is None:
+        yield Block("hex", mesh.hexes, mesh.hex_data, mesh.hex_sets), np.arange(mesh.n_hexes)
+        return
+    more = (mesh.mid_nodes >= 0).sum(axis=1)
+    for kind, width in HEX_KINDS.items():
+        chosen = np.flatnonzero(more == width - 8)
+        if chosen.size:
+            place = np.full(mesh.n_hexes, -1)
+            place[chosen] = np.arange(chosen.size)
+            nodes = np.column_stack([mesh.hexes[chosen], mesh.mid_nodes[chosen, : width - 8]])
+            sets = {name: place[members][place[members] >= 0] for name, members in mesh.hex_sets.items()}
+            data = {name: np.asarray(values)[chosen] for name, values in mesh.hex_data.items()}
+            yield Block(kind, nodes, data, {name: members for name, members in sets.items() if members.size}), chosen
+
+
+def joined(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
+    """One array over all cells for each name; zeros where a block has none of that name."""
+    answer = {}
+    for name in dict.fromkeys(name for part in parts for name in part):
+        sample = next(np.asarray(part[name]) for part in parts if name in part)
+        arrays = [
+            np.asarray(part[name]) if name in part else np.zeros((length, *sample.shape[1:]), sample.dtype)
+            for part, length in zip(parts, lengths, strict=True)
+        ]
+        if all(array.shape[1:] == sample.shape[1:] for array in arrays):
+            answer[name] = np.concatenate(arrays)
+    return answer
+
+
+def _joined_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
+    first = np.concatenate([[0], np.cumsum(lengths)])
+    return {
+        name: np.concatenate([np.asarray(part[name]) + first[k] for k, part in enumerate(parts) if name in part])
+        for name in dict.fromkeys(name for part in parts for name in part)
+    }
+
+
+def _mid_nodes(hexes: list[Block]) -> np.ndarray | None:
+    if all(block.kind == "hex" for block in hexes):
+        return None
+    rows = []
+    for block in hexes:
+        row = np.full((len(block), 19), -1, np.int32)
+        row[:, : block.nodes.shape[1] - 8] = block.nodes[:, 8:]
+        rows.append(row)
+    return np.concatenate(rows)
+
+
+def _pinned(content: Content) -> np.ndarray | None:
+    """Pins of the file, or those that data named "fixed" make."""
+    if content.pinned is not None:
+        return content.pinned
+    marks = [np.asarray(v) for k, v in content.node_data.items() if k.lower() == FIXED and np.ndim(v) == 1]
+    return marks[0] != 0 if marks and marks[0].dtype.kind in "biuf" else None
+
+
+def _inventory(blocks: list[Block]) -> str:
+    """What cells there are, in words."""
+    counts: dict[str, int] = {}
+    for block in blocks:
+        counts[block.kind] = counts.get(block.kind, 0) + len(block)
+    words = [f"{count:,} {kind} cell{'s' * (count != 1)}" for kind, count in counts.items()]
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words) or "no cells"

@@ -1,0 +1,65 @@
+"""Hexes wound the other way: their corners are numbered left-handed, so that each is inside out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.kernels import elements
+from hexmend.mesh import Mesh
+from hexmend.second_order import EXCHANGED
+
+#: Corners of a hex whose lower and upper face are exchanged; and its faces.
+TURNED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])
+TURNED_FACES = np.array([0, 1, 2, 3, 5, 4])
+
+
+def upright(mesh: Mesh) -> Mesh:
+    """The mesh with every part turned all of whose hexes are wound the other way, and a note that says so.
+
+    Parts hang together by nodes. Single inverted hexes are never turned: they are what is to be mended.
+    """
+    sigma = np.empty((mesh.n_hexes, 8))
+    elements.corner_determinants(mesh.points, mesh.hexes, sigma)
+    with np.errstate(all="ignore"):  # of coordinates that are very large
+        wrong = sigma.sum(axis=1) < 0
+    if not wrong.any():
+        return mesh
+    part = parts_of(mesh)
+    whole = np.bincount(part) == np.bincount(part, wrong, minlength=part.max() + 1)
+    if not whole.any():
+        return mesh
+    which = whole[part]
+    parts, count = int(whole.sum()), int(which.sum())
+    where = (
+        "All hexes" if count == mesh.n_hexes else f"{count:,} hexes, which are {parts} whole part{'s' * (parts > 1)},"
+    )
+    return turned(mesh, which).replace(
+        notes=(*mesh.notes, f"{where} were wound the other way (inside out) in the file, and have been turned.")
+    )
+
+
+def turned(mesh: Mesh, which: np.ndarray) -> Mesh:
+    """The mesh with the lower and the upper face of some hexes, (m,) bool, exchanged: each is turned inside out."""
+    hexes = mesh.hexes.copy()
+    hexes[which] = hexes[which][:, TURNED_CORNERS]
+    mids = None
+    if mesh.mid_nodes is not None:
+        mids = mesh.mid_nodes.copy()
+        mids[which] = mids[which][:, EXCHANGED]
+    sides = {}
+    for name, rows in mesh.side_sets.items():
+        sides[name] = rows = np.array(rows)
+        there = which[rows[:, 0]]
+        rows[there, 1] = TURNED_FACES[rows[there, 1]]
+    return mesh.rebuilt(hexes=hexes, mid_nodes=mids, side_sets=sides)
+
+
+def parts_of(mesh: Mesh) -> np.ndarray:
+    """The part that each hex belongs to, parts hanging together by nodes; (m,) int from 0."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    m = mesh.n_hexes
+    ends = np.repeat(np.arange(m), 8), mesh.hexes.ravel() + m
+    graph = coo_array((np.ones(8 * m, np.int8), ends), (m + mesh.n_nodes,) * 2)
+    return np.unique(connected_components(graph, directed=False)[1][:m], return_inverse=True)[1]

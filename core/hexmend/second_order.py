@@ -1,0 +1,82 @@
+"""Hexahedra of second order: the nodes that they have besides their corners, and how these follow them.
+
+Numbered as VTK numbers types 25 (20 nodes) and 29 (27 nodes), after the corners 0 to 7::
+
+    8 to 19    the middles of the edges 01 12 23 30, 45 56 67 74, 04 15 26 37
+    20 to 25   those of the faces x-, x+, y-, y+, z-, z+
+    26         that of the hex
+
+`mid_nodes` (m, 19) int32 holds nodes 8 to 26 of each hex, -1 where it has none.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.errors import MeshError
+from hexmend.hexahedron import FACES, UNIT_CUBE
+
+#: The edges of nodes 8 to 19.
+MID_EDGES = np.array(
+    [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]], dtype=np.int64
+)
+
+#: Places of nodes 8 to 26 in the unit cube, (19, 3).
+MID_PLACES = np.concatenate(
+    [UNIT_CUBE[MID_EDGES].mean(axis=1), UNIT_CUBE[FACES].mean(axis=1), UNIT_CUBE.mean(axis=0)[None]]
+)
+
+#: Shares of the corners in nodes 8 to 26, (19, 8): the trilinear functions of the corners there.
+SHARES = np.prod(np.where(UNIT_CUBE[None] == 1, MID_PLACES[:, None], 1 - MID_PLACES[:, None]), axis=2)
+
+#: Where nodes 8 to 26 are in a hex whose lower and upper face are exchanged.
+EXCHANGED = np.array([4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 17, 16, 18])
+
+
+def following(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
+    """Places of all nodes once those of second order have followed the corners.
+
+    A node moves as the trilinear map of the corners moves its place, so that an element that is carried as a whole
+    keeps its shape, and a node on a boundary whose corners stay does not move.
+
+    Parameters
+    ----------
+    before, after : (n, 3) float64
+        Of `after` only the corners count.
+    hexes : (m, 8) int32
+    mid_nodes : (m, 19) int32
+
+    Returns
+    -------
+    (n, 3) float64
+        A copy of `after`.
+    """
+    answer = after.copy()
+    for corner in range(mid_nodes.shape[1]):
+        chosen = np.flatnonzero(mid_nodes[:, corner] >= 0)
+        nodes = mid_nodes[chosen, corner]
+        nodes, first = np.unique(nodes, return_index=True)  # hexes that share it agree on it
+        used = np.flatnonzero(SHARES[corner])
+        corners = hexes[chosen[first]][:, used]
+        moves = np.einsum("c,kcx->kx", SHARES[corner, used], after[corners] - before[corners])
+        answer[nodes] = before[nodes] + moves
+    return answer
+
+
+def check_mid_nodes(mid_nodes: np.ndarray, hexes: int, nodes: int) -> np.ndarray:
+    """The nodes of second order as an array of their type and shape.
+
+    Raises
+    ------
+    MeshError
+        Where the shape is another, or a node does not exist.
+    """
+    numbers = np.asarray(mid_nodes)
+    if numbers.shape != (hexes, len(MID_PLACES)):
+        raise MeshError(f"mid_nodes have shape {numbers.shape}: expected ({hexes}, {len(MID_PLACES)})")
+    if numbers.size and (numbers.min() < -1 or numbers.max() >= nodes):
+        h = int(np.nonzero(((numbers < -1) | (numbers >= nodes)).any(axis=1))[0][0])
+        raise MeshError(
+            f"hex {h} (counted from 0) has mid-nodes {numbers[h].tolist()}: expected numbers up to {nodes - 1}"
+        )
+    return np.array(numbers, dtype=np.int32, order="C", copy=True)
