@@ -7,6 +7,15 @@ from dataclasses import dataclass
 from typing import Any
 
 
+def printable(text: str) -> str:
+    r"""A text from outside, fit for a terminal: one line, and no codes that steer it.
+
+    >>> printable("name\x1b[2J of\na file")
+    'name?[2J of a file'
+    """
+    return "".join(letter if letter.isprintable() else "?" for letter in text.replace("\n", " "))
+
+
 class Worse(str):
     """The text of a figure that is worse than it was; tables that have colours show it in red."""
 

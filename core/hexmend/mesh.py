@@ -152,6 +152,7 @@ class Mesh:
         if numbers.ndim != 2 or numbers.shape[1] != 8 or numbers.shape[0] == 0:
             raise MeshError(f"hexes have shape {numbers.shape}: expected (m, 8) with at least one hex")
         check_finite(points)
+        check_size(points)
         check_node_numbers(numbers, len(points))
         self._set(points=_frozen(points), hexes=_frozen(np.array(numbers, dtype=np.int32, order="C", copy=True)))
         self._check_carried()
@@ -304,6 +305,22 @@ def _usual_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
         lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
     kept = lengths.size - lengths.size // 10
     return float(np.partition(lengths, kept - 1)[:kept].mean())
+
+
+#: The largest coordinate and the least size of a mesh: beyond them fourth powers of lengths are no numbers.
+LARGEST, SMALLEST = 1e75, 1e-75
+
+
+def check_size(points: np.ndarray) -> None:
+    """Raise `MeshError` where lengths are so large, or so small, that volumes are beyond what numbers can be."""
+    if not len(points):
+        return
+    low, high = points.min(axis=0), points.max(axis=0)
+    far, size = max(-low.min(), high.max()), float((high - low).max())
+    if far > LARGEST:
+        raise MeshError(f"coordinates go up to {far:.3g}: expected {LARGEST:g} at most; choose a larger unit of length")
+    if 0 < size < SMALLEST:
+        raise MeshError(f"the mesh is {size:.3g} wide: expected {SMALLEST:g} at least; choose a smaller unit of length")
 
 
 def check_finite(points: np.ndarray) -> None:

@@ -1,7 +1,7 @@
 """The program `hexmend`: finds the command, runs it, says in one line what went wrong.
 
 Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used; 4 done, and hexes are still inverted;
-130 interrupted.
+128 and the signal's number (130 for Ctrl-C) where it was interrupted.
 
 A command pays for what it uses: modules are imported where they are needed, here and in the commands.
 """
@@ -11,6 +11,7 @@ from __future__ import annotations
 import atexit
 import gc
 import importlib
+import io
 import os
 import sys
 
@@ -30,14 +31,32 @@ _DEFAULT = "view"
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
+    _speak_any_tongue()
     try:
-        return _main(list(sys.argv[1:] if argv is None else argv))
-    except KeyboardInterrupt:
+        status = _main(list(sys.argv[1:] if argv is None else argv))
+        sys.stdout.flush()
+        return status
+    except KeyboardInterrupt as interrupt:
         print("hexmend: interrupted", file=sys.stderr)
-        return 130
+        return 128 + getattr(interrupt, "number", 2)
     except BrokenPipeError:  # the reader (head, less) has gone: nothing more to say
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _say_no_more()
         return 0
+    except OSError as error:
+        _say_no_more()
+        print(f"hexmend: what is printed cannot be written: {error.strerror or error}", file=sys.stderr)
+        return 3
+
+
+def _speak_any_tongue() -> None:
+    """What a terminal's encoding has no letters for is replaced, and does not end the program."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
+def _say_no_more() -> None:
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _main(words: list[str]) -> int:
@@ -86,7 +105,9 @@ def _own_commands() -> dict[str, Callable[[], Command]]:
 def _run(load: Callable[[], Command], words: list[str]) -> int:
     import argparse
 
+    from hexmend.cli.command.interrupts import EndsCleanly
     from hexmend.errors import FileError, HexmendError, MeshError
+    from hexmend.figures import printable
 
     try:
         command = load()
@@ -96,9 +117,12 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
             args = parser.parse_args(words)
         except SystemExit as leave:  # argparse has said what is wrong
             return int(leave.code or 0)
-        return command.run(args)
+        if command.name == _DEFAULT:  # the window has a loop of its own
+            return command.run(args)
+        with EndsCleanly():
+            return command.run(args)
     except HexmendError as error:
-        print(f"hexmend: {error}".replace("\n", " "), file=sys.stderr)
+        print(f"hexmend: {printable(str(error))}", file=sys.stderr)
         return 3 if isinstance(error, FileError | MeshError) else 2
 
 

@@ -25,7 +25,7 @@ class Smooth:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.advice import advise
-        from hexmend.cli.command.files import say_left_out, say_notes
+        from hexmend.cli.command.files import check_targets, say_left_out, say_notes
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
         from hexmend.cli.tables import print_summaries
@@ -34,7 +34,8 @@ class Smooth:
         from hexmend.run import iterate
 
         what, stop = chosen(args)
-        write = writer_for(args.output)  # an unknown suffix is said before the work, not after
+        write = writer_for(args.output)  # what cannot be written is said before the work, not after
+        check_targets(args.mesh, args.json, args.history, args.save_recipe)
         mesh = read(args.mesh, as_is=args.as_is)
         say_notes(mesh)
         say_left_out(args.output, mesh)

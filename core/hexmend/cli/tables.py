@@ -7,7 +7,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from hexmend.figures import Worse
+from hexmend.figures import Worse, printable
 
 if TYPE_CHECKING:
     from hexmend.quality import Spread, Summary
@@ -17,7 +17,7 @@ def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summar
     """Print one or several summaries side by side; what is worse than in the first stands out."""
     from hexmend.quality import FIGURES, JUDGED, worse
 
-    print(title)
+    print(printable(title))
     columns = [(summary.to_dict(), {JUDGED[name] for name in worse(summaries[0], summary)}) for summary in summaries]
     rows = [
         [

@@ -42,10 +42,8 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
             return
         target, mode = _writable(path)
         temporary = target.with_name(f".hexmend-{os.urandom(4).hex()}{target.suffix}")
-        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        _create(temporary, mode)
         yield temporary
-        if mode is not None:
-            os.chmod(temporary, mode)
         os.replace(temporary, target)
     except OSError as error:
         if error.filename is not None and Path(error.filename) not in (path, temporary):
@@ -57,6 +55,23 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         if temporary is not None:
             with suppress(OSError):
                 temporary.unlink()
+
+
+def check_writable(path: str | os.PathLike[str]) -> None:
+    """Raise `FileError` where `replacing` would, as far as can be known before anything is written."""
+    path = Path(path)
+    if not path.exists() or path.is_file() or path.is_dir():
+        _writable(path)
+
+
+def _create(path: Path, mode: int | None) -> None:
+    """Make an empty file with the permissions of the one it replaces, from the first byte on."""
+    handle = os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666 if mode is None else 0o600)
+    try:
+        if mode is not None:
+            os.fchmod(handle, mode)
+    finally:
+        os.close(handle)
 
 
 def _writable(path: Path) -> tuple[Path, int | None]:

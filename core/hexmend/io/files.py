@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from hexmend.errors import FileError, MeshError
-from hexmend.io.atomic import replacing
+from hexmend.io.atomic import check_writable, replacing
 from hexmend.io.carried import found_in
 from hexmend.io.format import FORMATS, Format
 from hexmend.io.orientation import upright
@@ -91,14 +91,11 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
     Raises
     ------
     FileError
-        For an unknown suffix, or a folder that does not exist.
+        For an unknown suffix, or a place that cannot be written to.
     """
     path = Path(path)
     _writer(path)
-    if not path.absolute().parent.is_dir():
-        raise FileError(
-            path, f"cannot be written: there is no folder {path.parent}", "Make the folder or choose another."
-        )
+    check_writable(path)
     return write
 
 

@@ -30,3 +30,29 @@ def say_left_out(path: str, mesh: Mesh) -> None:
 
     for what in left_out(path, mesh):
         print(f"hexmend: warning: {path} cannot hold {what}, which is left out", file=sys.stderr)
+
+
+def check_targets(source: str, *targets: str | None) -> None:
+    """Raise `FileError` before any work is done where a report cannot be written, or would replace the mesh itself.
+
+    Parameters
+    ----------
+    source : str
+        The mesh that is read.
+    targets : str or None
+        Files to be written besides the mesh.
+    """
+    from pathlib import Path
+
+    from hexmend.errors import FileError
+    from hexmend.io.atomic import check_writable
+
+    taken: set[Path] = {Path(source).resolve()}
+    for target in targets:
+        if target is None:
+            continue
+        path = Path(target)
+        if path.resolve() in taken:
+            raise FileError(path, "is the mesh, or another file to be written", "Choose another name for it.")
+        check_writable(path)
+        taken.add(path.resolve())

@@ -9,6 +9,8 @@ from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
+from hexmend.cli.command.interrupts import Asked
+
 if TYPE_CHECKING:
     import rich.progress
 
@@ -41,18 +43,23 @@ class Progress:
 
 
 def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: None) -> None:
-    """Go through a run to its end and show where it is; Ctrl-C ends it with what was reached so far.
+    """Go through a run to its end and show where it is; a signal ends it with what was reached so far.
 
     `watch` is called with every iteration.
     """
-    try:
-        with Progress() as progress:
-            for iteration in run:
-                watch(iteration)
-                progress.show(run)
-    except KeyboardInterrupt:
-        run.close()
-        print("Interrupted: what was reached so far is kept.", file=sys.stderr)
+    with Asked() as ending:
+        try:
+            with Progress() as progress:
+                for iteration in run:
+                    watch(iteration)
+                    progress.show(run)
+                    if ending.asked:
+                        break
+        except KeyboardInterrupt:
+            ending.asked = True
+        if ending.asked and run.outcome is None:
+            run.close()
+            print("Interrupted: what was reached so far is kept.", file=sys.stderr)
 
 
 def at_work(run: Run) -> str:
