@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.doctor import examine
 from hexmend.errors import ParameterError
 from hexmend.gallery import GALLERY, make
-from hexmend.io.doctor import examine
 from hexmend.parameters import declared
 from hexmend.quality import summarise
 from hexmend.run import Stop, smooth

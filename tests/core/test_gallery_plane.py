@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import hexmend as hx
+from hexmend.doctor import examine
 from hexmend.gallery import make
 from hexmend.gallery.aeroplane import FUSELAGE, HALF_BOX, PARTS, TAILPLANE, WINGS, onto_aeroplane
 from hexmend.gallery.plane import BOX
-from hexmend.io.doctor import examine
 from hexmend.quality import measure, summarise
 from hexmend.run import Stop
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 import argparse
 import gc
 
+#: How many places of a trouble are told.
+FIRST = 10
+
 
 class Info:
     """Quality and counts of one mesh."""
@@ -16,6 +19,9 @@ class Info:
         from hexmend.cli.command.files import add_mesh
 
         add_mesh(parser)
+        parser.add_argument(
+            "--doctor", action="store_true", help="say where each trouble is, and which command mends it"
+        )
         parser.add_argument("--metrics", action="store_true", help="add least, mean and greatest value of every metric")
         parser.add_argument("--json", action="store_true", help="print JSON for other programs")
 
@@ -30,7 +36,8 @@ class Info:
 
     def _run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.files import say_notes
-        from hexmend.io import doctor, read
+        from hexmend.doctor import examine
+        from hexmend.io import read
         from hexmend.quality import measure, spreads, summarise
 
         mesh = read(args.mesh, as_is=args.as_is)
@@ -44,6 +51,8 @@ class Info:
             answer = summary.to_dict()
             if args.metrics:
                 answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
+            if args.doctor:
+                answer["doctor"] = [finding.to_dict(FIRST) for finding in examine(mesh)]
             print(to_json(answer))
             return 0
         from hexmend.cli.tables import print_spreads, print_summaries
@@ -63,8 +72,12 @@ class Info:
             )
         if args.metrics:
             print_spreads(metrics)
-        for finding in doctor.examine(mesh):
+        for finding in examine(mesh, quick=not args.doctor):
             print(f"note: {finding.message} {finding.remedy}".rstrip())
+            if args.doctor and finding.places():
+                print(f"      {finding.places(FIRST)}")
+            if args.doctor and finding.mendable:
+                print(f"      hexmend repair {args.mesh} -o OUT --only {finding.kind}")
         return 0
 
 

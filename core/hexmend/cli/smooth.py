@@ -25,7 +25,7 @@ class Smooth:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.advice import advise
-        from hexmend.cli.command.files import check_targets, say_left_out, say_notes
+        from hexmend.cli.command.files import check_targets, say_diagnosis, say_left_out, say_notes
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
         from hexmend.cli.tables import print_summaries
@@ -38,6 +38,7 @@ class Smooth:
         check_targets(args.mesh, args.json, args.history, args.save_recipe)
         mesh = read(args.mesh, as_is=args.as_is)
         say_notes(mesh)
+        say_diagnosis(args.mesh, mesh)
         say_left_out(args.output, mesh)
         run = iterate(on_surface(args, mesh, what), what, stop)
         if args.save_recipe:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.hexahedron import EDGES
 from hexmend.mesh import CELL_KINDS, Cells, Mesh, check_node_numbers
 
 #: Kinds of hexes, and how many nodes they have; in the order of VTK's types 12, 25 and 29.
@@ -73,6 +75,10 @@ class Content:
     notes: tuple[str, ...] = ()
 
 
+#: Whether nodes without finite coordinates are put between their neighbours, as who repairs a mesh wants it.
+PLACING: ContextVar[bool] = ContextVar("PLACING", default=False)
+
+
 def to_mesh(path: Path, content: Content) -> Mesh:
     """The mesh that a file's content makes.
 
@@ -93,7 +99,10 @@ def to_mesh(path: Path, content: Content) -> Mesh:
             check_node_numbers(block.nodes, len(content.points))
     lengths = [len(block) for block in hexes]
     volumes = [block for block in others if CELL_KINDS[block.kind].dimension == 3]
-    notes = list(content.notes)
+    notes, points = list(content.notes), content.points
+    if PLACING.get() and not np.isfinite(points).all():
+        points, note = _placed(points, np.concatenate([block.nodes[:, :8] for block in hexes]))
+        notes.append(note)
     if volumes:
         notes.append(f"{_inventory(volumes)} beside the hexes are kept as they are, and their nodes fixed.")
     pinned = _pinned(content)
@@ -102,7 +111,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
         for block in volumes:
             pinned[block.nodes] = True
     return Mesh(
-        content.points,
+        points,
         np.concatenate([block.nodes[:, :8] for block in hexes]),
         pinned=pinned,
         node_data=content.node_data,
@@ -167,6 +176,28 @@ def _joined_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> d
         name: np.concatenate([np.asarray(part[name]) + first[k] for k, part in enumerate(parts) if name in part])
         for name in dict.fromkeys(name for part in parts for name in part)
     }
+
+
+def _placed(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, str]:
+    """Points with those that are no numbers put between their neighbours, and a note that says so."""
+    points = np.array(points, dtype=np.float64)
+    lost = ~np.isfinite(points).all(axis=1)
+    count = int(lost.sum())
+    ends = np.concatenate([hexes[:, edge] for edge in EDGES])
+    ends = np.concatenate([ends, ends[:, ::-1]])
+    points[lost] = points[~lost].mean(axis=0) if (~lost).any() else 0.0
+    known = ~lost
+    while not known.all():
+        rows = ends[~known[ends[:, 0]] & known[ends[:, 1]]]
+        if not len(rows):
+            break
+        total = np.zeros_like(points)
+        np.add.at(total, rows[:, 0], points[rows[:, 1]])
+        times = np.bincount(rows[:, 0], minlength=len(points))
+        found = np.flatnonzero(times)
+        points[found] = total[found] / times[found, None]
+        known[found] = True
+    return points, f"{count:,} nodes had no finite coordinates, and have been put between their neighbours."
 
 
 def _mid_nodes(hexes: list[Block]) -> np.ndarray | None:

@@ -11,12 +11,13 @@ from typing import NoReturn
 from hexmend.errors import FileError, MeshError
 from hexmend.io.atomic import check_writable, replacing
 from hexmend.io.carried import found_in
+from hexmend.io.content import PLACING
 from hexmend.io.format import FORMATS, Format
-from hexmend.io.orientation import upright
 from hexmend.mesh import Mesh
+from hexmend.orientation import upright
 
 
-def read(path: str | os.PathLike[str], *, as_is: bool = False) -> Mesh:
+def read(path: str | os.PathLike[str], *, as_is: bool = False, nodes_without_place: bool = False) -> Mesh:
     """Read a hexahedral mesh.
 
     Parameters
@@ -25,6 +26,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False) -> Mesh:
         A file of one of the formats, which its content tells where its suffix does not.
     as_is : bool
         Keep parts whose hexes are all wound the other way as they are; else they are turned.
+    nodes_without_place : bool
+        Put nodes whose coordinates are no finite numbers between their neighbours; else they are an error.
 
     Returns
     -------
@@ -41,12 +44,14 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False) -> Mesh:
     check_readable(path, "a mesh file")
     format = _format_of(path)
     try:
-        mesh = format.read(path).replace(name=path.stem)
+        placing = PLACING.set(nodes_without_place)
+        try:
+            mesh = format.read(path).replace(name=path.stem)
+        finally:
+            PLACING.reset(placing)
         return mesh if as_is else upright(mesh)
     except MeshError as error:
-        raise FileError(
-            path, str(error), "Correct the file, or write it again with the program that made it."
-        ) from None
+        raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
     except MemoryError:
         raise FileError(
             path, "needs more memory than there is", "Close other programs or use a larger machine."
@@ -114,6 +119,12 @@ def writable_suffixes() -> tuple[str, ...]:
     """Suffixes of the files that `write` makes, with the dot."""
     return tuple(suffix for format in FORMATS.values() if format.write for suffix in format.suffixes)
 
+
+#: What to do about a mesh that is none, and about one of which coordinates are no numbers.
+_REMEDY = {
+    False: "Correct the file, or write it again with the program that made it.",
+    True: "Correct the file, or let hexmend repair put such nodes between their neighbours.",
+}
 
 #: How much of a file is looked at to recognise its format.
 _HEAD = 4096

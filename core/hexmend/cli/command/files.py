@@ -56,3 +56,16 @@ def check_targets(source: str, *targets: str | None) -> None:
             raise FileError(path, "is the mesh, or another file to be written", "Choose another name for it.")
         check_writable(path)
         taken.add(path.resolve())
+
+
+def say_diagnosis(path: str, mesh: Mesh) -> None:
+    """Say on stderr what the doctor finds in a mesh with inverted hexes: smoothing does not mend wrong numbering."""
+    from hexmend.quality import measure
+
+    if not measure(mesh.points, mesh.hexes).n_inverted:
+        return
+    from hexmend.doctor import examine
+
+    for finding in examine(mesh):
+        remedy = f"Run: hexmend repair {path} -o OUT --only {finding.kind}" if finding.mendable else finding.remedy
+        print(f"hexmend: {finding.message} {remedy}", file=sys.stderr)

@@ -16,26 +16,32 @@ TURNED_FACES = np.array([0, 1, 2, 3, 5, 4])
 def upright(mesh: Mesh) -> Mesh:
     """The mesh with every part turned all of whose hexes are wound the other way, and a note that says so.
 
-    Parts hang together by nodes. Single inverted hexes are never turned: they are what is to be mended.
+    Single inverted hexes are never turned: they are what is to be mended.
+    """
+    which = mirrored_parts(mesh)
+    count = int(which.sum())
+    if not count:
+        return mesh
+    where = "All hexes" if count == mesh.n_hexes else f"{count:,} hexes, which make whole parts,"
+    return turned(mesh, which).replace(
+        notes=(*mesh.notes, f"{where} were wound the other way (inside out) in the file, and have been turned.")
+    )
+
+
+def mirrored_parts(mesh: Mesh) -> np.ndarray:
+    """True for the hexes of every part all of whose hexes are wound the other way, (m,) bool.
+
+    Parts hang together by nodes. A hex is wound the other way if its volume is negative.
     """
     sigma = np.empty((mesh.n_hexes, 8))
     elements.corner_determinants(mesh.points, mesh.hexes, sigma)
     with np.errstate(all="ignore"):  # of coordinates that are very large
         wrong = sigma.sum(axis=1) < 0
     if not wrong.any():
-        return mesh
+        return wrong
     part = parts_of(mesh)
     whole = np.bincount(part) == np.bincount(part, wrong, minlength=part.max() + 1)
-    if not whole.any():
-        return mesh
-    which = whole[part]
-    parts, count = int(whole.sum()), int(which.sum())
-    where = (
-        "All hexes" if count == mesh.n_hexes else f"{count:,} hexes, which are {parts} whole part{'s' * (parts > 1)},"
-    )
-    return turned(mesh, which).replace(
-        notes=(*mesh.notes, f"{where} were wound the other way (inside out) in the file, and have been turned.")
-    )
+    return whole[part]
 
 
 def turned(mesh: Mesh, which: np.ndarray) -> Mesh:

@@ -1,0 +1,65 @@
+"""The import doctor: finds what is wrong with a mesh that can be read, explains it, and mends what can be mended.
+
+>>> from hexmend.gallery import make
+>>> examine(make("cube", size=8))
+()
+>>> sorted(AILMENTS)[:3]
+['coincident-nodes', 'crowded-faces', 'degenerate-hexes']
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hexmend.doctor import cells, connection, nodes, winding  # noqa: F401  (they register themselves)
+from hexmend.doctor.ailment import AILMENTS, Ailment, Finding
+from hexmend.mesh import Mesh
+
+__all__ = ["AILMENTS", "Ailment", "Finding", "examine", "repair"]
+
+
+def _ordered() -> list[Ailment]:
+    return sorted(AILMENTS.values(), key=lambda one: one.rank)
+
+
+def examine(mesh: Mesh, quick: bool = False) -> tuple[Finding, ...]:
+    """All that is wrong with a mesh, in the order in which it should be mended.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    quick : bool
+        Only what takes a time linear in the size of the mesh, but for two sorts: nodes that hang, or lie beside others
+        but not on them, are not looked for.
+    """
+    return tuple(found for one in _ordered() if (found := one.find(mesh, quick)) is not None)
+
+
+def repair(mesh: Mesh, only: Sequence[str] = ()) -> tuple[Mesh, tuple[Finding, ...]]:
+    """Mend what can be mended.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    only : sequence of str
+        Names of ailments; all if there is none.
+
+    Returns
+    -------
+    mesh : Mesh
+    mended : tuple of Finding
+        What was found and mended, in that order.
+
+    Raises
+    ------
+    ParameterError
+        For an ailment that there is not.
+    """
+    mended = []
+    for name in only:
+        AILMENTS[name]
+    for one in _ordered():
+        if (not only or one.name in only) and (found := one.find(mesh)) is not None and found.mendable:
+            mesh = one.mend(mesh)
+            mended.append(found)
+    return mesh, tuple(mended)

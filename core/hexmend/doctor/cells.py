@@ -1,0 +1,118 @@
+"""Hexes that stand on each other's nodes, or on fewer than eight."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.doctor.ailment import Ailment, Finding, ailment
+from hexmend.doctor.surgery import with_hexes
+from hexmend.hexahedron import EDGES
+from hexmend.mesh import Cells, Mesh
+
+#: Which corners of a hex make the six of a wedge where the edges between the other pairs are collapsed: for each pair
+#: of opposite edges of a face, the wedge's corners in the order of VTK.
+_WEDGES = {
+    ((a, b), (c, d)): order
+    for (a, b), (c, d), order in (
+        ((0, 4), (3, 7), (0, 5, 1, 3, 6, 2)),
+        ((4, 7), (0, 3), (4, 6, 5, 0, 2, 1)),
+        ((1, 2), (5, 6), (1, 3, 0, 5, 7, 4)),
+        ((2, 6), (1, 5), (2, 7, 3, 1, 4, 0)),
+        ((0, 1), (4, 5), (0, 2, 3, 4, 6, 7)),
+        ((1, 5), (0, 4), (1, 6, 2, 0, 7, 3)),
+        ((3, 7), (2, 6), (3, 4, 0, 2, 5, 1)),
+        ((7, 6), (3, 2), (7, 5, 4, 3, 1, 0)),
+        ((0, 3), (1, 2), (0, 7, 4, 1, 6, 5)),
+        ((3, 2), (0, 1), (3, 6, 7, 0, 5, 4)),
+        ((4, 5), (7, 6), (4, 1, 0, 7, 2, 3)),
+        ((5, 6), (4, 7), (5, 2, 1, 4, 3, 0)),
+    )
+}
+
+
+@ailment
+class DuplicateHexes(Ailment):
+    """Hexes on the nodes of others."""
+
+    name, title = "duplicate-hexes", "Duplicate hexes"
+    rank = 3
+    action = "keep the first of each"
+
+    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+        again = np.flatnonzero(_repeated(np.sort(mesh.hexes, axis=1)))
+        if not again.size:
+            return None
+        return Finding(
+            self.name, again.size, f"{again.size:,} hexes stand on the nodes of others.", "Remove the duplicates.",
+            True, again,
+        )  # fmt: skip
+
+    def mend(self, mesh: Mesh) -> Mesh:
+        return with_hexes(mesh, ~_repeated(np.sort(mesh.hexes, axis=1)))
+
+
+@ailment
+class DegenerateHexes(Ailment):
+    """Hexes that use a node twice: edges are collapsed, and corners there can never be good."""
+
+    name, title = "degenerate-hexes", "Collapsed hexes"
+    rank = 5
+    action = "keep those that are wedges as wedges, whose nodes are fixed, and remove flat ones"
+
+    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+        which = np.flatnonzero(_collapsed(mesh))
+        if not which.size:
+            return None
+        wedges, flat = _wedges(mesh, which)
+        kinds = f"{len(wedges):,} of them are wedges, {len(flat):,} flat" if len(wedges) + len(flat) else ""
+        return Finding(
+            self.name, which.size, f"{which.size:,} hexes use a node twice, so that edges are collapsed"
+            f"{'; ' + kinds if kinds else ''}: as hexes they can never be good.",
+            "Make them wedges, or mesh them anew.", bool(len(wedges) + len(flat)), which,
+        )  # fmt: skip
+
+    def mend(self, mesh: Mesh) -> Mesh:
+        which = np.flatnonzero(_collapsed(mesh))
+        wedges, flat = _wedges(mesh, which)
+        gone = np.array([*wedges, *flat], dtype=np.int64)
+        if not gone.size or gone.size == mesh.n_hexes:
+            return mesh
+        kept = np.ones(mesh.n_hexes, dtype=bool)
+        kept[gone] = False
+        cells = mesh.cells
+        pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
+        if wedges:
+            nodes = np.array(list(wedges.values()), dtype=np.int32)
+            pinned[nodes] = True
+            cells = (*cells, Cells("wedge", nodes))
+        return with_hexes(mesh, kept).replace(cells=cells, pinned=pinned)
+
+
+def _collapsed(mesh: Mesh) -> np.ndarray:
+    rows = np.sort(mesh.hexes, axis=1)
+    return (rows[:, 1:] == rows[:, :-1]).any(axis=1)
+
+
+def _wedges(mesh: Mesh, which: np.ndarray) -> tuple[dict[int, tuple[int, ...]], list[int]]:
+    """The collapsed hexes that are wedges, with the wedges' nodes; and those on four nodes at most, which are flat."""
+    wedges, flat = {}, []
+    for h in which.tolist():
+        nodes = mesh.hexes[h]
+        if len(set(nodes.tolist())) <= 4:
+            flat.append(h)
+            continue
+        collapsed = {tuple(sorted(edge)) for edge in EDGES.tolist() if nodes[edge[0]] == nodes[edge[1]]}
+        if len(set(nodes.tolist())) == 6 and len(collapsed) == 2:
+            for pair, corners in _WEDGES.items():
+                if {tuple(sorted(edge)) for edge in pair} == collapsed:
+                    wedges[h] = tuple(int(k) for k in nodes[list(corners)])
+    return wedges, flat
+
+
+def _repeated(rows: np.ndarray) -> np.ndarray:
+    """True for each row (n, k) that is the same as one before it, (n,) bool."""
+    order = np.lexsort(rows.T)
+    same = (rows[order][1:] == rows[order][:-1]).all(axis=1)
+    again = np.zeros(len(rows), dtype=bool)
+    again[order[1:][same]] = True  # lexsort is stable: the first of equal rows comes first
+    return again

@@ -1,0 +1,145 @@
+"""Nodes that lie on others, hang in the middle of a face, or belong to nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.doctor.ailment import Ailment, Finding, ailment
+from hexmend.doctor.surgery import used_by_anything, with_nodes
+from hexmend.mesh import Mesh
+
+#: Nodes are in one place if they are no further apart than this, in mean edge lengths.
+NEAR = 1e-6
+
+
+@ailment
+class CoincidentNodes(Ailment):
+    """Nodes in one place: blocks that were never merged, if boundary faces lie on each other there."""
+
+    name, title = "coincident-nodes", "Coincident nodes"
+    rank = 4
+    action = "merge them, so that faces on each other become one"
+
+    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+        if quick and not _repeated(mesh.points[used_by_anything(mesh)] + 0.0):  # -0 and 0 are one place
+            return None
+        target = _merged(mesh)
+        again = np.flatnonzero(target != np.arange(mesh.n_nodes))
+        if not again.size:
+            return None
+        faces = np.sort(target[mesh.topology.boundary_faces], axis=1)
+        pairs = len(faces) - len(np.unique(faces, axis=0))
+        blocks = f" {pairs:,} pairs of boundary faces lie on each other: blocks that are not merged." if pairs else ""
+        return Finding(
+            self.name, again.size,
+            f"{again.size:,} nodes lie on others.{blocks}" + (
+                "" if blocks else " Hexes that should be joined may be apart there."
+            ),
+            "Merge them, unless parts are meant to slide on each other.", True, nodes=again,
+        )  # fmt: skip
+
+    def mend(self, mesh: Mesh) -> Mesh:
+        target = _merged(mesh)
+        return with_nodes(mesh, np.unique(target, return_inverse=True)[1].reshape(-1))
+
+
+@ailment
+class UnusedNodes(Ailment):
+    """Nodes of no cell."""
+
+    name, title = "unused-nodes", "Unused nodes"
+    rank = 6
+    action = "remove them"
+
+    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+        which = np.flatnonzero(~used_by_anything(mesh))
+        if not which.size:
+            return None
+        return Finding(
+            self.name, which.size, f"{which.size:,} nodes belong to no cell; they are kept and never moved.",
+            "Remove them.", True, nodes=which,
+        )  # fmt: skip
+
+    def mend(self, mesh: Mesh) -> Mesh:
+        used = used_by_anything(mesh)
+        return with_nodes(mesh, np.where(used, np.cumsum(used) - 1, -1))
+
+
+@ailment
+class HangingNodes(Ailment):
+    """Nodes in the middle of an edge or a face of hexes that do not use them: a fine block beside a coarse one."""
+
+    name, title = "hanging-nodes", "Hanging nodes"
+    rank = 7
+
+    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+        if quick:
+            return None
+        which = self._which(mesh)
+        if not which.size:
+            return None
+        return Finding(
+            self.name, which.size,
+            f"{which.size:,} nodes hang in the middle of edges or faces of hexes that do not use them.",
+            "They count as boundary and stay where they are, as the coarse side does; a mesher that makes conforming "
+            "transitions frees them.", nodes=which,
+        )  # fmt: skip
+
+    def _which(self, mesh: Mesh) -> np.ndarray:
+        from scipy.spatial import cKDTree
+
+        faces = mesh.topology.boundary_faces
+        x = mesh.points[faces]
+        middles = np.concatenate([(x + np.roll(x, -1, axis=1)).reshape(-1, 3) / 2, x.mean(axis=1)])
+        nodes = np.flatnonzero(mesh.topology.boundary)
+        far, near = cKDTree(mesh.points[nodes]).query(middles, distance_upper_bound=_reach(mesh))
+        return np.unique(nodes[near[np.isfinite(far)]])
+
+
+def _repeated(rows: np.ndarray) -> int:
+    """How many rows (n, k) are the same as one before them.
+
+    A number is made of each row, which equal rows share: where all numbers differ no row is repeated, and the rows
+    themselves need not be sorted, which takes ten times longer.
+    """
+    bits = rows.view(f"u{rows.itemsize}").astype(np.uint64)
+    bits ^= bits >> np.uint64(32)
+    numbers = np.zeros(len(rows), np.uint64)
+    for column in bits.T:
+        numbers = (numbers ^ column) * np.uint64(0x9E3779B97F4A7C15)
+        numbers ^= numbers >> np.uint64(29)
+    numbers.sort()
+    if (numbers[1:] != numbers[:-1]).all():
+        return 0
+    return len(rows) - len(np.unique(rows, axis=0))
+
+
+def _reach(mesh: Mesh) -> float:
+    return NEAR * (mesh.mean_edge_length or 1.0)
+
+
+def _merged(mesh: Mesh) -> np.ndarray:
+    """Where each node goes if those in one place become the first of them, (n,) int64.
+
+    Nodes that a hex uses both stay apart: merging them would collapse it.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    n = mesh.n_nodes
+    used = np.flatnonzero(used_by_anything(mesh))
+    pairs = used[cKDTree(mesh.points[used]).query_pairs(_reach(mesh), output_type="ndarray")]
+    target = np.arange(n)
+    if not len(pairs):
+        return target
+    graph = coo_array((np.ones(len(pairs), np.int8), pairs.T), (n, n))
+    group = connected_components(graph, directed=False)[1]
+    first = np.full(group.max() + 1, n)
+    np.minimum.at(first, group, np.arange(n))
+    target = first[group]
+    rows = np.sort(target[mesh.hexes], axis=1)
+    was = np.sort(mesh.hexes, axis=1)
+    broken = (rows[:, 1:] == rows[:, :-1]).any(axis=1) & ~(was[:, 1:] == was[:, :-1]).any(axis=1)
+    apart = np.isin(target, target[mesh.hexes[broken]])
+    return np.where(apart, np.arange(n), target)

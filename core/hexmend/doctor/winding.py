@@ -1,0 +1,118 @@
+"""Hexes whose corners are numbered in another order than that of VTK's hexahedron."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.doctor.ailment import Ailment, Finding, ailment
+from hexmend.hexahedron import FACES, VOXEL_ORDER
+from hexmend.kernels import elements
+from hexmend.mesh import Mesh
+from hexmend.orientation import mirrored_parts, turned
+
+
+def determinants(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """sigma of the corner tetrahedra, (m, 8)."""
+    sigma = np.empty((len(hexes), 8))
+    elements.corner_determinants(points, np.ascontiguousarray(hexes, dtype=np.int32), sigma)
+    return sigma
+
+
+@ailment
+class MirroredParts(Ailment):
+    """Whole parts numbered left-handed; on reading they are turned unless the user wants them as they are."""
+
+    name, title = "mirrored-parts", "Mirrored parts"
+    rank = 0
+    action = "number their hexes the other way"
+
+    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+        which = np.flatnonzero(mirrored_parts(mesh))
+        if not which.size:
+            return None
+        whole = "All hexes" if which.size == mesh.n_hexes else f"{which.size:,} hexes, which make whole parts,"
+        return Finding(
+            self.name, which.size, f"{whole} are inside out: their corners are numbered left-handed.",
+            "Number them the other way: nodes stay where they are.", True, which,
+        )  # fmt: skip
+
+    def mend(self, mesh: Mesh) -> Mesh:
+        return turned(mesh, mirrored_parts(mesh))
+
+
+@ailment
+class FlippedHexes(Ailment):
+    """Single hexes numbered left-handed among sound neighbours: no tangle, but a mistake of numbering."""
+
+    name, title = "flipped-hexes", "Flipped hexes"
+    rank = 2
+    action = "number them the other way"
+
+    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+        which = np.flatnonzero(self._which(mesh))
+        if not which.size:
+            return None
+        return Finding(
+            self.name, which.size,
+            f"{which.size:,} hex{'es are' if which.size > 1 else ' is'} numbered left-handed; turned the other way "
+            f"{'they are' if which.size > 1 else 'it is'} sound, as the neighbours are.",
+            "Number them the other way: nodes stay where they are.", True, which,
+        )  # fmt: skip
+
+    def mend(self, mesh: Mesh) -> Mesh:
+        return turned(mesh, self._which(mesh))
+
+    def _which(self, mesh: Mesh) -> np.ndarray:
+        sigma = determinants(mesh.points, mesh.hexes)
+        inside_out, sound = (sigma < 0).all(axis=1), (sigma > 0).all(axis=1)
+        inside_out &= ~mirrored_parts(mesh)
+        rows = np.flatnonzero(inside_out)
+        neighbours = mesh.topology.face_neighbours[rows]
+        inner = neighbours >= 0
+        fine = np.where(inner, (sound | inside_out)[neighbours] & _apart(mesh, rows, neighbours), True).all(axis=1)
+        inside_out[rows] = fine & (inner & sound[neighbours]).any(axis=1)
+        return inside_out
+
+
+def _apart(mesh: Mesh, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
+    """Whether hexes (k,) and their neighbours (k, 6) lie on two sides of the face that they share, (k, 6) bool."""
+    faces = mesh.points[mesh.hexes[rows][:, FACES]]
+    middle = faces.mean(axis=2)
+    normal = np.cross(faces[:, :, 2] - faces[:, :, 0], faces[:, :, 3] - faces[:, :, 1])
+    own = mesh.points[mesh.hexes[rows]].mean(axis=1)[:, None]
+    other = mesh.points[mesh.hexes[neighbours]].mean(axis=2)
+    return ((own - middle) * normal).sum(axis=2) * ((other - middle) * normal).sum(axis=2) < 0
+
+
+@ailment
+class VoxelOrder(Ailment):
+    """Corners in the order of VTK's voxel under the type of a hexahedron: the hexes are twisted."""
+
+    name, title = "voxel-order", "Voxels labelled as hexahedra"
+    rank = 1
+    action = "put their corners in the order of hexahedra"
+
+    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+        which = np.flatnonzero(self._which(mesh))
+        if not which.size:
+            return None
+        return Finding(
+            self.name, which.size,
+            f"{which.size:,} hexes are twisted and sound once their corners are read in the order of voxels "
+            "(VTK type 11).", "Put their corners in the order of hexahedra (type 12).", True, which,
+        )  # fmt: skip
+
+    def mend(self, mesh: Mesh) -> Mesh:
+        which = self._which(mesh)
+        hexes = mesh.hexes.copy()
+        hexes[which] = hexes[which][:, VOXEL_ORDER]
+        return mesh.rebuilt(hexes=hexes)
+
+    def _which(self, mesh: Mesh) -> np.ndarray:
+        if mesh.mid_nodes is not None:
+            return np.zeros(mesh.n_hexes, dtype=bool)
+        twisted = (determinants(mesh.points, mesh.hexes) <= 0).any(axis=1)
+        rows = np.flatnonzero(twisted)
+        sound = (determinants(mesh.points, mesh.hexes[rows][:, VOXEL_ORDER]) > 0).all(axis=1)
+        twisted[rows] = sound
+        return twisted
