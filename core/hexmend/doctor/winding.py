@@ -111,7 +111,9 @@ class VoxelOrder(Ailment):
     def _which(self, mesh: Mesh) -> np.ndarray:
         if mesh.mid_nodes is not None:
             return np.zeros(mesh.n_hexes, dtype=bool)
-        twisted = (determinants(mesh.points, mesh.hexes) <= 0).any(axis=1)
+        # The faces x- and x+ of such a hex are none of its own, so that no neighbour shares them.
+        alone = (mesh.topology.face_neighbours[:, :2] < 0).all(axis=1)
+        twisted = alone & (determinants(mesh.points, mesh.hexes) <= 0).any(axis=1)
         rows = np.flatnonzero(twisted)
         sound = (determinants(mesh.points, mesh.hexes[rows][:, VOXEL_ORDER]) > 0).all(axis=1)
         twisted[rows] = sound
