@@ -14,9 +14,9 @@ from hexmend.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.topology import Topology
 
-#: Hexes at the scale 1, for which the numbers of cells below are: the thesis's. Of the divisions tried 90 have them; of two
-#: of these, with 1,000 choices of the lengths below, this one's inverted hexes (162, the thesis's 163) and mean quality came
-#: nearest, with 30,406 free nodes (30,389). The least quality was 0 (0.0945) whatever was tried.
+#: Hexes at the scale 1, for which the numbers of cells below are: the thesis's. Of the divisions tried 90 have them. Of
+#: two of these, with 1,000 choices of the lengths below, this one's inverted hexes (162, the thesis's 163) and mean
+#: quality came nearest, with 30,406 free nodes (30,389). The least quality was 0 (0.0945) whatever was tried.
 HEXES = 31760
 #: Cells between successive knots of x, y and z: the planes in which a part's box begins or ends, and the core's ends.
 CELLS = ((2, 7, 5, 6, 3, 1, 2), (2, 4, 3, 1, 1, 1, 3, 4, 2), (2, 1, 1, 1, 6, 1))

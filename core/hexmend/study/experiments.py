@@ -72,7 +72,7 @@ class Experiments:
         What section 5.2 hopes for.
     settings : Settings
         Of the methods in experiments.
-    move : str
+    move, tolerance : str, float
         Of `Stop`.
     """
 
@@ -83,6 +83,7 @@ class Experiments:
     outlooks: tuple[Outlook, ...] = ()
     settings: Settings = field(default_factory=Settings)
     move: str = Stop().move
+    tolerance: float = Stop().tolerance
 
     def smoother(self, experiment: Experiment, name: str) -> Smoother:
         """A method with the study's settings and the experiment's delta, as far as it has these parameters."""
@@ -95,9 +96,13 @@ class Experiments:
 
     def stop(self, method: str, quick: bool) -> Stop:
         """The limits of a run; what the thesis tells of a method is its last iterate."""
+        return replace(self.outlook_stop(method, quick), move=self.move, tolerance=self.tolerance)
+
+    def outlook_stop(self, method: str, quick: bool) -> Stop:
+        """The same of an outlook, which converges as runs do by default."""
         limit = self.iterations.get(method, Stop().max_iterations)
         seconds = self.quick_seconds.get(method, self.seconds["quick"]) if quick else self.seconds["full"]
-        return Stop(max_iterations=limit, max_seconds=seconds, move=self.move, keep_last=True)
+        return Stop(max_iterations=limit, max_seconds=seconds, keep_last=True)
 
 
 def load(source: Path | Traversable | None = None) -> Experiments:
@@ -120,6 +125,7 @@ def load(source: Path | Traversable | None = None) -> Experiments:
         outlooks(data.get("outlook", ())),
         Settings(data.get("settings", {})),
         data.get("move", Stop().move),
+        data.get("tolerance", Stop().tolerance),
     )
 
 

@@ -105,7 +105,7 @@ def run_experiments(
             break
     tried: list[Tried] = []
     for outlook in () if laboratory.interrupted else thesis.outlooks:
-        one, go_on = try_outlook(outlook, lambda method: thesis.stop(method, quick), quick, watch)
+        one, go_on = try_outlook(outlook, lambda method: thesis.outlook_stop(method, quick), quick, watch)
         tried.append(one)
         if done is not None:
             done(one)
