@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hexmend.doctor import AILMENTS, Finding, repair
 from hexmend.io import left_out, write
 from hexmend.quality import summarise
 from hexmend.recipe import Recipe, Stage
@@ -133,6 +134,17 @@ class Commands:
             mesh = now.mesh.replace(**changes)
             summary = summarise(mesh, now.figures) if "pinned" in changes else now.summary
             self.document.commit(title, State(mesh, now.figures, summary))
+
+    def repair(self, kinds: Sequence[str] = ()) -> tuple[Finding, ...]:
+        """Mend some kinds of trouble that the doctor finds, or all, while the mesh may be changed; what was mended."""
+        if not self._session.editable:
+            return ()
+        self._session.stepping.leave()
+        mesh, mended = repair(self.document.now.mesh, kinds)
+        if mended:
+            state = State.of(mesh.keeping_surface())
+            self.document.commit("mend " + " and ".join(AILMENTS[one.kind].title.lower() for one in mended), state)
+        return mended
 
     def undo(self) -> None:
         """Take back the last change, unless the mesh may not be changed."""

@@ -48,7 +48,7 @@ class Document(QObject):
     Signals
     -------
     mesh_replaced
-        Another mesh is open (or the first).
+        Another mesh is open (or the first), or the same has other hexes or nodes.
     points_moved
         The same mesh, its nodes elsewhere: an iteration, undo, redo, reset.
     changes_changed
@@ -74,8 +74,12 @@ class Document(QObject):
 
     @property
     def start(self) -> State:
-        """The mesh as it was opened."""
-        return self._changes[0].state
+        """The mesh as it was opened, or as a change left it that gave it other hexes or nodes."""
+        hexes = self._changes[self._at].state.mesh.hexes
+        at = self._at
+        while at > 0 and self._changes[at - 1].state.mesh.hexes is hexes:
+            at -= 1
+        return self._changes[at].state
 
     @property
     def name(self) -> str:
@@ -113,7 +117,7 @@ class Document(QObject):
         Without `show`, what is previewed stays in view.
         """
         before, after = self._changes[self._at].state.mesh, state.mesh
-        if any(getattr(after, part) is not getattr(before, part) for part in ("points", "pinned", "hex_sets")):
+        if any(getattr(after, part) is not getattr(before, part) for part in ("points", "pinned", "hex_sets", "hexes")):
             del self._changes[self._at + 1 :]
             self._changes.append(Change(title, state))
             self._at += 1
@@ -161,6 +165,6 @@ class Document(QObject):
         self.changes_changed.emit()
 
     def _show(self) -> None:
-        self.now = self._changes[self._at].state
-        self.points_moved.emit()
+        before, self.now = self.now.mesh.hexes, self._changes[self._at].state
+        (self.points_moved if self.now.mesh.hexes is before else self.mesh_replaced).emit()
         self.changes_changed.emit()

@@ -9,6 +9,7 @@ from hexmend_app.state.classer import Classer
 from hexmend_app.state.commands import Commands
 from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
+from hexmend_app.state.examiner import Examiner
 from hexmend_app.state.explainer import Explainer
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.history import History
@@ -71,6 +72,7 @@ class Session(QObject):
         self.finder = Finder(self.document, self)
         self.classer = Classer(self)
         self.explainer = Explainer(self)
+        self.examiner = Examiner(self)
         self.stepping = Stepping(self.document, self)
         self.comparison = Comparison(self.document, self)
         self.kept = KeptMoments(self)
@@ -93,6 +95,7 @@ class Session(QObject):
         self.finder.shut_down()
         self.classer.shut_down()
         self.explainer.shut_down()
+        self.examiner.shut_down()
         self.comparison.shut_down()
 
     def _on_another(self) -> None:

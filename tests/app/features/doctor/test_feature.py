@@ -1,0 +1,80 @@
+"""The doctor in the window: findings with their places, mended by a click and taken back by undo."""
+
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QLabel, QPushButton
+
+from hexmend.gallery import make
+from hexmend.mesh import Mesh
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.state.document import State
+from tests.app.driving import press
+from tests.patience import PATIENCE
+
+
+def unmerged():
+    """Two blocks side by side, one of them inside out."""
+    one = make("cube", size=27)
+    other = one.points + [np.ptp(one.points[:, 0]), 0, 0]
+    turned = one.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]
+    return Mesh(np.vstack([one.points, other]), np.vstack([one.hexes, turned + one.n_nodes]), name="blocks")
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    window.session.document.replace(State.of(unmerged()), None)
+    window.show_panel("doctor")
+    panel = window.features["doctor"].panel
+    qtbot.waitUntil(panel.isVisible)
+    window.refresh()
+    qtbot.waitUntil(lambda: len(buttons(panel, "Mend")) == 2, timeout=PATIENCE)
+    return panel
+
+
+def buttons(panel, text):
+    return [one for one in panel.findChildren(QPushButton) if one.text() == text and one.isVisible()]
+
+
+def said(panel):
+    return " ".join(label.text() for label in panel.findChildren(QLabel) if label.isVisible())
+
+
+def test_findings_are_listed_with_their_places(window, panel):
+    assert "Mirrored parts" in said(panel)
+    assert "blocks that are not merged" in said(panel)
+    assert "Hexes 27, 28, 29" in said(panel)
+
+
+def test_a_finding_is_shown_in_the_view(window, panel):
+    press(buttons(panel, "Show")[0])
+    assert set(range(27, 54)) == set(window.session.view.look.isolation.hexes)
+
+
+def test_each_is_mended_by_a_click_and_undo_takes_it_back(window, panel, qtbot):
+    session = window.session
+    before = session.document.now.mesh
+    press(buttons(panel, "Mend")[0])
+    assert session.document.now.summary.inverted == 0
+    assert session.document.undo_title == "mend mirrored parts"
+    qtbot.waitUntil(lambda: len(buttons(panel, "Mend")) == 1, timeout=PATIENCE)
+    press(buttons(panel, "Mend")[0])
+    assert session.document.now.mesh.n_nodes == 2 * 64 - 16
+    session.commands.undo()
+    session.commands.undo()
+    assert session.document.now.mesh is before
+    session.commands.redo()
+    assert session.document.now.summary.inverted == 0
+
+
+def test_all_is_mended_at_once_and_methods_run_on_the_mended_mesh(window, panel, qtbot):
+    press(buttons(panel, "Mend all")[0])
+    window.refresh()
+    qtbot.waitUntil(lambda: "Nothing is wrong" in said(panel), timeout=PATIENCE)
+    session = window.session
+    assert session.document.start.mesh is session.document.now.mesh
+    with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
+        session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
+    session.commands.reset()
+    assert session.document.now.mesh.n_nodes == 112
