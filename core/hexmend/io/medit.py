@@ -34,7 +34,7 @@ def read(path: Path) -> Mesh:
                 raise source.error(f"its Dimension is {dimension}: expected 3", "Hexmend works in space.")
         elif key == "Vertices":
             rows = source.decimals("Vertices", source.whole(source.word(), "the number of Vertices"), 4, np.float64)
-            points, refs = np.ascontiguousarray(rows[:, :3]), rows[:, 3].astype(np.int64)
+            points, refs = np.ascontiguousarray(rows[:, :3]), _whole(source, rows[:, 3])
         elif key.lower() in _KNOWN:
             section = _KNOWN[key.lower()]
             count = source.whole(source.word(), f"the number of {section.name}")
@@ -48,6 +48,16 @@ def read(path: Path) -> Mesh:
     if "Hexahedra" not in sections and not source.data.rstrip().endswith(b"End"):
         raise source.error(f"ends at {source.here} without Hexahedra")
     return to_mesh(path, points, refs, sections)
+
+
+def _whole(source: Source, numbers: np.ndarray) -> np.ndarray:
+    """References of vertices, (n,) int64."""
+    with np.errstate(invalid="ignore"):
+        wrong = np.flatnonzero(~((numbers == np.rint(numbers)) & (np.abs(numbers) < 2.0**53)))
+    if wrong.size:
+        row = int(wrong[0])
+        raise source.error(f"vertex {row + 1} has the reference {numbers[row]:g}: expected a whole number")
+    return numbers.astype(np.int64)
 
 
 def _skip(source: Source) -> None:
