@@ -3,8 +3,8 @@
 Use: python scripts/fuzz_readers.py [--cases N] [--seed S] [--meshes FOLDER] [FORMAT ...]
 
 For each format the meshes of FOLDER (by default that of the variable HEXMEND_MESHES) and some that Hexmend writes are
-spoilt: bits and bytes changed, numbers made huge or negative, parts cut out, doubled, exchanged, the end cut off. Prints
-a line a format; exit status 1 where anything but a mesh or a clear error came of a file, which is kept.
+spoilt: bits and bytes changed, numbers made huge or negative, parts cut out, doubled, exchanged, the end cut off.
+Prints a line a format; exit status 1 where anything but a mesh or a clear error came of a file, which is kept.
 """
 
 from __future__ import annotations

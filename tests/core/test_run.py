@@ -1,17 +1,19 @@
 """The loop: records, stop conditions, outcomes."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 from hexmend.errors import ParameterError
 from hexmend.gallery import make
-from hexmend.optimise import Outcome
+from hexmend.optimise import Outcome, Step
 from hexmend.optimise.figures import HISTORY
 from hexmend.quality import measure, summarise
 from hexmend.report import record, to_json, write_history, write_json
 from hexmend.run import Stop, iterate, smooth
+from hexmend.smoothers import Smoother
 from tests.core.grids import grid, scrambled
 
 
@@ -135,3 +137,30 @@ def test_an_optimiser_beside_the_barrier_has_not_converged_however_short_its_ste
         result = smooth(pushed(sound), method)
         assert result.outcome is Outcome.CONVERGED
         assert result.after.q_min > 0.99, method
+
+
+@dataclass(frozen=True)
+class Spoils(Smoother):
+    """Moves well twice, then gives a coordinate that is no number."""
+
+    name = "spoils"
+    title = help = source = "A test"
+
+    def steps(self, mesh):
+        points = mesh.points
+        yield Step(points)
+        for k in range(3):
+            points = points.copy()
+            points[mesh.free] += 1e-3
+            if k == 2:
+                points[np.flatnonzero(mesh.free)[0], 1] = np.nan
+            yield Step(points)
+
+
+def test_a_step_that_is_no_number_ends_the_run_and_the_last_good_one_is_kept():
+    mesh = scrambled(grid(3), 0.1)
+    result = smooth(mesh, Spoils(), Stop(keep_last=True, tolerance=0))
+    assert result.outcome is Outcome.NOT_FINITE
+    assert result.iterations == 2
+    assert np.isfinite(result.mesh.points).all()
+    assert "no numbers" in result.message

@@ -28,6 +28,7 @@ class Outcome(Enum):
     NO_IMPROVEMENT = "Converged: neither the least nor the mean quality rises any more."
     SUFFICIENT = "Done: the quality that was asked for is reached."
     NO_DESCENT = "Stopped: along the search direction no step descends, however short."
+    NOT_FINITE = "Stopped: a step gave coordinates that are no numbers; what was reached before it is kept."
 
     @property
     def key(self) -> str:

@@ -107,6 +107,9 @@ class Leg:
         points, before = read_only(as_points(step.points)), self.at
         moves = points - before.points
         move = float(np.sqrt(np.square(moves).sum(axis=1).max())) / self._unit
+        if not np.isfinite(move):
+            self.end(Outcome.NOT_FINITE)
+            return None
         figures = step.figures if step.figures is not None else measure(points, self._hexes)
         notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
         now = self.last = self.at = Iteration(self.last.number + 1, points, figures, seconds, move, notes)
