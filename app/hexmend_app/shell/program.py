@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QApplication
 
 from hexmend_app.resources import demo_mesh, resource
 from hexmend_app.state.garbage import Garbage
+from hexmend_app.widgets.report import report_of
 from hexmend_app.widgets.theming import wear
 
 if TYPE_CHECKING:
@@ -73,6 +74,8 @@ def report_unexpected_errors(window: Window) -> None:
         log.error("unexpected error", exc_info=(kind, error, trace))
         place = traceback.extract_tb(trace)[-1] if trace else None
         where = f" ({Path(place.filename).name}, line {place.lineno})" if place else ""
-        window.messages.show_error("Something went wrong inside Hexmend", f"{kind.__name__}: {error}{where}")
+        window.messages.show_error(
+            "Something went wrong inside Hexmend", f"{kind.__name__}: {error}{where}", report_of(error)
+        )
 
     sys.excepthook = hook

@@ -215,8 +215,13 @@ class Smoothing(QObject):
         worker.task.wait()
         self._worker = None
         if worker.task.error is not None:
-            self._history.finish(self.record, None, None, f"Failed: {worker.task.error}.")
-            self._document.preview(self._before)
+            last = worker.last  # the last good iteration
+            reached = None if last is None else Moment(self.record, last.iteration.number)
+            self._history.finish(self.record, reached, last and last.state, f"Failed: {worker.task.error}.")
+            if last is None:
+                self._document.preview(self._before)
+            else:
+                self._document.commit(self._title, last.state)
             self._set_phase(Phase.IDLE)
             self.failed.emit(worker.task.error)
             return

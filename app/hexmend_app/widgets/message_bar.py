@@ -25,6 +25,7 @@ class _Message:
     timeout_ms: int = 0
     times: int = 1
     number: int = 0
+    report: str = ""
 
 
 # Icon, colour of the icon and the left edge, background; the most pressing first.
@@ -115,9 +116,9 @@ class MessageBar(QFrame):
         self.hide()
         dress(self, self._paint)
 
-    def show_error(self, title: str, text: str = "") -> None:
-        """Show what went wrong; it stays until dismissed."""
-        self._add(_Message("error", title, text))
+    def show_error(self, title: str, text: str = "", report: str = "") -> None:
+        """Show what went wrong; it stays until dismissed. `report` is copied with it, for who is to mend it."""
+        self._add(_Message("error", title, text, report=report))
 
     def show_warning(self, title: str, text: str = "") -> None:
         """Show what to look out for; it stays until dismissed."""
@@ -170,7 +171,7 @@ class MessageBar(QFrame):
 
     def _copy_message(self) -> None:
         message = self._messages[self._at]
-        QGuiApplication.clipboard().setText("\n".join(part for part in (message.title, message.text) if part))
+        QGuiApplication.clipboard().setText("\n".join(filter(None, (message.title, message.text, message.report))))
 
     def _paint(self) -> None:
         if self._messages:

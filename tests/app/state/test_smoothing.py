@@ -112,14 +112,16 @@ def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
     assert running() == ()
 
 
-def test_a_method_that_raises_leaves_the_document_as_it_was(document, smoothing, qtbot):
+def test_a_method_that_raises_leaves_the_last_good_iteration_which_undo_takes_back(document, smoothing, qtbot):
     before = document.now
     with qtbot.waitSignal(smoothing.failed, timeout=PATIENCE) as failed:
         smoothing.start(Failing(), SLOW)
     assert isinstance(failed.args[0], ZeroDivisionError)
-    assert document.now is before
-    assert document.undo_title is None
     assert smoothing.phase is Phase.IDLE
+    assert smoothing.record.result == 1
+    assert document.undo_title is not None
+    document.undo()
+    assert document.now is before
 
 
 def test_a_mailbox_holds_the_newest_only():

@@ -9,6 +9,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.run import Frame, Phase
+from hexmend_app.widgets.report import report_of
 
 #: Actions whose keys the panel's buttons name.
 _BUTTONS = ("run", "step", "stop", "reset")
@@ -163,7 +164,10 @@ class FeatureSmooth(Feature):
             self.host.busy.done("run")  # its animation would slow a run that shows itself anyway
 
     def _on_failed(self, error: Exception) -> None:
-        self.host.messages.show_error("The method failed", f"{error}. The mesh is as it was before the run.")
+        record = self.session.smoothing.record
+        kept = record is not None and record.result
+        where = f"is at iteration {kept}, the last good one" if kept else "is as it was before the run"
+        self.host.messages.show_error("The method failed", f"{error}. The mesh {where}.", report_of(error))
 
     def _on_hit(self, frame: Frame) -> None:
         self._hit, hit = frame, frame.hit
