@@ -72,11 +72,11 @@ def to_mesh(path: Path, grid: Grid) -> Mesh:
     Raises
     ------
     FileError
-        Where no cell is a hex, or a cell has not the nodes of its type.
+        Where no cell is a hex, a cell has not the nodes of its type, or its type is none.
     MeshError
         From `Mesh`.
     """
-    types, notes = _true_types(grid)
+    types, notes = _true_types(path, grid)
     check_sizes(path, grid, types)
     blocks = []
     for number in dict.fromkeys(types.tolist()):
@@ -150,13 +150,17 @@ def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
         )
 
 
-def _true_types(grid: Grid) -> tuple[np.ndarray, list[str]]:
+def _true_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
     """Types of the cells by what they are, and what is to be said of it."""
     given, widths, notes = np.asarray(grid.types).astype(np.int64), np.diff(grid.start), []
     outside = np.flatnonzero((given < 0) | (given > 255))
-    types = np.where((given < 0) | (given > 255), 0, given)
     if outside.size:
-        types[outside] = 0
+        raise FileError(
+            path,
+            f"cell {outside[0]} is of type {given[outside[0]]}: expected one of VTK's types, 0 to 255",
+            "Write the file again with the program that made it.",
+        )
+    types = given.copy()
     for number, others in _ANY.items():
         for width, other in others.items():
             types[(given == number) & (widths == width)] = other

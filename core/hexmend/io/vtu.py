@@ -1,133 +1,142 @@
-"""VTK's XML format for unstructured grids (.vtu), parsed by meshlane."""
+"""VTK's XML format for unstructured grids (.vtu), as VTK and others write it: in every mode, order and compression."""
 
 from __future__ import annotations
 
-import logging
+import re
 from pathlib import Path
 
 import numpy as np
 
-from hexmend.errors import FileError
-from hexmend.io.carry import Grid, from_mesh, to_mesh
+from hexmend.io.carry import Grid, to_mesh
 from hexmend.io.format import FORMATS, Format, Holds
-from hexmend.mesh import CELL_KINDS, Mesh
+from hexmend.io.pieces import joined
+from hexmend.io.vtk_xml import Document, Element, title
+from hexmend.io.vtk_xml_arrays import strings_of, values_of
+from hexmend.io.vtu_write import write
+from hexmend.mesh import Mesh
 
-log = logging.getLogger(__name__)
-_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
-#: meshlane's names of the cells that it tells us of, and VTK's numbers.
-_NUMBERS = {"hexahedron": 12, "voxel": 11, **{name: kind.vtk for name, kind in CELL_KINDS.items()}}
+_ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']UnstructuredGrid[\"']")
 
 
 def read(path: Path) -> Mesh:
-    """Read a VTU file."""
-    _check_head(path)
-    try:
-        found = _parser().read(str(path))
-    except MemoryError:
-        raise
-    except Exception as error:  # each of the parser's failures is another one
-        _check_xml(path)
-        detail = " ".join(str(error).split()) or type(error).__name__
-        raise FileError(path, f"its arrays cannot be decoded ({detail[:200]})", _DAMAGED) from None
-    return to_mesh(path, _grid(path, found))
+    """Read a VTU file, its pieces put together."""
+    grids, left = grids_of(path)
+    grid, notes = joined(grids)
+    if left:
+        notes.append(f"Arrays of strings, one for each node or cell, are left out: {', '.join(left)}.")
+    mesh = to_mesh(path, grid)
+    return mesh.replace(notes=(*notes, *mesh.notes)) if notes else mesh
 
 
-def _parser():
-    """meshlane's module for VTU, which logs here what it would print to the terminal."""
-    from meshlane.vtu import _vtu
-
-    _vtu.warn = _vtu.info = _say
-    return _vtu
-
-
-def _say(text: str, **_) -> None:
-    log.info("meshlane: %s", text)
-
-
-def _check_head(path: Path) -> None:
-    with open(path, "rb") as file:
-        head = file.read(4096)
-    if b"<VTKFile" not in head:
-        raise FileError(path, "does not begin with <VTKFile ...>", "Is it a VTU file? Check its suffix.")
-    if b'type="UnstructuredGrid"' not in head:
-        raise FileError(path, "is not of the type UnstructuredGrid", "Convert it to an unstructured grid of hexahedra.")
+def grids_of(path: Path) -> tuple[list[Grid], list[str]]:
+    """The pieces of a VTU file, at least one, and the names of arrays that are left out: those of strings."""
+    with Document(path, "UnstructuredGrid") as document:
+        top = document.root.first("UnstructuredGrid")
+        pieces = list(top.all("Piece"))
+        if not pieces:
+            raise document.error("holds no Piece")
+        for piece in pieces:
+            _charge(document, piece)
+        left: list[str] = []
+        grids = [_grid(document, piece, left) for piece in pieces]
+        fields: dict[str, object] = {}
+        for array in (*top.first("FieldData").arrays(), *(a for p in pieces for a in p.first("FieldData").arrays())):
+            fields[array.get("Name") or f"array {len(fields)}"] = _field(document, array)
+    first = grids[0]
+    grids[0] = Grid(first.points, first.types, first.start, first.nodes, first.node_data, first.cell_data, fields)
+    return grids, sorted(set(left))
 
 
-def _check_xml(path: Path) -> None:
-    """Raise `FileError` where the file is no XML, naming the place; the parser does not."""
-    from xml.etree import ElementTree as ET
+def _charge(document: Document, piece: Element) -> None:
+    """Announce the arrays of a piece whose lengths its head tells."""
+    for section, rows in (("Points", "NumberOfPoints"), ("PointData", "NumberOfPoints"), ("CellData", "NumberOfCells")):
+        for array in piece.first(section).arrays():
+            if array.get("type") != "String":
+                width = _width(document, array) * document.dtype(array).itemsize
+                document.charge(document.count(piece, rows) * width, title(array))
+    for array in piece.first("Cells").arrays():
+        if array.get("Name") in ("offsets", "types"):
+            document.charge(document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, title(array))
 
-    try:
-        for _ in ET.iterparse(path):
-            pass
-    except ET.ParseError as error:
-        line, column = error.position
-        raise FileError(path, f"its XML is broken at line {line}, column {column}", _DAMAGED) from None
 
-
-def _grid(path: Path, found) -> Grid:
-    types, widths, nodes = [], [], []
-    for block in found.cells:
-        if block.type not in _NUMBERS:
-            first, others = sum(map(len, types)), len(block.data)
-            which = "the cell" if others == 1 else f"the {others} cells of that kind"
-            raise FileError(
-                path,
-                f"cell {first} is a {block.type}; Hexmend reads hexahedra (types 11, 12)",
-                f"Convert or remove {which}.",
-            )
-        rows = np.asarray(block.data, dtype=np.int64)
-        types.append(np.full(len(rows), _NUMBERS[block.type], np.uint8))
-        widths.append(np.full(len(rows), rows.shape[1], np.int64))
-        nodes.append(rows.ravel())
-    if not types:
-        raise FileError(path, "holds no cells", "Hexmend works on hexahedral meshes only.")
-    points = np.asarray(found.points, dtype=np.float64)
-    data = {name: np.concatenate([np.asarray(part) for part in parts]) for name, parts in found.cell_data.items()}
+def _grid(document: Document, piece: Element, left: list[str]) -> Grid:
+    points, cells = document.count(piece, "NumberOfPoints"), document.count(piece, "NumberOfCells")
+    found = piece.first("Points").arrays()
+    if points and not found:
+        raise document.error("its Points hold no array")
+    if points and _width(document, found[0]) != 3:
+        raise document.error(f"its Points have {_width(document, found[0])} coordinates each: expected 3")
+    places = values_of(document, found[0], 3 * points) if points else np.empty(0)
+    arrays = {array.get("Name"): array for array in piece.first("Cells").arrays()}
+    for name in ("connectivity", "offsets", "types"):
+        if cells and name not in arrays:
+            raise document.error(f"its Cells hold no array {name!r}")
+    ends = _whole(document, arrays["offsets"], cells) if cells else np.empty(0, np.int64)
+    start = np.concatenate([[0], ends])
+    falls = np.flatnonzero(np.diff(start) < 0)
+    if falls.size:
+        raise document.error(f"its offsets fall at cell {falls[0]}: expected where each cell's nodes end")
+    if cells:
+        document.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
     return Grid(
-        points,
-        np.concatenate(types),
-        np.concatenate([[0], np.cumsum(np.concatenate(widths))]),
-        np.concatenate(nodes),
-        dict(found.point_data),
-        data,
+        places.reshape(-1, 3).astype(np.float64, copy=False),
+        _whole(document, arrays["types"], cells) if cells else np.empty(0, np.int64),
+        start,
+        _whole(document, arrays["connectivity"], int(start[-1])) if cells else np.empty(0, np.int64),
+        _data(document, piece.first("PointData"), points, left),
+        _data(document, piece.first("CellData"), cells, left),
     )
 
 
-def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write VTU, compressed with zlib; in decimals meshlane would round to 12 digits."""
-    import meshlane
-
-    grid = from_mesh(mesh)
-    kinds = {number: kind for kind, number in _NUMBERS.items()}
-    cells, parts = [], []
-    begin = 0
-    while begin < len(grid.types):  # cells of one type follow one another
-        end = begin + int(np.argmax(np.append(grid.types[begin:] != grid.types[begin], True)))
-        width = int(grid.start[begin + 1] - grid.start[begin])
-        cells.append(
-            (kinds[int(grid.types[begin])], grid.nodes[grid.start[begin] : grid.start[end]].reshape(-1, width))
-        )
-        parts.append(slice(begin, end))
-        begin = end
-    native = {name: _native(values) for name, values in grid.cell_data.items()}
-    content = meshlane.Mesh(
-        grid.points,
-        cells,
-        point_data={name: _native(values) for name, values in grid.node_data.items()},
-        cell_data={name: [values[part] for part in parts] for name, values in native.items()},
-    )
-    _parser().write(str(path), content, binary=True, compression="zlib")
+def _whole(document: Document, array: Element, count: int) -> np.ndarray:
+    """Whole numbers, (count,) int64."""
+    values = values_of(document, array, count)
+    if values.dtype.kind == "f" or (values.dtype == np.uint64 and values.size and values.max() > np.iinfo(int).max):
+        with np.errstate(invalid="ignore"):
+            wrong = np.flatnonzero((values.astype(np.int64) != values) | (np.abs(values) > 2.0**53))
+        if wrong.size:
+            raise document.error(f"{title(array)} holds {values[wrong[0]]}: expected whole numbers")
+    return values.astype(np.int64, copy=False)
 
 
-def _native(values: np.ndarray) -> np.ndarray:
-    """Values of a type that VTK has, contiguous, in the machine's byte order."""
-    values = np.asarray(values)
-    if values.dtype.kind == "b":
-        values = values.astype(np.uint8)
-    return np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("="))
+def _data(document: Document, section: Element, rows: int, left: list[str]) -> dict[str, np.ndarray]:
+    answer: dict[str, np.ndarray] = {}
+    for array in section.arrays():
+        name, width = array.get("Name"), _width(document, array)
+        if array.get("type") == "String":
+            left.append(name)
+            continue
+        values = values_of(document, array, rows * width)
+        answer[name] = values if width == 1 else values.reshape(rows, width)
+    return answer
 
 
-HELD = frozenset(Holds) - {Holds.SIDE_SETS, Holds.FIELD_DATA}
+def _field(document: Document, array: Element) -> np.ndarray | list[str]:
+    if array.get("type") == "String":
+        return strings_of(document, array)
+    width = _width(document, array)
+    values = values_of(document, array)
+    if array.get("type") == "Bit" and "NumberOfTuples" in array.attributes:
+        values = values[: document.count(array, "NumberOfTuples") * width]
+    if len(values) % width:
+        raise document.error(f"{title(array)} has {len(values)} numbers: expected rows of {width}")
+    return values if width == 1 else values.reshape(-1, width)
 
-FORMATS.add("vtu", Format("vtu", "VTU", (".vtu",), ("binary",), read, write, HELD))
+
+def _width(document: Document, array: Element) -> int:
+    return max(1, document.count(array, "NumberOfComponents"))
+
+
+FORMATS.add(
+    "vtu",
+    Format(
+        "vtu",
+        "VTU",
+        (".vtu",),
+        ("binary", "ascii"),
+        read,
+        write,
+        holds=frozenset(Holds) - {Holds.SIDE_SETS},
+        recognised=lambda head: _ROOT.search(head) is not None,
+    ),
+)

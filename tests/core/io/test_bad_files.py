@@ -1,8 +1,6 @@
 """Bad files: one clear error that names file, place and remedy; whatever is cut or flipped, never another failure."""
 
-import logging
 import os
-import sys
 
 import numpy as np
 import pytest
@@ -112,33 +110,3 @@ def test_targets_that_cannot_be_written_are_said(name, tmp_path):
     with pytest.raises(FileError):
         io.write(tmp_path / name, grid(1))
     assert os.listdir(tmp_path) == []
-
-
-def test_what_the_vtu_parser_would_print_is_logged_and_the_terminal_left_alone(tmp_path, capfd, caplog, monkeypatch):
-    path = tmp_path / "odd.vtu"
-    mesh = scrambled(grid(2), 0.2).replace(node_data={"id": np.arange(27)})
-    io.write(path, mesh)
-    text = path.read_bytes()
-    assert text.count(b'Name="id"') == 1
-    path.write_bytes(text.replace(b'Name="id"', b'Name="id" NumberOfComponents="2"'))
-    terminals = []
-    monkeypatch.setattr("meshlane.vtu._vtu.CellBlock", _noting(terminals))
-    with caplog.at_level(logging.INFO, logger="hexmend.io.vtu"):
-        found = io.read(path)
-    assert found.n_hexes == mesh.n_hexes
-    assert "id" not in found.node_data
-    assert "'id' is 27" in caplog.text
-    assert capfd.readouterr() == ("", "")
-    assert terminals
-    assert set(terminals) == {(sys.stdout, sys.stderr)}, "another thread would print into what the reader takes"
-
-
-def _noting(terminals):
-    from meshlane._mesh import CellBlock
-
-    class Noting(CellBlock):
-        def __init__(self, *args, **options):
-            terminals.append((sys.stdout, sys.stderr))
-            super().__init__(*args, **options)
-
-    return Noting

@@ -167,9 +167,9 @@ BAD = {
         "expected vertices and faces, its head counts no vertex",
     ),
     "short.ply": (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n", "cannot be read as PLY"),
-    "junk.vtp": (b"nothing", "no VTKFile"),
-    "grid.vtp": (b'<VTKFile type="UnstructuredGrid">', "no VTKFile of the type PolyData"),
-    "cut.vtp": (b'<VTKFile type="PolyData"><PolyData><Piece', "cannot be read as VTP"),
+    "junk.vtp": (b"nothing", "does not begin with <VTKFile"),
+    "grid.vtp": (b'<VTKFile type="UnstructuredGrid">', "expected PolyData"),
+    "cut.vtp": (b'<VTKFile type="PolyData"><PolyData><Piece', "its XML is broken"),
     "grid.vtk": (b"# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n", "expected POLYDATA"),
     "part.step": (b"ISO-10303-21;", "the suffix '.step' is none of a surface"),
 }

@@ -1,0 +1,264 @@
+"""VTU: whatever VTK's own writer makes of a grid is read as VTK has it, and what is damaged is refused at once."""
+
+import itertools
+import re
+import tracemalloc
+import zlib
+from base64 import b64encode
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.hexahedron import UNIT_CUBE
+from tests.core.grids import grid, scrambled
+
+MODES = [("Ascii", "None"), *itertools.product(("Binary", "Base64", "Raw"), ("None", "ZLib", "LZ4", "LZMA"))]
+CUBE = " ".join(f"{x:g}" for x in UNIT_CUBE.ravel())
+
+
+def written_by_vtk(path, mesh, mode="Binary", packing="ZLib", order=0, header=32, **arrays):
+    """The mesh as VTK writes it, with arrays for its points."""
+    vtk = pytest.importorskip("vtk")
+    pyvista = pytest.importorskip("pyvista")
+    content = pyvista.UnstructuredGrid({12: mesh.hexes.astype(np.int64)}, mesh.points)
+    for name, values in arrays.items():
+        content.point_data[name] = values
+    content.cell_data["material"] = np.arange(mesh.n_hexes, dtype=np.int16)
+    text = vtk.vtkStringArray()
+    text.SetName("title")
+    for words in ("made elsewhere", "in two lines, ä"):
+        text.InsertNextValue(words)
+    content.GetFieldData().AddArray(text)
+    content.field_data["time"] = np.array([0.25, 0.5])
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(content)
+    writer.SetFileName(str(path))
+    writer.SetByteOrder(order)
+    getattr(writer, f"SetHeaderTypeToUInt{header}")()
+    getattr(writer, f"SetDataModeTo{mode if mode in ('Ascii', 'Binary') else 'Appended'}")()
+    writer.SetEncodeAppendedData(mode == "Base64")
+    getattr(writer, f"SetCompressorTypeTo{packing}")()
+    writer.SetBlockSize(256)  # so that an array has many blocks, the last of them shorter
+    assert writer.Write()
+
+
+@pytest.mark.parametrize(("mode", "packing"), MODES)
+@pytest.mark.parametrize("order", [0, 1])
+@pytest.mark.parametrize("header", [32, 64])
+def test_every_mode_of_vtks_writer_is_read(mode, packing, order, header, tmp_path):
+    mesh = scrambled(grid(3), 0.3)
+    arrays = {
+        "velocity": np.random.default_rng(0).normal(size=(64, 3)),
+        "temperature": np.linspace(0, 1, 64, dtype=np.float32),
+        "number": np.arange(64, dtype=np.int64) + 2**40,
+        "code": np.arange(64, dtype=np.int8) - 32,
+    }
+    written_by_vtk(tmp_path / "a.vtu", mesh, mode, packing, order, header, **arrays)
+    back = io.read(tmp_path / "a.vtu")
+    np.testing.assert_array_equal(back.points, mesh.points)
+    np.testing.assert_array_equal(back.hexes, mesh.hexes)
+    for name, values in arrays.items():
+        np.testing.assert_array_equal(back.node_data[name], values)
+        assert back.node_data[name].dtype == values.dtype
+    np.testing.assert_array_equal(back.hex_data["material"], np.arange(27))
+    assert back.field_data["title"] == ["made elsewhere", "in two lines, ä"]
+    np.testing.assert_array_equal(back.field_data["time"], [0.25, 0.5])
+
+
+def text_of(points=8, cells=1, hexes="0 1 2 3 4 5 6 7", ends="8", types="12", more="", kind="Int64", data=""):
+    """A file of one piece in decimals."""
+    return (
+        '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"><UnstructuredGrid>' + more + "<Piece "
+        f'NumberOfPoints="{points}" NumberOfCells="{cells}"><Points><DataArray type="Float64" NumberOfComponents="3">'
+        f'{CUBE}</DataArray></Points><Cells><DataArray type="{kind}" Name="connectivity">{hexes}</DataArray>'
+        f'<DataArray type="Int64" Name="offsets">{ends}</DataArray><DataArray type="UInt8" Name="types">{types}'
+        f"</DataArray></Cells>{data}</Piece></UnstructuredGrid></VTKFile>"
+    )
+
+
+def test_text_is_read_as_xml_allows_it_to_be(tmp_path):
+    plain = text_of(data='<PointData><DataArray type="Int32" Name="n&lt;ä">0 1 2 3 4 5 6 7</DataArray></PointData>')
+    forms = {
+        "quotes": plain.replace('"', "'").encode(),
+        "mark": b"\xef\xbb\xbf" + plain.encode(),
+        "utf-16": ('<?xml version="1.0" encoding="UTF-16"?>' + plain).encode("utf-16"),
+        "latin": ('<?xml version="1.0" encoding="ISO-8859-1"?>' + plain).encode("latin-1"),
+        "windows": ('<?xml version="1.0" encoding="windows-1252"?>' + plain).encode("cp1252"),
+        "comment": plain.replace("0 1 2 3", "<!-- <DataArray> --> 0 1 2 3").encode(),
+        "key": plain.replace("0 1 2 3", "<InformationKey n='>'><Value>9</Value></InformationKey> 0 1 2 3<a/>").encode(),
+    }
+    for name, data in forms.items():
+        (tmp_path / f"{name}.vtu").write_bytes(data)
+        back = io.read(tmp_path / f"{name}.vtu")
+        np.testing.assert_array_equal(back.points, UNIT_CUBE)
+        np.testing.assert_array_equal(back.node_data["n<ä"], np.arange(8))
+
+
+def test_several_pieces_are_put_together(tmp_path):
+    one = re.search(
+        "<Piece.*</Piece>", text_of(data='<CellData><DataArray type="Int8" Name="a">7</DataArray></CellData>')
+    )[0]
+    empty = '<Piece NumberOfPoints="0" NumberOfCells="0"/>'
+    other = one.replace(
+        "7</DataArray></CellData>", '9</DataArray><DataArray type="Int8" Name="b">1</DataArray></CellData>'
+    )
+    text = text_of().replace(re.search("<Piece.*</Piece>", text_of())[0], one + empty + other)
+    (tmp_path / "a.vtu").write_text(text)
+    back = io.read(tmp_path / "a.vtu")
+    np.testing.assert_array_equal(back.hexes, [np.arange(8), np.arange(8, 16)])
+    np.testing.assert_array_equal(back.hex_data["a"], [7, 9])
+    assert "b" not in back.hex_data
+    assert "2 pieces are put together; 8 nodes where they meet are double" in back.notes[0]
+    assert "left out: b" in back.notes[1]
+
+
+def test_strings_of_nodes_and_bits_and_whole_numbers_of_other_types(tmp_path):
+    data = (
+        '<PointData><Array type="String" Name="words">97 0 98 0 99 0 100 0 101 0 102 0 103 0 104 0</Array>'
+        '<DataArray type="Bit" Name="bits">0 1 0 1 0 1 0 1</DataArray></PointData>'
+    )
+    more = '<FieldData><Array type="String" Name="title">195 -92 0 0 98 0</Array></FieldData>'
+    (tmp_path / "a.vtu").write_text(text_of(data=data, kind="Float32", more=more))
+    back = io.read(tmp_path / "a.vtu")
+    assert any("strings" in note and "words" in note for note in back.notes)
+    np.testing.assert_array_equal(back.node_data["bits"], [0, 1] * 4)
+    assert back.field_data["title"] == ["ä", "", "b"]
+
+
+def test_base64_whose_head_is_encoded_by_itself_is_read(tmp_path):
+    def encoded(values):
+        data = np.ascontiguousarray(values).tobytes()
+        return (b64encode(np.uint32(len(data)).tobytes()) + b64encode(data)).decode()
+
+    text = text_of(hexes=encoded(np.arange(8)), ends=encoded(np.int64(8)), types=encoded(np.uint8(12)))
+    text = text.replace(CUBE, encoded(UNIT_CUBE)).replace("<DataArray", '<DataArray format="binary"')
+    (tmp_path / "a.vtu").write_text(text)
+    np.testing.assert_array_equal(io.read(tmp_path / "a.vtu").points, UNIT_CUBE)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (text_of(hexes="0 1 2 3 4 5 6 4294967303"), "expected numbers from 0 to 7"),
+        (text_of(hexes="0 1 2 3 4 5 6 4294967303", kind="Int32"), "holds 4294967303, which is outside of its type Int32"),
+        (text_of(hexes="0 1 2 3 4 5 6 36893488147419103239"), "outside of its type Int64"),
+        (text_of(hexes="0 1 2 3 4 5 6 7.9"), "words that are no numbers of its type"),
+        (text_of(hexes="0 1 2 3 4 5 6 7.9", kind="Float64"), "holds 7.9: expected whole numbers"),
+        (text_of(types="268"), "holds 268, which is outside of its type UInt8"),
+        (text_of(types="268").replace("UInt8", "Int32"), "cell 0 is of type 268: expected one of VTK's types"),
+        (text_of(hexes="0 1 2 3 4 5 6 7 0"), "holds 9 numbers: expected 8"),
+        (text_of(ends="7"), "holds 8 numbers: expected 7"),
+        (text_of(ends="7", hexes="0 1 2 3 4 5 6"), "cell 0 is of type 12 and has 7 nodes: expected 8"),
+        (text_of(cells=2, ends="8 0", types="12 12"), "its offsets fall at cell 1"),
+        (text_of(ends="-8"), "its offsets fall at cell 0"),
+        (text_of(points="9"), "holds 24 numbers: expected 27"),
+        (text_of(points="1e3"), "NumberOfPoints of Piece is '1e3': expected a natural number"),
+        (text_of(points=10**15), "are announced to have"),
+        (text_of(cells=10**15), "are announced to have"),
+        (text_of(ends=str(10**15)), "are announced to have"),
+        (text_of(kind="Int65"), "has the type 'Int65': expected Int8"),
+        (text_of(kind='Int64" format="hex'), "has the format 'hex'"),
+        (text_of(kind='Int64" format="appended'), "has no AppendedData"),
+        (text_of(kind='Int64" format="binary'), "'connectivity' has 3820445139 bytes: expected 64"),
+        (text_of(kind='Int64" format="binary', hexes="QAAAAA=="), "goes on behind the end of the data"),
+        (text_of(kind='Int64" format="binary', hexes="Q!!!!!!!"), "is no base64"),
+        (text_of().replace('Name="types"', 'Name="type"'), "its Cells hold no array 'types'"),
+        (text_of().replace('"3"', '"2"'), "its Points have 2 coordinates each: expected 3"),
+        (text_of().replace("UnstructuredGrid", "ImageData"), "is a VTKFile of the type 'ImageData': expected UnstructuredGrid"),
+        (text_of().replace("Piece", "Part"), "holds no Piece"),
+        (text_of()[:-20], "its XML is broken at line 1, column"),
+        ('<!DOCTYPE a [<!ENTITY b "bbbbbbbb">]>' + text_of(), "declares a document type"),
+        ("\0" * 5000, "does not begin with <VTKFile"),
+        ("<VTKFile" + " " * 5000, "its XML is broken"),
+        ('<?xml version="1.0" encoding="no-such"?>' + text_of(), "its XML is broken"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_named(text, words, tmp_path):
+    (tmp_path / "a.vtu").write_text(text)
+    with pytest.raises(FileError) as error:
+        io.read(tmp_path / "a.vtu")
+    assert words in str(error.value)
+
+
+def packed(size, *, blocks=1):
+    """An array of zeros that zlib has packed, in base64: `blocks` of `size` bytes."""
+    block = zlib.compress(bytes(size), 9)
+    head = np.array([blocks, size, 0, *[len(block)] * blocks], "<u4")
+    return (b64encode(head.tobytes()) + b64encode(block * blocks)).decode()
+
+
+@pytest.mark.parametrize("consistent", [False, True])
+def test_a_small_file_cannot_fill_the_memory(consistent, tmp_path):
+    """256 MB of zeros in 260 kB: refused before they are unpacked, whether the piece's counts agree with them or not."""
+    size, rows = 1 << 28, (1 << 25 if consistent else 8)
+    array = f'<PointData><DataArray type="Int64" Name="a" format="binary">{packed(size)}</DataArray></PointData>'
+    text = text_of(points=rows, data=array).replace("<VTKFile", '<VTKFile compressor="vtkZLibDataCompressor"')
+    (tmp_path / "bomb.vtu").write_text(text)
+    tracemalloc.start()
+    try:
+        with pytest.raises(FileError):
+            io.read(tmp_path / "bomb.vtu")
+        assert tracemalloc.get_traced_memory()[1] < 1 << 25
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("packing", ["ZLib", "LZ4", "LZMA"])
+def test_a_block_that_holds_more_or_less_than_announced_is_refused(packing, tmp_path):
+    import lzma
+
+    from lz4 import block
+
+    pack = {"ZLib": zlib.compress, "LZMA": lzma.compress, "LZ4": lambda data: block.compress(data, store_size=False)}
+    for real in (63, 65, 1 << 20):
+        data = pack[packing](bytes(real))
+        head = np.array([1, 64, 0, len(data)], "<u4").tobytes()
+        array = (b64encode(head) + b64encode(data)).decode()
+        text = text_of(
+            data=f'<PointData><DataArray type="Int64" Name="a" format="binary">{array}</DataArray></PointData>'
+        )
+        text = text.replace("<VTKFile", f'<VTKFile compressor="vtk{packing}DataCompressor"')
+        (tmp_path / "a.vtu").write_text(text)
+        with pytest.raises(FileError, match="block 1 of 1"):
+            io.read(tmp_path / "a.vtu")
+
+
+def test_appended_data_are_never_taken_for_xml_and_may_not_be_shared_by_too_many(tmp_path):
+    mesh = scrambled(grid(3), 0.3)
+    marks = np.frombuffer(b"</AppendedData><!DOCTYPE x>&<Piece " * 16, np.uint8)[:512].view(np.float64)
+    written_by_vtk(tmp_path / "a.vtu", mesh, "Raw", "None", marks=marks)
+    np.testing.assert_array_equal(io.read(tmp_path / "a.vtu").node_data["marks"].view(np.int64), marks.view(np.int64))
+    content = (tmp_path / "a.vtu").read_bytes()
+    one = re.search(rb'<DataArray type="Float64" Name="marks"[^>]*/>', content)[0]
+    many = b"".join(one.replace(b'"marks"', b'"m%d"' % k) for k in range(2000))
+    (tmp_path / "many.vtu").write_bytes(content.replace(one, many))
+    assert len(io.read(tmp_path / "many.vtu").node_data) == 2000
+    for bad, words in (
+        (content[:-3000], "goes on behind"),
+        (content.replace(b"   _", b"   x"), "do not begin with '_'"),
+    ):
+        (tmp_path / "bad.vtu").write_bytes(bad)
+        with pytest.raises(FileError, match=words):
+            io.read(tmp_path / "bad.vtu")
+
+
+def test_a_vtu_file_of_another_suffix_is_recognised(tmp_path):
+    (tmp_path / "a.vtk").write_text(text_of())
+    assert io.read(tmp_path / "a.vtk").n_hexes == 1
+
+
+@pytest.mark.parametrize(("name", "hexes"), [("can.vtu", 4800), ("box_hybrid_mesh.vtu", 943)])
+def test_real_files_are_as_vtk_has_them(name, hexes, real_mesh):
+    pyvista = pytest.importorskip("pyvista")
+    path = real_mesh(name)
+    other, mesh = pyvista.read(path), io.read(path, as_is=True)
+    assert mesh.n_hexes == hexes
+    np.testing.assert_array_equal(mesh.points, other.points)
+    np.testing.assert_array_equal(mesh.hexes, other.cells_dict[12])
+    for key, values in other.point_data.items():
+        np.testing.assert_array_equal(mesh.node_data[key], values)
+    chosen = np.asarray(other.celltypes) == 12
+    for key, values in other.cell_data.items():
+        np.testing.assert_array_equal(mesh.hex_data[key], values[chosen])
