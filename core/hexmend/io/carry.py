@@ -52,6 +52,8 @@ class Grid:
     nodes : (start[-1],) int64
     node_data, cell_data : mapping of name to (n, ...) or (c, ...) array
     field_data : mapping of name to array or list of str
+    notes : sequence of str
+        What was done to it on reading, in sentences.
     """
 
     points: np.ndarray
@@ -61,6 +63,7 @@ class Grid:
     node_data: Mapping[str, np.ndarray]
     cell_data: Mapping[str, np.ndarray]
     field_data: Mapping[str, object] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 def to_mesh(path: Path, grid: Grid) -> Mesh:
@@ -103,7 +106,8 @@ def to_mesh(path: Path, grid: Grid) -> Mesh:
     node_data, node_sets = _parted(grid.node_data)
     if all(block.kind != "hex20" and block.kind != "hex27" for block in blocks):
         blocks = _in_order(grid, types, blocks)
-    content = Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=tuple(notes))
+    said = (*grid.notes, *notes)
+    content = Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=said)
     return mesh_of(path, content)
 
 

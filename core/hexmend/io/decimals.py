@@ -28,6 +28,8 @@ def lines(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
     b'0.1 7\\n1e+300 100000\\n'
     """
     rows = values.reshape(len(values), -1)
+    if rows.dtype == np.uint64 and rows.size and rows.max() > np.iinfo(np.int64).max:
+        return b"".join(b" ".join(b"%d" % one for one in row) + b"\n" for row in rows.tolist())
     if rows.dtype.kind in "iu":
         return decimals.whole_lines(np.ascontiguousarray(rows, np.int64).ravel(), rows.shape[1])
     behind = np.ascontiguousarray([] if last is None else last, np.int64)

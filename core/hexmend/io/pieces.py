@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,8 +14,8 @@ _GHOSTS = {"vtkGhostType": 1, "vtkGhostLevels": 255}
 _NUMBERS = ("GlobalNodeIds", "GlobalNodeId", "GlobalPointIds")
 
 
-def joined(grids: Sequence[Grid]) -> tuple[Grid, list[str]]:
-    """One grid of several, and what is to be said of it.
+def joined(grids: Sequence[Grid]) -> Grid:
+    """One grid of several; its notes say what was done.
 
     Ghost cells are dropped. Nodes are one where the pieces number them through (by an array "GlobalNodeIds" or the
     like); else those where pieces meet stay double, as VTK keeps them.
@@ -23,12 +24,8 @@ def joined(grids: Sequence[Grid]) -> tuple[Grid, list[str]]:
     ----------
     grids : sequence of Grid
         At least one.
-
-    Returns
-    -------
-    Grid, list of str
     """
-    notes: list[str] = []
+    notes = list(dict.fromkeys(note for grid in grids for note in grid.notes))
     marked = any(name in grid.cell_data for grid in grids for name in _GHOSTS)
     if marked:
         before = sum(len(grid.types) for grid in grids)
@@ -37,7 +34,7 @@ def joined(grids: Sequence[Grid]) -> tuple[Grid, list[str]]:
         if dropped:
             notes.append(f"{dropped:,} ghost cells, which pieces of the file have of their neighbours, are left out.")
     if len(grids) == 1:
-        return grids[0], notes
+        return replace(grids[0], notes=tuple(notes))
     grids = [grid for grid in grids if len(grid.points) or len(grid.types)] or list(grids[:1])
     counts = np.array([len(grid.points) for grid in grids])
     first = np.concatenate([[0], np.cumsum(counts)])
@@ -56,7 +53,7 @@ def joined(grids: Sequence[Grid]) -> tuple[Grid, list[str]]:
         {name: values for grid in reversed(grids) for name, values in grid.field_data.items()},
     )
     whole, said = _merged(whole)
-    return whole, [f"Its {len(grids)} pieces are put together{said}.", *notes]
+    return replace(whole, notes=(f"Its {len(grids)} pieces are put together{said}.", *notes))
 
 
 def _moved(grid: Grid, by: int) -> np.ndarray:

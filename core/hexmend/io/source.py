@@ -11,11 +11,15 @@ from hexmend.errors import FileError
 
 _NUMERIC = re.compile(rb"[\s0-9.eE+\-]*")
 _NOT_FINITE = re.compile(rb"(?:nan|inf(?:inity)?)(?=\s|$)", re.IGNORECASE)
-_WORD = re.compile(rb"\S+")
+_WORD = re.compile(rb"\S{1,4096}")
 _SPACE = re.compile(rb"\s*")
 _KEYWORD = re.compile(rb"[A-Za-z_]{2,}\Z")
 
 _NEWLINE = b"\n"
+#: More than a line of words has; a file without line ends is not one line.
+_LINE = 1 << 16
+#: How much is parsed at a time where a word that is no number is looked for.
+_PIECE = 1 << 20
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
@@ -63,7 +67,7 @@ class Source:
         """The rest of the line, without white space at its ends; empty for a blank one."""
         end = self.data.find(b"\n", self.pos)
         end = len(self.data) if end < 0 else end
-        line, self.pos = self.data[self.pos : end], min(end + 1, len(self.data))
+        line, self.pos = self.data[self.pos : min(end, self.pos + _LINE)], min(end + 1, len(self.data))
         return line.decode("utf-8", errors="replace").strip()
 
     def line(self) -> str:
@@ -105,11 +109,15 @@ class Source:
         values, found = _parsed(text, dtype), _count_words(text)
         if values is None or values.size != found or found < count:
             end = self._checked_end(section, rows, width, dtype)
-            values = _parsed(self.data[start:end], dtype)
+            text = self.data[start:end]
+            values = _parsed(text, dtype)
         elif found > count:  # the name of the next array begins with digits
             end = start + len(text.rsplit(None, found - count)[0])
+        values = values[:count]
+        if np.dtype(dtype).kind in "iu" and clipped(values, text):
+            raise self.error(f"{section} holds a whole number of more than 64 bits before {self.place(end)}")
         self.pos = end
-        return values[:count].reshape(rows, width)
+        return values.reshape(rows, width)
 
     def binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
         """Take rows * width numbers as they lie in the file: a (rows, width) view of the file's byte order."""
@@ -147,13 +155,13 @@ class Source:
     def _checked_end(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> int:
         """Walk number by number: the end of the last one, or an error that names the first that is none."""
         kind = float if np.dtype(dtype).kind == "f" else int
-        k, end = 0, self.pos
-        for found in _WORD.finditer(self.data, self.pos):
+        end, k = self._numbers_until(dtype, rows * width)
+        for found in _WORD.finditer(self.data, end):
             if k == rows * width:
                 return end
             word = found.group()
             try:
-                if b"_" in word:  # which Python admits
+                if b"_" in word or (np.dtype(dtype).kind == "u" and word[:1] == b"-"):  # which Python admits
                     raise ValueError
                 kind(word)
             except ValueError:
@@ -173,6 +181,18 @@ class Source:
             f"{section} ends after {k // width} of {rows} rows: the file ends at {self.place(len(self.data))}"
         )
 
+    def _numbers_until(self, dtype: np.dtype | type, count: int) -> tuple[int, int]:
+        """A place before which all words are numbers, and how many these are, fewer than `count`."""
+        at, k = self.pos, 0
+        while at < len(self.data):
+            piece = self.data[at : at + _PIECE]
+            end = max(piece.rfind(b" "), piece.rfind(b"\n")) + 1
+            values, found = _parsed(piece[:end], dtype), _count_words(piece[:end])
+            if not end or values is None or values.size != found or k + found >= count:
+                break
+            at, k = at + end, k + found
+        return at, k
+
 
 def shown(word: str) -> str:
     """A word of the file for a message: quoted, printable and short."""
@@ -186,6 +206,14 @@ def _parsed(text: bytes, dtype: np.dtype | type) -> np.ndarray | None:
         return np.fromstring(text, dtype=dtype, sep=" ")
     except (ValueError, DeprecationWarning):  # NumPy before 2.3 only warns and gives fewer numbers than words
         return None
+
+
+def clipped(values: np.ndarray, text: bytes) -> bool:
+    """Whether words among whole numbers are beyond what 64 bits hold: they were read as the last that these do."""
+    ends = np.iinfo(values.dtype)
+    if not values.size or (values.max() < ends.max and (ends.min == 0 or values.min() > ends.min)):
+        return False
+    return not all(ends.min <= int(word) <= ends.max for word in text.split()[: values.size])
 
 
 def _count_words(text: bytes) -> int:

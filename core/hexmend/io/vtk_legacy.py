@@ -3,29 +3,20 @@
 from __future__ import annotations
 
 import re
-from itertools import pairwise
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.carry import Grid, from_mesh, to_mesh
-from hexmend.io.decimals import blocks, lines
+from hexmend.io.carry import Grid, to_mesh
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.source import Source, shown
+from hexmend.io.vtk_legacy_arrays import STRINGS, array, strings_of, unquoted, whole_numbers
+from hexmend.io.vtk_legacy_write import write
 from hexmend.mesh import Mesh
 
-_TYPES = {
-    "bit": "u1", "char": "i1", "signed_char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2",
-    "int": "i4", "unsigned_int": "u4", "long": "i8", "unsigned_long": "u8", "vtktypeint64": "i8", "vtktypeuint64": "u8",
-    "vtkidtype": "i4", "float": "f4", "double": "f8",
-}  # fmt: skip
-_NAMES = {
-    code: name
-    for name, code in _TYPES.items()
-    if name not in ("bit", "char", "vtktypeint64", "vtktypeuint64", "vtkidtype")
-}
-_NAMES["i1"] = "char"
+_START = 4096
 _DATASETS = {"UNSTRUCTURED_GRID": "an unstructured grid of hexahedra", "POLYDATA": "PolyData, or write it as STL"}
 _WIDTHS = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9, "GLOBAL_IDS": 1, "PEDIGREE_IDS": 1}
 
@@ -44,17 +35,39 @@ class _Reader:
     """Takes a file apart, section by section."""
 
     def __init__(self, path: Path):
-        self.source = Source(path, path.read_bytes())
+        with open(path, "rb") as file:
+            start = file.read(_START)
+            if not re.match(rb"\s*#\s*vtk\s+datafile", start, re.IGNORECASE):
+                first = start.split(b"\n", 1)[0].decode("utf-8", errors="replace").strip()
+                raise FileError(
+                    path,
+                    f"line 1 is {shown(first)}: expected '# vtk DataFile Version ...'",
+                    "Is it a VTK file? Check its suffix.",
+                )
+            file.seek(0)
+            self.source = Source(path, file.read())
         self.found: dict[str, np.ndarray] = {}
         self.data: dict[str, dict[str, np.ndarray]] = {"POINT_DATA": {}, "CELL_DATA": {}}
-        self.target: dict[str, np.ndarray] = {}
+        self.fields: dict[str, np.ndarray | list[str]] = {}
+        self.section = ""  # of data, which the arrays belong to
         self.rows = 0
+        self.left: dict[str, None] = {}
 
     def grid(self) -> Grid:
         self._read("UNSTRUCTURED_GRID", ("POINTS", "CELLS", "CELL_TYPES"))
         types = self.found["CELL_TYPES"]
         start, nodes = self._cells(types)
-        return Grid(self.found["POINTS"], types, start, nodes, self.data["POINT_DATA"], self.data["CELL_DATA"])
+        notes = (f"Arrays that are not of numbers, one row a node or cell, are left out: {', '.join(self.left)}.",)
+        return Grid(
+            self.found["POINTS"],
+            types,
+            start,
+            nodes,
+            self.data["POINT_DATA"],
+            self.data["CELL_DATA"],
+            self.fields,
+            notes if self.left else (),
+        )
 
     def polygons(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         self._read("POLYDATA", ("POINTS",))
@@ -64,11 +77,7 @@ class _Reader:
 
     def _read(self, dataset: str, needed: tuple[str, ...]) -> None:
         source = self.source
-        head = source.raw_line()
-        if not re.match(r"#\s*vtk\s+datafile", head, re.IGNORECASE):
-            raise source.error(
-                f"line 1 is {shown(head)}: expected '# vtk DataFile Version ...'", "Is it a VTK file? Check its suffix."
-            )
+        source.line()  # the first, which was looked at
         source.raw_line()  # the title
         kind = source.line().upper()
         if kind not in ("ASCII", "BINARY"):
@@ -90,12 +99,14 @@ class _Reader:
 
     def _section(self, words: list[str]) -> None:
         source, key = self.source, words[0].upper()
-        line = source.here
+        mark = source.pos
+        if key in self.found or (key == "CELLS" and "CELL_TYPES" in self.found):
+            raise source.error(f"has a second section {key} before {source.here}")
         try:
             if key == "POINTS":
-                self.found[key] = self._array(key, source.whole(words[1], "the number of points"), 3, words[2]).astype(
-                    float
-                )
+                self.found[key] = array(
+                    source, key, source.whole(words[1], "the number of points"), 3, words[2]
+                ).astype(float)
             elif key == "CELLS":
                 self._cells_section(source.whole(words[1], "the number of cells"), source.whole(words[2], "their size"))
             elif key == "POLYGONS":
@@ -104,30 +115,33 @@ class _Reader:
                 self.found["CELL_TYPES"] = np.zeros(count - ("OFFSETS" in self.found), np.uint8)
             elif key in ("VERTICES", "LINES"):
                 self._cells_section(source.whole(words[1], "the number of cells"), source.whole(words[2], "their size"))
-                self.found.pop("OFFSETS", None)  # they are left out
+                for name in ("CELLS", "OFFSETS"):
+                    self.found.pop(name, None)  # they are left out
             elif key == "TRIANGLE_STRIPS":
                 raise source.error("holds triangle strips: expected polygons", "Convert them to triangles.")
             elif key == "CELL_TYPES":
-                self.found[key] = self._array(key, source.whole(words[1], "the number of cells"), 1, "int")[:, 0]
+                self.found[key] = array(source, key, source.whole(words[1], "the number of cells"), 1, "int")[:, 0]
             elif key in self.data:
-                self.target, self.rows = self.data[key], source.whole(words[1], "the number of rows")
+                self.section, self.rows = key, source.whole(words[1], "the number of rows")
                 self._check_rows(key)
             elif key == "SCALARS":
                 width = source.whole(words[3], "the number of components") if len(words) > 3 else 1
-                mark = source.pos
+                before = source.pos
                 if not source.line().upper().startswith("LOOKUP_TABLE"):
-                    source.pos = mark
-                self._keep(words[1], self._array(f"SCALARS {words[1]}", self.rows, width, words[2]))
+                    source.pos = before
+                self._keep(words[1], array(source, f"SCALARS {words[1]}", self.rows, width, words[2]))
             elif key in _WIDTHS:
-                self._keep(words[1], self._array(f"{key} {words[1]}", self.rows, _WIDTHS[key], words[2]))
+                self._keep(words[1], array(source, f"{key} {words[1]}", self.rows, _WIDTHS[key], words[2]))
             elif key == "TEXTURE_COORDINATES":
-                self._keep(words[1], self._array(key, self.rows, source.whole(words[2], "the dimension"), words[3]))
+                self._keep(words[1], array(source, key, self.rows, source.whole(words[2], "the dimension"), words[3]))
             elif key == "COLOR_SCALARS":
                 kind = "float" if source.text else "unsigned_char"
-                self._keep(words[1], self._array(key, self.rows, source.whole(words[2], "the number of values"), kind))
+                self._keep(
+                    words[1], array(source, key, self.rows, source.whole(words[2], "the number of values"), kind)
+                )
             elif key == "LOOKUP_TABLE":
                 kind = "float" if source.text else "unsigned_char"
-                self._array(key, source.whole(words[2], "the size of the table"), 4, kind)
+                array(source, key, source.whole(words[2], "the size of the table"), 4, kind)
             elif key == "FIELD":
                 for _ in range(source.whole(words[2], "the number of arrays")):
                     self._field()
@@ -135,64 +149,70 @@ class _Reader:
                 while source.raw_line():
                     pass
             else:
-                raise source.error(
-                    f"the line before {line} begins with {shown(words[0])}: expected a section of the format"
-                )
+                place = source.place(mark)
+                raise source.error(f"the line before {place} begins with {shown(words[0])}: expected a section")
         except IndexError:
-            raise source.error(f"the heading {' '.join(words)!r} before {line} is incomplete") from None
+            heading = shown(" ".join(words))
+            raise source.error(f"the heading {heading} before {source.place(mark)} is incomplete") from None
 
     def _field(self) -> None:
-        words = self.source.line().split()
+        source = self.source
+        words = source.line().split()
         while words and words[0].upper() == "METADATA":
-            while self.source.raw_line():
+            while source.raw_line():
                 pass
-            words = self.source.line().split()
+            words = source.line().split()
         if len(words) < 4:
-            raise self.source.error(
-                f"an array's heading before {self.source.here} is incomplete: expected name, width, rows, type"
-            )
-        width = self.source.whole(words[1], "the number of components")
-        rows = self.source.whole(words[2], "the number of rows")
-        values = self._array(f"array {words[0]}", rows, width, words[3])
-        if rows == self.rows:
+            raise source.error(f"an array's heading before {source.here} lacks some of name, width, rows and type")
+        width = source.whole(words[1], "the number of components")
+        rows = source.whole(words[2], "the number of rows")
+        if words[3].lower() in STRINGS:
+            strings = strings_of(source, rows * width)
+            if self.section:
+                self.left[unquoted(words[0])] = None
+            else:
+                self.fields[self._name(words[0], self.fields)] = strings
+            return
+        values = array(source, f"array {words[0]}", rows, width, words[3])
+        if not self.section:
+            self.fields[self._name(words[0], self.fields)] = values[:, 0] if width == 1 else values
+        elif rows == self.rows:
             self._keep(words[0], values)
+        else:
+            self.left[unquoted(words[0])] = None
 
     def _keep(self, name: str, values: np.ndarray) -> None:
-        from urllib.parse import unquote
+        target = self.data.get(self.section)
+        if target is None:
+            raise self.source.error(f"the array {shown(name)} stands before POINT_DATA and CELL_DATA")
+        target[self._name(name, target)] = values[:, 0] if values.shape[1] == 1 else values
 
-        self.target[unquote(name)] = values[:, 0] if values.shape[1] == 1 else values
+    def _name(self, name: str, target: Mapping[str, object]) -> str:
+        """The name of an array; another where that is taken."""
+        name = unquoted(name)
+        return name if name not in target else f"{name} ({len(target) + 1})"
 
     def _check_rows(self, key: str) -> None:
         have = len(self.found.get("POINTS" if key == "POINT_DATA" else "CELL_TYPES", ()))
         if have != self.rows:
             raise self.source.error(f"{key} has {self.rows} rows: expected {have}")
 
-    def _array(self, section: str, rows: int, width: int, kind: str) -> np.ndarray:
-        """Numbers of a VTK type, in the machine's byte order."""
-        code = _TYPES.get(kind.lower())
-        if code is None:
-            raise self.source.error(f"{section} has the type {shown(kind)}: expected {', '.join(_TYPES)}")
-        if self.source.text:
-            wide = np.float64 if code[0] == "f" else np.uint64 if code == "u8" else np.int64
-            values = self.source.decimals(section, rows, width, wide)
-            return values if code[0] == "f" else values.astype(code)
-        if kind.lower() == "bit":
-            bits = np.unpackbits(np.frombuffer(self.source.take((rows * width + 7) // 8, section), np.uint8))
-            return bits[: rows * width].reshape(rows, width)
-        return self.source.binary(section, rows, width, f">{code}").astype(code)
-
     def _cells_section(self, count: int, size: int) -> None:
-        mark = self.source.pos
-        words = self.source.line().split()
+        source = self.source
+        mark = source.pos
+        words = source.line().split()
         if words and words[0].upper() == "OFFSETS":  # version 5
-            self.found["OFFSETS"] = self._array("OFFSETS", count, 1, words[1])[:, 0].astype(np.int64)
-            words = self.source.line().split()
+            self.found["OFFSETS"] = whole_numbers(source, "OFFSETS", count, words[1]).astype(np.int64)
+            words = source.line().split()
             if not words or words[0].upper() != "CONNECTIVITY":
-                raise self.source.error(f"CELLS goes on with {shown(' '.join(words))}: expected CONNECTIVITY")
-            self.found["CELLS"] = self._array("CONNECTIVITY", size, 1, words[1])[:, 0]
+                raise source.error(f"CELLS goes on with {shown(' '.join(words))}: expected CONNECTIVITY")
+            self.found["CELLS"] = whole_numbers(source, "CONNECTIVITY", size, words[1])
         else:
-            self.source.pos = mark
-            self.found["CELLS"] = self._array("CELLS", *((count, 9) if size == 9 * count else (size, 1)), "int").ravel()
+            source.pos = mark
+            if count > size:
+                raise source.error(f"{count} cells of {size} numbers are announced before {source.here}")
+            shape = (count, 9) if size == 9 * count else (size, 1)
+            self.found["CELLS"] = array(source, "CELLS", *shape, "int").ravel()
 
     def _cells(self, types: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Start of each cell and all cells' nodes."""
@@ -222,66 +242,6 @@ class _Reader:
         return start, flat[keep]
 
 
-def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write version 3.0, which every program reads."""
-    from urllib.parse import quote
-
-    grid = from_mesh(mesh)
-    ascii = encoding == "ascii"
-    with open(path, "wb") as file:
-
-        def numbers(values: np.ndarray, code: str) -> None:
-            if ascii:
-                for part in blocks(len(values)):
-                    file.write(lines(values[part]))
-            else:
-                file.write(np.ascontiguousarray(values, dtype=f">{code}").tobytes() + b"\n")
-
-        name = mesh.name.replace("\n", " ")[:200] or "mesh"
-        kind = "ASCII" if ascii else "BINARY"
-        file.write(f"# vtk DataFile Version 3.0\n{name}\n{kind}\nDATASET UNSTRUCTURED_GRID\n".encode())
-        file.write(f"POINTS {len(grid.points)} double\n".encode())
-        numbers(grid.points, "f8")
-        widths = np.diff(grid.start)
-        count = len(widths)
-        file.write(f"CELLS {count} {count + len(grid.nodes)}\n".encode())
-        flat = np.empty(count + len(grid.nodes), np.int32)
-        heads = grid.start[:-1] + np.arange(count)
-        rest = np.ones(len(flat), dtype=bool)
-        rest[heads] = False
-        flat[heads], flat[rest] = widths, grid.nodes
-        if ascii:
-            for begin, end in _of_one_width(widths):
-                row = widths[begin] + 1
-                numbers(flat[heads[begin] : heads[begin] + (end - begin) * row].reshape(-1, row), "i4")
-        else:
-            numbers(flat, "i4")
-        file.write(f"CELL_TYPES {count}\n".encode())
-        numbers(grid.types, "i4")
-        for section, rows, data in (
-            ("POINT_DATA", len(grid.points), grid.node_data),
-            ("CELL_DATA", count, grid.cell_data),
-        ):
-            if data:
-                file.write(f"{section} {rows}\nFIELD FieldData {len(data)}\n".encode())
-            for title, values in data.items():
-                values = np.asarray(values)
-                code = values.dtype.str[1:] if values.dtype.kind != "b" else "u1"
-                if code not in _NAMES:
-                    raise FileError(
-                        path, f"the array {title!r} holds {values.dtype}, which VTK cannot", "Remove the array."
-                    )
-                flat = values.reshape(rows, -1)
-                file.write(f"{quote(title, safe=':')} {flat.shape[1]} {rows} {_NAMES[code]}\n".encode())
-                numbers(flat.astype(code), code)
-
-
-def _of_one_width(widths: np.ndarray) -> list[tuple[int, int]]:
-    """First and last but one of each series of cells with the same number of nodes."""
-    ends = [*(np.flatnonzero(np.diff(widths)) + 1).tolist(), len(widths)]
-    return list(pairwise([0, *ends]))
-
-
 FORMATS.add(
     "vtk",
     Format(
@@ -291,7 +251,7 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset(Holds) - {Holds.SIDE_SETS, Holds.FIELD_DATA},
+        holds=frozenset(Holds) - {Holds.SIDE_SETS},
         recognised=lambda head: head[:40].lower().lstrip().startswith(b"# vtk datafile"),
     ),
 )

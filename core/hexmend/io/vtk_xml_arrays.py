@@ -13,6 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from hexmend.io.source import clipped
 from hexmend.io.vtk_xml import TYPES, Document, Element, title
 
 #: How compressors are named.
@@ -79,10 +80,9 @@ def _decimals(document: Document, array: Element, dtype: np.dtype, count: int | 
         )
     if wide.kind == "f":
         return values.astype(dtype.newbyteorder("="), copy=False)
-    limit, ends = np.iinfo(dtype), np.iinfo(wide)
+    limit = np.iinfo(dtype)
     outside = np.flatnonzero((values < limit.min) | (values > limit.max))
-    clipped = values.size and (values.max() == ends.max or (wide.kind == "i" and values.min() == ends.min))
-    if outside.size or (clipped and not all(ends.min <= int(word) <= ends.max for word in text.split())):
+    if outside.size or clipped(values, text):
         word = values[outside[0]] if outside.size else "a number"
         raise document.error(f"{title(array)} holds {word}, which is outside of its type {array.get('type')}")
     return values.astype(dtype.newbyteorder("="), copy=False)

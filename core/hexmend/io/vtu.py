@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,16 +21,11 @@ _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']UnstructuredGrid[\"']")
 
 def read(path: Path) -> Mesh:
     """Read a VTU file, its pieces put together."""
-    grids, left = grids_of(path)
-    grid, notes = joined(grids)
-    if left:
-        notes.append(f"Arrays of strings, one for each node or cell, are left out: {', '.join(left)}.")
-    mesh = to_mesh(path, grid)
-    return mesh.replace(notes=(*notes, *mesh.notes)) if notes else mesh
+    return to_mesh(path, joined(grids_of(path)))
 
 
-def grids_of(path: Path) -> tuple[list[Grid], list[str]]:
-    """The pieces of a VTU file, at least one, and the names of arrays that are left out: those of strings."""
+def grids_of(path: Path) -> list[Grid]:
+    """The pieces of a VTU file, at least one; field data are with the first."""
     with Document(path, "UnstructuredGrid") as document:
         top = document.root.first("UnstructuredGrid")
         pieces = list(top.all("Piece"))
@@ -37,14 +33,14 @@ def grids_of(path: Path) -> tuple[list[Grid], list[str]]:
             raise document.error("holds no Piece")
         for piece in pieces:
             _charge(document, piece)
-        left: list[str] = []
+        left: dict[str, None] = {}
         grids = [_grid(document, piece, left) for piece in pieces]
         fields: dict[str, object] = {}
-        for array in (*top.first("FieldData").arrays(), *(a for p in pieces for a in p.first("FieldData").arrays())):
-            fields[array.get("Name") or f"array {len(fields)}"] = _field(document, array)
-    first = grids[0]
-    grids[0] = Grid(first.points, first.types, first.start, first.nodes, first.node_data, first.cell_data, fields)
-    return grids, sorted(set(left))
+        for section in (top.first("FieldData"), *(piece.first("FieldData") for piece in pieces)):
+            for array in section.arrays():
+                fields[array.get("Name") or f"array {len(fields)}"] = _field(document, array)
+    notes = (f"Arrays of strings, one for each node or cell, are left out: {', '.join(left)}.",) if left else ()
+    return [replace(grids[0], field_data=fields, notes=notes), *grids[1:]]
 
 
 def _charge(document: Document, piece: Element) -> None:
@@ -59,7 +55,7 @@ def _charge(document: Document, piece: Element) -> None:
             document.charge(document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, title(array))
 
 
-def _grid(document: Document, piece: Element, left: list[str]) -> Grid:
+def _grid(document: Document, piece: Element, left: dict[str, None]) -> Grid:
     points, cells = document.count(piece, "NumberOfPoints"), document.count(piece, "NumberOfCells")
     found = piece.first("Points").arrays()
     if points and not found:
@@ -99,12 +95,12 @@ def _whole(document: Document, array: Element, count: int) -> np.ndarray:
     return values.astype(np.int64, copy=False)
 
 
-def _data(document: Document, section: Element, rows: int, left: list[str]) -> dict[str, np.ndarray]:
+def _data(document: Document, section: Element, rows: int, left: dict[str, None]) -> dict[str, np.ndarray]:
     answer: dict[str, np.ndarray] = {}
     for array in section.arrays():
         name, width = array.get("Name"), _width(document, array)
         if array.get("type") == "String":
-            left.append(name)
+            left[name] = None
             continue
         values = values_of(document, array, rows * width)
         answer[name] = values if width == 1 else values.reshape(rows, width)

@@ -97,17 +97,11 @@ def _array(file: BinaryIO, name: str, values: np.ndarray | list[str], ascii: boo
         numbers = numbers.reshape(-1)
     file.write(f'{head} format="{"ascii" if ascii else "binary"}">\n'.encode("utf-8", "replace"))
     if ascii:
-        file.write(_decimals(numbers))
+        file.write(lines(numbers))
     else:
         _pack(file, numbers)
     file.write(b"\n</Array>\n" if isinstance(values, list) else b"\n</DataArray>\n")
     return title.encode("utf-8", "replace").decode(), zlib.crc32(numbers.view(np.uint8))
-
-
-def _decimals(numbers: np.ndarray) -> bytes:
-    if numbers.dtype == np.uint64:
-        return " ".join(map(str, numbers.tolist())).encode()
-    return lines(numbers)
 
 
 def _pack(file: BinaryIO, numbers: np.ndarray) -> None:

@@ -1,0 +1,151 @@
+"""VTK's legacy format: field data, strings, and widths and counts that a reader could take for others."""
+
+import os
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.io.source import Source
+from tests.core.grids import grid, scrambled
+
+HEAD = "# vtk DataFile Version {}\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+POINTS = "POINTS 8 {}\n0 0 0 1 0 0 1 1 0 0 1 0\n0 0 1 1 0 1 1 1 1 0 1 1\n"
+
+
+def old(cells="CELLS 1 9\n8 0 1 2 3 4 5 6 7", types="12", points=POINTS.format("double"), more=""):
+    """A file of one hex, version 3.0."""
+    return HEAD.format("3.0") + points + cells + f"\nCELL_TYPES 1\n{types}\n" + more
+
+
+def new(ends="0 8", nodes="0 1 2 3 4 5 6 7", kind="vtktypeint64"):
+    """The same, version 5.1."""
+    size = len(nodes.split())
+    cells = f"CELLS 2 {size}\nOFFSETS vtktypeint64\n{ends}\nCONNECTIVITY {kind}\n{nodes}"
+    return HEAD.format("5.1") + POINTS.format("double") + cells + "\nCELL_TYPES 1\n12\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (old("CELLS 1 9\n8 0 1 2 3 4 5 6 4294967303"), "CELLS holds 4294967303 in row 1 of 1, which its type int cannot"),
+        (new(nodes="0 1 2 3 4 5 6 4294967303"), "expected numbers from 0 to 7"),
+        (new(nodes="0 1 2 3 4 5 6 4294967303", kind="int"), "CONNECTIVITY holds 4294967303 in row 8 of 8"),
+        (new(nodes="0 1 2 3 4 5 6 36893488147419103239"), "CONNECTIVITY holds a whole number of more than 64 bits"),
+        (old("CELLS 1 9\n8 0 1 2 3 4 5 6 7.9"), "CELLS holds '7.9' in row 1 of 1 (line 9): expected a whole number"),
+        (new(nodes="0 1 2 3 4 5 6 7.9", kind="double"), "CONNECTIVITY has the type double: expected whole numbers"),
+        (old(types="268"), "cell 0 is of type 268: expected one of VTK's types"),
+        (old(types="-12"), "cell 0 is of type -12: expected one of VTK's types"),
+        (old("CELLS 1 10\n8 0 1 2 3 4 5 6 7 7"), "CELLS holds 10 numbers: its 1 cells need 9"),
+        (old("CELLS 1 9\n8 0 1 2 3 4 5 6 7 7"), "begins with '7'"),
+        (new(ends="0 7"), "CELLS has 2 OFFSETS for 1 cells"),
+        (new(ends="0 7", nodes="0 1 2 3 4 5 6"), "cell 0 is of type 12 and has 7 nodes: expected 8"),
+        (old("CELLS 1 8\n7 0 1 2 3 4 5 6"), "cell 0 is of type 12 and has 7 nodes: expected 8"),
+        (old(points=POINTS.format("char").replace("1 1 1", "1 257 1")), "POINTS holds 257 in row 7 of 8, which its type char cannot"),
+        (old(points=2 * POINTS.format("double")), "has a second section POINTS before line 9"),
+        (old(more="CELLS 1 9\n8 0 1 2 3 4 5 6 7\n"), "has a second section CELLS"),
+        (old(more="CELL_TYPES 1\n12\n"), "has a second section CELL_TYPES"),
+        (old(more="CELL_DATA 1\nSCALARS a float\nLOOKUP_TABLE default\n1\nCELL_TYPES 2\n12\n12\n"), "has a second section CELL_TYPES"),
+        (old(more="SCALARS a float\nLOOKUP_TABLE default\n1\n"), "the array 'a' stands before POINT_DATA and CELL_DATA"),
+        (old(f"CELLS {10**15} 9\n8 0 1 2 3 4 5 6 7"), "cells of 9 numbers are announced"),
+        (old(points=f"POINTS {10**15} double\n0 0 0\n"), "POINTS ends after 1 of 1000000000000000 rows: line 7 goes on with 'CELLS'"),
+        (old(more=f"FIELD FieldData 1\na 1 {10**15} string\nx\n"), "1000000000000000 strings are announced"),
+        (old(more="POINT_DATA 8\nFIELD FieldData 1\na 1 8 unsigned_long\n0 1 2 3 4 5 6 -1\n"), "array a holds '-1'"),
+    ],
+)  # fmt: skip
+def test_no_number_is_taken_for_another(text, words, tmp_path):
+    (tmp_path / "a.vtk").write_text(text)
+    with pytest.raises(FileError) as error:
+        io.read(tmp_path / "a.vtk")
+    assert words in str(error.value)
+
+
+@pytest.mark.parametrize("binary", [0, 1])
+@pytest.mark.parametrize("version", [42, 51])
+def test_field_data_and_strings_of_vtks_writer_are_read(binary, version, tmp_path):
+    vtk = pytest.importorskip("vtk")
+    pyvista = pytest.importorskip("pyvista")
+    mesh = scrambled(grid(2), 0.3)
+    content = pyvista.UnstructuredGrid({12: mesh.hexes.astype(np.int64)}, mesh.points)
+    strings = ["made elsewhere, ä 100%\nnew", "", "x" * 100, "y" * 20000]
+    for data, name in ((content.GetFieldData(), "a title"), (content.GetPointData(), "names")):
+        text = vtk.vtkStringArray()
+        text.SetName(name)
+        for words in strings if name == "a title" else "n" * 27:
+            text.InsertNextValue(words)
+        data.AddArray(text)
+    content.field_data["time"] = np.array([0.25, 0.5])
+    content.field_data["axes"] = np.eye(3)
+    content.point_data["velocity"] = mesh.points + 1
+    writer = vtk.vtkUnstructuredGridWriter()
+    writer.SetInputData(content)
+    writer.SetFileVersion(version)
+    writer.SetFileType(1 + binary)
+    writer.SetFileName(str(tmp_path / "a.vtk"))
+    assert writer.Write()
+    back = io.read(tmp_path / "a.vtk")
+    assert back.field_data["a title"] == strings
+    np.testing.assert_array_equal(back.field_data["time"], [0.25, 0.5])
+    np.testing.assert_array_equal(back.field_data["axes"], np.eye(3))
+    assert np.abs(back.node_data["velocity"] - mesh.points - 1).max() < 1e-5
+    assert any("left out: names" in note for note in back.notes)
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "binary"])
+def test_field_data_come_back_and_vtk_reads_them(encoding, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    strings = ["made & elsewhere 100%\nnew", "", "ä", "x" * 100, "y" * 20000]
+    fields = {"title of it": strings, "one": ["x"], "time": np.array([0.1, 1e-300]), "axes": np.arange(6).reshape(2, 3)}
+    io.write(tmp_path / "a.vtk", grid(2).replace(field_data=fields), encoding=encoding)
+    back = io.read(tmp_path / "a.vtk").field_data
+    other = pyvista.read(tmp_path / "a.vtk").field_data
+    assert list(back) == list(fields)
+    assert back["title of it"] == strings
+    assert list(other["title of it"]) == strings
+    for name in ("time", "axes"):
+        np.testing.assert_array_equal(back[name], fields[name])
+        np.testing.assert_array_equal(other[name], fields[name])
+
+
+def test_unsigned_numbers_of_64_bits_come_back(tmp_path):
+    most = np.full(8, 2**64 - 1, np.uint64)
+    for encoding in ("ascii", "binary"):
+        io.write(tmp_path / "a.vtk", grid(1).replace(node_data={"most": most}), encoding=encoding)
+        np.testing.assert_array_equal(io.read(tmp_path / "a.vtk").node_data["most"], most)
+
+
+def test_arrays_of_one_name_are_all_kept(tmp_path):
+    scalars = "SCALARS a int\nLOOKUP_TABLE default\n{}\n"
+    (tmp_path / "a.vtk").write_text(old(more="CELL_DATA 1\n" + "".join(scalars.format(k) for k in range(3))))
+    assert [int(values[0]) for values in io.read(tmp_path / "a.vtk").hex_data.values()] == [0, 1, 2]
+
+
+def test_many_sections_do_not_count_the_lines_before_each_of_them(tmp_path, monkeypatch):
+    monkeypatch.setattr(Source, "place", None)
+    (tmp_path / "a.vtk").write_text(old(more="CELL_DATA 1\n" + "LOOKUP_TABLE t 1\n0 0 0 1\n" * 20_000))
+    assert io.read(tmp_path / "a.vtk").n_hexes == 1
+
+
+@pytest.mark.parametrize("start", [b"", b"# vtk DataFile Version 3.0\n"])
+def test_a_file_of_zeros_is_refused_without_reading_more_than_it_has(start, tmp_path):
+    path = tmp_path / "zeros.vtk"
+    path.write_bytes(start)
+    size = 1 << 26 if start else 3 << 30
+    os.truncate(path, size)  # which takes no place on the disk
+    tracemalloc.start()
+    try:
+        with pytest.raises(FileError):
+            io.read(path)
+        assert tracemalloc.get_traced_memory()[1] < (1.1 * size if start else 1 << 20)
+    finally:
+        tracemalloc.stop()
+
+
+def test_what_is_wrong_far_back_is_found_by_its_line(tmp_path):
+    rows = [f"{k} 0 0" for k in range(200_000)]
+    rows[150_000] = "0 1.2.3 0"
+    (tmp_path / "a.vtk").write_text(HEAD.format("3.0") + f"POINTS {len(rows)} float\n" + "\n".join(rows) + "\n")
+    with pytest.raises(FileError, match=r"POINTS holds '1.2.3' in row 150001 of 200000 \(line 150006\)"):
+        io.read(tmp_path / "a.vtk")
