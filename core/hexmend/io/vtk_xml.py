@@ -12,6 +12,7 @@ from typing import BinaryIO
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.allowance import Allowance
 
 DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 #: Types of arrays, without their byte order. A bit is an eighth of a byte: see `hexmend.io.vtk_xml_arrays`.
@@ -25,8 +26,6 @@ _TAG = re.compile(rb"<(?:[^>\"']|\"[^\"]*\"|'[^']*')*>")
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 #: More elements than any mesh has.
 _ELEMENTS = 1_000_000
-#: A file's arrays have at most so many bytes, and so many more for each of its own: constants are packed up to 1:650.
-_FLOOR, _RATIO = 1 << 26, 100
 
 
 @dataclass(eq=False)
@@ -92,7 +91,7 @@ class Document:
             if not start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
                 raise FileError(path, "does not begin with <VTKFile ...>", "Is it a VTK XML file? Check its suffix.")
             self.size = self.file.seek(0, io.SEEK_END)
-            self.allowed = _FLOOR + _RATIO * self.size
+            self.allowance = Allowance(path, self.size)
             self._appended: int | None = None
             self.root = self._head(kind)
         except BaseException:
@@ -108,19 +107,6 @@ class Document:
     def error(self, problem: str, remedy: str = DAMAGED) -> FileError:
         """The error to raise."""
         return FileError(self.path, problem, remedy)
-
-    def charge(self, size: int, what: str) -> None:
-        """Count bytes that an array is announced to have; raise `FileError` where all are more than the file can say.
-
-        So a small file cannot fill the memory, whatever it claims.
-        """
-        self.allowed -= size
-        if self.allowed < 0:
-            raise self.error(
-                f"{what} and the arrays before it are announced to have "
-                f"{(_FLOOR + _RATIO * self.size - self.allowed) >> 20:,} MB: too many for a file of "
-                f"{max(1, self.size >> 10):,} kB"
-            )
 
     def count(self, element: Element, key: str) -> int:
         """A count among the attributes of an element."""

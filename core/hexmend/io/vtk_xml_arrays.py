@@ -29,7 +29,7 @@ def values_of(document: Document, array: Element, count: int | None = None) -> n
     document : Document
     array : Element
     count : int, optional
-        How many there must be; None where only the array knows it. It must have been told to `Document.charge`;
+        How many there must be; None where only the array knows it. It must have been told to `Document.allowance`;
         without it that is done here.
 
     Returns
@@ -220,7 +220,7 @@ def _unpacker(kind: str) -> Callable[[bytes, int], bytes]:
 
 def _check_size(document: Document, array: Element, length: int, size: int | None) -> None:
     if size is None:
-        document.charge(length, title(array))
+        document.allowance.charge(length, title(array))
     elif length != size:
         raise document.error(f"{title(array)} has {length} bytes: expected {size}")
 

@@ -49,10 +49,12 @@ def _charge(document: Document, piece: Element) -> None:
         for array in piece.first(section).arrays():
             if array.get("type") != "String":
                 width = _width(document, array) * document.dtype(array).itemsize
-                document.charge(document.count(piece, rows) * width, title(array))
+                document.allowance.charge(document.count(piece, rows) * width, title(array))
     for array in piece.first("Cells").arrays():
         if array.get("Name") in ("offsets", "types"):
-            document.charge(document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, title(array))
+            document.allowance.charge(
+                document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, title(array)
+            )
 
 
 def _grid(document: Document, piece: Element, left: dict[str, None]) -> Grid:
@@ -73,7 +75,7 @@ def _grid(document: Document, piece: Element, left: dict[str, None]) -> Grid:
     if falls.size:
         raise document.error(f"its offsets fall at cell {falls[0]}: expected where each cell's nodes end")
     if cells:
-        document.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
+        document.allowance.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
     return Grid(
         places.reshape(-1, 3).astype(np.float64, copy=False),
         _whole(document, arrays["types"], cells) if cells else np.empty(0, np.int64),

@@ -13,9 +13,10 @@ from tests.core.grids import grid, scrambled
 
 HEAD = "# vtk DataFile Version {}\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
 POINTS = "POINTS 8 {}\n0 0 0 1 0 0 1 1 0 0 1 0\n0 0 1 1 0 1 1 1 1 0 1 1\n"
+DOUBLES = POINTS.format("double")
 
 
-def old(cells="CELLS 1 9\n8 0 1 2 3 4 5 6 7", types="12", points=POINTS.format("double"), more=""):
+def old(cells="CELLS 1 9\n8 0 1 2 3 4 5 6 7", types="12", points=DOUBLES, more=""):
     """A file of one hex, version 3.0."""
     return HEAD.format("3.0") + points + cells + f"\nCELL_TYPES 1\n{types}\n" + more
 
@@ -24,7 +25,7 @@ def new(ends="0 8", nodes="0 1 2 3 4 5 6 7", kind="vtktypeint64"):
     """The same, version 5.1."""
     size = len(nodes.split())
     cells = f"CELLS 2 {size}\nOFFSETS vtktypeint64\n{ends}\nCONNECTIVITY {kind}\n{nodes}"
-    return HEAD.format("5.1") + POINTS.format("double") + cells + "\nCELL_TYPES 1\n12\n"
+    return HEAD.format("5.1") + DOUBLES + cells + "\nCELL_TYPES 1\n12\n"
 
 
 @pytest.mark.parametrize(
@@ -44,7 +45,7 @@ def new(ends="0 8", nodes="0 1 2 3 4 5 6 7", kind="vtktypeint64"):
         (new(ends="0 7", nodes="0 1 2 3 4 5 6"), "cell 0 is of type 12 and has 7 nodes: expected 8"),
         (old("CELLS 1 8\n7 0 1 2 3 4 5 6"), "cell 0 is of type 12 and has 7 nodes: expected 8"),
         (old(points=POINTS.format("char").replace("1 1 1", "1 257 1")), "POINTS holds 257 in row 7 of 8, which its type char cannot"),
-        (old(points=2 * POINTS.format("double")), "has a second section POINTS before line 9"),
+        (old(points=2 * DOUBLES), "has a second section POINTS before line 9"),
         (old(more="CELLS 1 9\n8 0 1 2 3 4 5 6 7\n"), "has a second section CELLS"),
         (old(more="CELL_TYPES 1\n12\n"), "has a second section CELL_TYPES"),
         (old(more="CELL_DATA 1\nSCALARS a float\nLOOKUP_TABLE default\n1\nCELL_TYPES 2\n12\n12\n"), "has a second section CELL_TYPES"),

@@ -1,0 +1,51 @@
+"""VTK's XML format for unstructured grids in several files (.pvtu), which names its pieces; read only."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path, PurePosixPath
+
+from hexmend.errors import FileError
+from hexmend.io.carry import Grid, to_mesh
+from hexmend.io.format import FORMATS, Format
+from hexmend.io.pieces import joined
+from hexmend.io.vtk_xml import Document
+from hexmend.io.vtu import grids_of
+from hexmend.mesh import Mesh
+
+_ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']PUnstructuredGrid[\"']")
+
+
+def read(path: Path) -> Mesh:
+    """Read a PVTU file and the files that it names, put together without their ghost cells."""
+    with Document(path, "PUnstructuredGrid") as document:
+        names = [piece.get("Source") for piece in document.root.first("PUnstructuredGrid").all("Piece")]
+        if not names:
+            raise document.error("names no pieces")
+    if len(set(names)) < len(names):
+        raise FileError(path, "names a piece twice", "Write it again with the program that made it.")
+    grids = [grid for name in names for grid in _piece(path, name)]
+    fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
+    return to_mesh(path, replace(joined(grids), field_data=fields))
+
+
+def _piece(path: Path, name: str) -> list[Grid]:
+    """The grids of a file beside another one."""
+    from hexmend.io.files import check_readable
+
+    shown = "".join(c if c.isprintable() else "?" for c in name[:80])
+    relative = PurePosixPath(name.replace("\\", "/"))
+    if not name or relative.is_absolute() or ".." in relative.parts or ":" in name or "\0" in name:
+        raise FileError(path, f"names the piece {shown!r}: expected a file beside it or below", "Put its pieces there.")
+    place = path.parent / relative
+    try:
+        check_readable(place, "a VTU file")
+        return grids_of(place)
+    except FileError as error:
+        raise FileError(path, f"its piece {shown}: {error.problem}", error.remedy) from None
+
+
+FORMATS.add(
+    "pvtu", Format("pvtu", "PVTU", (".pvtu",), (), read, recognised=lambda head: _ROOT.search(head) is not None)
+)

@@ -1,0 +1,148 @@
+"""VTKHDF as VTK's own writer makes it, and what is wrong with others."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from tests.core.grids import grid, scrambled
+
+h5py = pytest.importorskip("h5py")
+
+
+def written_by_vtk(path, mesh, parts=1, compression=0):
+    vtk = pytest.importorskip("vtk")
+    pyvista = pytest.importorskip("pyvista")
+    content = pyvista.UnstructuredGrid({12: mesh.hexes.astype(np.int64)}, mesh.points)
+    content.point_data["velocity"] = mesh.points + 1
+    content.cell_data["material"] = np.arange(mesh.n_hexes, dtype=np.int16)
+    content.field_data["time"] = np.array([0.25, 0.5])
+    whole = content
+    if parts > 1:
+        whole = vtk.vtkPartitionedDataSet()
+        for k in range(parts):
+            piece = content.extract_cells(range(k, mesh.n_hexes, parts))
+            for name in [name for name in piece.array_names if name.startswith("vtkOriginal")]:
+                (piece.point_data if name in piece.point_data else piece.cell_data).remove(name)
+            whole.SetPartition(k, piece)
+    writer = vtk.vtkHDFWriter()
+    writer.SetInputData(whole)
+    writer.SetFileName(str(path))
+    writer.SetCompressionLevel(compression)
+    assert writer.Write()
+
+
+@pytest.mark.parametrize("compression", [0, 4])
+def test_what_vtk_writes_is_read(compression, tmp_path):
+    mesh = scrambled(grid(3), 0.3)
+    written_by_vtk(tmp_path / "a.vtkhdf", mesh, compression=compression)
+    back = io.read(tmp_path / "a.vtkhdf")
+    np.testing.assert_array_equal(back.points, mesh.points)
+    np.testing.assert_array_equal(back.hexes, mesh.hexes)
+    np.testing.assert_array_equal(back.node_data["velocity"], mesh.points + 1)
+    np.testing.assert_array_equal(back.hex_data["material"], np.arange(27))
+    np.testing.assert_array_equal(np.ravel(back.field_data["time"]), [0.25, 0.5])
+
+
+def hand_made(path, change=None, parts=2):
+    """Two parts of a hex each, as the manual has them, and strings."""
+    mesh = grid(1)
+    with h5py.File(path, "w") as file:
+        root = file.create_group("VTKHDF")
+        root.attrs["Version"] = (2, 2)
+        root.attrs["Type"] = np.bytes_("UnstructuredGrid")
+        for name, count in (("Points", 8), ("Cells", 1), ("ConnectivityIds", 8)):
+            root[f"NumberOf{name}"] = np.full(parts, count)
+        root["Points"] = np.concatenate([mesh.points + [k, 0, 0] for k in range(parts)]).astype(">f4")
+        root["Connectivity"] = np.tile(mesh.hexes[0], parts)
+        root["Offsets"] = np.tile([0, 8], parts)
+        root["Types"] = np.full(parts, 12, np.uint8)
+        root["PointData/GlobalNodeIds"] = np.array([0, 1, 2, 3, 4, 5, 6, 7, 1, 8, 9, 2 + 1, 5, 10, 11, 7])[: 8 * parts]
+        root["CellData/vtkGhostType"] = np.arange(parts, dtype=np.uint8)
+        root["FieldData/title"] = ["made", "elsewhere"]
+        if change is not None:
+            change(root)
+    return path
+
+
+def test_parts_are_put_together_without_ghosts(tmp_path):
+    back = io.read(hand_made(tmp_path / "a.vtkhdf"))
+    assert back.n_hexes == 1
+    assert back.n_nodes == 8
+    assert back.field_data["title"] == ["made", "elsewhere"]
+    assert "1 ghost cells" in back.notes[-1]
+
+    def plain(root):
+        del root["CellData"]
+        del root["PointData"]
+
+    back = io.read(hand_made(tmp_path / "a.vtkhdf", plain))
+    assert back.n_hexes == 2
+    assert (back.hexes[1] == grid(1).hexes[0] + 8).all()
+    assert "4 nodes where they meet are double" in back.notes[0]
+
+
+def test_the_first_of_several_steps_is_read(tmp_path):
+    def steps(root):
+        del root["CellData"]
+        root.create_group("Steps").attrs["NSteps"] = 2
+        root["Steps/NumberOfParts"] = [1, 1]
+        root["Steps/PartOffsets"] = [0, 1]
+
+    back = io.read(hand_made(tmp_path / "a.vtkhdf", steps))
+    assert back.n_hexes == 1
+    assert back.notes == ("Of its 2 time steps the first is read.",)
+
+
+def replaced(**arrays):
+    def change(root):
+        for name, values in arrays.items():
+            del root[name]
+            root[name] = values
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            lambda root: root.attrs.__setitem__("Type", "ImageData"),
+            "is of the type 'ImageData': expected UnstructuredGrid",
+        ),
+        (replaced(NumberOfPoints=[8]), "has not the counts of its 1 parts"),
+        (replaced(NumberOfPoints=[8, 9]), "its Points ends after"),
+        (replaced(Offsets=[0, 7, 0, 8]), "its Offsets of part 0 do not rise"),
+        (replaced(Types=[12, 268]), "cell 1 is of type 268"),
+        (replaced(Connectivity=np.arange(16) / 1), "its Connectivity are float64: expected whole numbers"),
+        (replaced(Connectivity=np.full(16, 2**32 + 7)), "its parts|uses the nodes"),
+        (replaced(Connectivity=h5py.ExternalLink("b.vtkhdf", "/x")), "has no array 'Connectivity' of its own"),
+        (lambda root: root.__delitem__("Types"), "has no array 'Types' of its own"),
+    ],
+)
+def test_what_is_wrong_is_named(change, words, tmp_path):
+    def both(root):
+        del root["CellData"]
+        change(root)
+
+    with pytest.raises(FileError, match=words):
+        io.read(hand_made(tmp_path / "a.vtkhdf", both))
+
+
+def test_a_small_file_cannot_fill_the_memory(tmp_path):
+    def change(root):
+        root.create_dataset("PointData/zeros", (16, 1 << 26), "f8", chunks=(1, 1 << 20))
+
+    with pytest.raises(FileError, match="are announced to have"):
+        io.read(hand_made(tmp_path / "a.vtkhdf", change))
+
+
+def test_what_is_no_vtkhdf_is_said(tmp_path):
+    with h5py.File(tmp_path / "a.vtkhdf", "w") as file:
+        file["a"] = 1
+    with pytest.raises(FileError, match="has no group VTKHDF"):
+        io.read(tmp_path / "a.vtkhdf")
+    content = hand_made(tmp_path / "b.vtkhdf").read_bytes()
+    (tmp_path / "b.vtkhdf").write_bytes(content[: len(content) // 2])
+    with pytest.raises(FileError, match=r"b\.vtkhdf: cannot be read as VTKHDF"):
+        io.read(tmp_path / "b.vtkhdf")
