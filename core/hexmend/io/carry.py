@@ -67,7 +67,12 @@ class Grid:
 
 
 def to_mesh(path: Path, grid: Grid) -> Mesh:
-    """The mesh that a grid holds.
+    """The mesh that a grid holds; see `to_content` and `hexmend.io.content.to_mesh`."""
+    return mesh_of(path, to_content(path, grid))
+
+
+def to_content(path: Path, grid: Grid) -> Content:
+    """The content that a grid holds.
 
     Cells of eight nodes that are labelled as tetrahedra are hexes where all of them are, and a note says so. Cells of
     kinds that are not known (polyhedra, Lagrange's) are left out, and a note says so.
@@ -76,8 +81,6 @@ def to_mesh(path: Path, grid: Grid) -> Mesh:
     ------
     FileError
         Where no cell is a hex, a cell has not the nodes of its type, or its type is none.
-    MeshError
-        From `Mesh`.
     """
     types, notes = _true_types(path, grid)
     check_sizes(path, grid, types)
@@ -107,8 +110,7 @@ def to_mesh(path: Path, grid: Grid) -> Mesh:
     if all(block.kind != "hex20" and block.kind != "hex27" for block in blocks):
         blocks = _in_order(grid, types, blocks)
     said = (*grid.notes, *notes)
-    content = Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=said)
-    return mesh_of(path, content)
+    return Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=said)
 
 
 def from_mesh(mesh: Mesh) -> Grid:

@@ -7,23 +7,32 @@ those of the groups PointData and CellData. (VTK's manual, "VTKHDF File Format";
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.allowance import Allowance
-from hexmend.io.carry import Grid, to_mesh
+from hexmend.io.carry import Grid, to_content
+from hexmend.io.content import Content, to_mesh
 from hexmend.io.format import FORMATS, Format
 from hexmend.io.pieces import joined
 from hexmend.mesh import Mesh
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
+#: Chunks that any file may have; and what one takes at least, in bytes: its entry in the index.
+_CHUNKS, _CHUNK = 1000, 24
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def read(path: Path) -> Mesh:
     """Read a VTKHDF file, its parts put together without their ghost cells."""
+    return to_mesh(path, content(path))
+
+
+def content(path: Path) -> Content:
+    """What a VTKHDF file holds."""
     import h5py
 
     try:
@@ -37,7 +46,7 @@ def read(path: Path) -> Mesh:
     except Exception as error:  # each of the library's failures is another one
         detail = " ".join(str(error).split()) or type(error).__name__
         raise FileError(path, f"cannot be read as VTKHDF ({detail[:120]})", _DAMAGED) from None
-    return to_mesh(path, joined(grids))
+    return to_content(path, joined(grids))
 
 
 class _Reader:
@@ -171,6 +180,13 @@ class _Reader:
         found = group[name]
         if found.external or found.is_virtual:
             raise FileError(self.path, f"its array {name!r} lies in another file", "Write it as one file.")
+        chunks = math.prod(
+            -(-size // max(1, width)) for size, width in zip(found.shape, found.chunks or (), strict=False)
+        )
+        if chunks > _CHUNKS + self.allowance.size // _CHUNK:
+            raise FileError(
+                self.path, f"its array {name!r} has {chunks:,} chunks, more than fit into the file", _DAMAGED
+            )
         return found
 
 
