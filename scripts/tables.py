@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from hexmend.io import FORMATS
+from hexmend.io.format import Holds
 from hexmend.quality import METRICS
 from hexmend.smoothers import METHODS
 
@@ -40,24 +41,25 @@ def metrics() -> str:
 
 
 def formats() -> str:
-    """The formats."""
+    """The formats, and what of a mesh each holds."""
+    head = ("format", "suffix", "written as", *(one.value for one in Holds))
     rows = (
         (
             one.title,
             ", ".join(f"`{suffix}`" for suffix in one.suffixes),
-            " or ".join(one.encodings),
-            "yes" if one.holds_hex_sets else "no",
+            " or ".join(one.encodings) or "not",
+            *("–" if not one.write else "yes" if thing in one.holds else "no" for thing in Holds),
         )
         for one in FORMATS.values()
     )
-    return table(("format", "suffix", "written as", "named groups of hexes"), rows)
+    return table(head, rows)
 
 
 #: Which table stands in which file.
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "methods": ("README.md", methods),
     "metrics": ("docs/method.md", metrics),
-    "formats": ("README.md", formats),
+    "formats": ("docs/formats.md", formats),
 }
 
 

@@ -1,0 +1,179 @@
+"""Every kind of cell of VTK's, by the nodes that VTK itself gives it, through both of its formats."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
+from hexmend.mesh import CELL_KINDS
+from hexmend.second_order import MID_PLACES
+
+vtk = pytest.importorskip("vtk")
+SUFFIXES = pytest.mark.parametrize("suffix", [".vtu", ".vtk"])
+#: Kinds of cells and the class of VTK's that knows where their nodes lie.
+CLASSES = {
+    12: "Hexahedron", 11: "Voxel", 25: "QuadraticHexahedron", 29: "TriQuadraticHexahedron", 10: "Tetra", 13: "Wedge",
+    14: "Pyramid", 9: "Quad", 8: "Pixel", 5: "Triangle", 3: "Line", 1: "Vertex", 21: "QuadraticEdge",
+    22: "QuadraticTriangle", 23: "QuadraticQuad", 28: "BiQuadraticQuad", 24: "QuadraticTetra", 26: "QuadraticWedge",
+    27: "QuadraticPyramid",
+}  # fmt: skip
+
+
+def places(number):
+    """Where VTK says that a cell's nodes lie in the reference cell."""
+    cell = getattr(vtk, f"vtk{CLASSES[number]}")()
+    if number == 1:
+        return np.zeros((1, 3))
+    coordinates = cell.GetParametricCoords()
+    return np.reshape([coordinates[k] for k in range(3 * cell.GetNumberOfPoints())], (-1, 3))
+
+
+def written(path, numbers, shift=3.0):
+    """Cells of these types in a row, each with nodes of its own, written by VTK; their places and first nodes."""
+    from vtk.util.numpy_support import numpy_to_vtk
+
+    content, points, parts = vtk.vtkUnstructuredGrid(), vtk.vtkPoints(), []
+    points.SetDataTypeToDouble()
+    for k, number in enumerate(numbers):
+        parts.append(places(number) + [shift * k, 0, 0])
+        ids = [points.InsertNextPoint(*place) for place in parts[-1]]
+        content.InsertNextCell(number, len(ids), ids)
+    content.SetPoints(points)
+    for name, data, count in (
+        ("cell", content.GetCellData(), len(numbers)),
+        ("node", content.GetPointData(), points.GetNumberOfPoints()),
+    ):
+        array = numpy_to_vtk(np.arange(count), deep=True)
+        array.SetName(name)
+        data.AddArray(array)
+    writer = vtk.vtkXMLUnstructuredGridWriter() if path.suffix == ".vtu" else vtk.vtkUnstructuredGridWriter()
+    writer.SetInputData(content)
+    writer.SetFileName(str(path))
+    assert writer.Write()
+    return parts
+
+
+@SUFFIXES
+def test_every_kind_is_read_in_vtks_order(suffix, tmp_path):
+    numbers = [10, 12, 9, 25, 11, 8, 29, 14, 13, 5, 3, 1, 21, 22, 23, 28, 24, 26, 27, 12, 25]
+    parts = written(tmp_path / f"a{suffix}", numbers)
+    mesh = io.read(tmp_path / f"a{suffix}", as_is=True)
+    np.testing.assert_array_equal(mesh.points, np.concatenate(parts))
+    corners = mesh.points[mesh.hexes]
+    which = mesh.hex_data["cell"]
+    assert sorted(which) == [k for k, number in enumerate(numbers) if number in (11, 12, 25, 29)]
+    np.testing.assert_array_equal(corners, UNIT_CUBE + np.outer(3 * which, [1, 0, 0])[:, None])
+    for row, k in zip(mesh.mid_nodes, which, strict=True):
+        found = mesh.points[row[row >= 0]]
+        np.testing.assert_array_equal(found, MID_PLACES[: {25: 12, 29: 19}.get(numbers[k], 0)] + [3 * k, 0, 0])
+    by_cell = {
+        int(k): (cells.kind, nodes)
+        for cells in mesh.cells
+        for k, nodes in zip(cells.data["cell"], cells.nodes, strict=True)
+    }
+    for k, number in enumerate(numbers):
+        if number not in (11, 12, 25, 29):
+            kind, nodes = by_cell[k]
+            assert CELL_KINDS[kind].vtk == {8: 9}.get(number, number)
+            expected = parts[k][[0, 1, 3, 2]] if number == 8 else parts[k]
+            np.testing.assert_array_equal(mesh.points[nodes], expected)
+    solid = np.concatenate([cells.nodes.ravel() for cells in mesh.cells if cells.dimension == 3])
+    assert mesh.pinned[solid].all()
+    assert any("2 tetra" in note or "1 tetra cell" in note for note in mesh.notes)
+
+
+@SUFFIXES
+@pytest.mark.parametrize("encoding", ["binary", "ascii"])
+def test_every_kind_is_written_as_vtk_has_it(suffix, encoding, tmp_path):
+    numbers = [12, 25, 29, 10, 13, 14, 9, 5, 3, 1, 21, 22, 23, 28, 24, 26, 27]
+    written(tmp_path / "a.vtu", numbers)
+    mesh = io.read(tmp_path / "a.vtu", as_is=True)
+    io.write(tmp_path / f"b{suffix}", mesh, encoding=encoding)
+    reader = vtk.vtkXMLUnstructuredGridReader() if suffix == ".vtu" else vtk.vtkUnstructuredGridReader()
+    reader.SetFileName(str(tmp_path / f"b{suffix}"))
+    if suffix == ".vtk":
+        reader.ReadAllFieldsOn()
+    reader.Update()
+    found = reader.GetOutput()
+    data = found.GetCellData().GetArray("cell")
+    for k in range(found.GetNumberOfCells()):
+        number = numbers[int(data.GetTuple1(k))]
+        assert found.GetCellType(k) == number
+        cell = found.GetCell(k).GetPoints()
+        places_found = np.array([cell.GetPoint(i) for i in range(cell.GetNumberOfPoints())])
+        np.testing.assert_array_equal(places_found, places(number) + [3 * data.GetTuple1(k), 0, 0])
+    back = io.read(tmp_path / f"b{suffix}", as_is=True)
+    np.testing.assert_array_equal(back.mid_nodes, mesh.mid_nodes)
+    np.testing.assert_array_equal(back.hexes, mesh.hexes)
+
+
+@SUFFIXES
+def test_polyhedra_and_lagranges_hexahedra_are_left_out_and_that_is_said(suffix, tmp_path):
+    content = vtk.vtkUnstructuredGrid()
+    points = vtk.vtkPoints()
+    for place in UNIT_CUBE:
+        points.InsertNextPoint(*place)
+    content.SetPoints(points)
+    content.InsertNextCell(12, 8, range(8))
+    content.InsertNextCell(72, 8, range(8))
+    if suffix == ".vtu":
+        faces = vtk.vtkIdList()
+        for value in (4, 4, 0, 1, 2, 3, 3, 0, 1, 4, 3, 1, 2, 4, 4, 2, 3, 0, 4):
+            faces.InsertNextId(value)
+        content.InsertNextCell(42, faces)
+    writer = vtk.vtkXMLUnstructuredGridWriter() if suffix == ".vtu" else vtk.vtkUnstructuredGridWriter()
+    writer.SetInputData(content)
+    writer.SetFileName(str(tmp_path / f"a{suffix}"))
+    assert writer.Write()
+    mesh = io.read(tmp_path / f"a{suffix}")
+    assert mesh.n_hexes == 1
+    assert any("VTK_LAGRANGE_HEXAHEDRON" in note and "left out" in note for note in mesh.notes)
+    assert any("VTK_POLYHEDRON" in note for note in mesh.notes) is (suffix == ".vtu")
+
+
+def relabelled(path, numbers, types):
+    """The cells with other types, which VTK itself would not write."""
+    written(path, numbers)
+    mesh = io.read(path)
+    io.write(path, mesh, encoding="ascii")
+    text = path.read_text()
+    if path.suffix == ".vtu":
+        before, after = text.split('Name="types"')
+        head, rest = after.split(">\n", 1)
+        text = f'{before}Name="types"{head}>\n' + "\n".join(map(str, types)) + rest[rest.index("\n</") :]
+    else:
+        before, after = text.split("CELL_TYPES 2\n")
+        text = before + "CELL_TYPES 2\n" + "\n".join(map(str, types)) + "\n" + after.split("\n", 2)[2]
+    path.write_text(text)
+
+
+@SUFFIXES
+def test_hexes_labelled_as_tetrahedra_are_read_where_all_have_eight_nodes(suffix, tmp_path):
+    path = tmp_path / f"a{suffix}"
+    relabelled(path, [12, 12], [10, 10])
+    mesh = io.read(path)
+    assert mesh.n_hexes == 2
+    assert "2 cells of eight nodes are labelled as tetrahedra in the file: read as hexes." in mesh.notes
+    corners = mesh.points[mesh.hexes[0]]
+    a, b, c, d = corners[CORNER_TETRAHEDRA[0]]
+    assert np.linalg.det([b - a, c - a, d - a]) > 0
+
+
+@SUFFIXES
+@pytest.mark.parametrize(
+    ("types", "words"),
+    [
+        ([12, 13], "cell 1 is of type 13 and has 8 nodes: expected 6"),
+        ([25, 12], "cell 0 is of type 25 and has 8 nodes: expected 20"),
+        ([12, 255], ""),
+    ],
+)
+def test_other_labels_are_refused_or_said(suffix, types, words, tmp_path):
+    path = tmp_path / f"a{suffix}"
+    relabelled(path, [12, 12], types)
+    if words:
+        with pytest.raises(FileError, match=words):
+            io.read(path)
+    else:
+        assert "1 cells of other kinds (type 255) are left out." in io.read(path).notes

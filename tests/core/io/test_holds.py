@@ -1,0 +1,129 @@
+"""What a format is declared to hold comes back as it was; what it is not, is said before it is lost."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.io import FORMATS
+from hexmend.io.format import Holds
+from hexmend.mesh import Cells, Mesh
+from hexmend.second_order import MID_PLACES
+from tests.core.grids import grid
+
+WAYS = [(name, encoding) for name, one in FORMATS.items() for encoding in one.encodings]
+SPACED = np.arange(27) * 3 + 10
+
+
+def quadratic(width):
+    """Two hexes with as many nodes, in a row."""
+    rows, points = [], []
+    corners = grid(2, 1, 1)
+    for x in range(2):
+        whole = np.concatenate([corners.points[corners.hexes[0]], MID_PLACES])[:width] * 2 + [2 * x, 0, 0]
+        rows.append([points.index(p) if p in points else points.append(p) or len(points) - 1 for p in whole.tolist()])
+    rows = np.array(rows)
+    return Mesh(points, rows[:, :8], mid_nodes=np.pad(rows[:, 8:], ((0, 0), (0, 27 - width)), constant_values=-1))
+
+
+def beside(kind, nodes, more=()):
+    """The grid and cells of another kind."""
+    mesh = grid(2)
+    points = np.vstack([mesh.points, np.reshape(np.array(more, float), (-1, 3))])
+    return Mesh(points, mesh.hexes, cells=(Cells(kind, np.array(nodes, np.int32)),))
+
+
+#: Meshes that each have one thing; the numbers are such as every decimal and binary form holds.
+MESHES = {
+    Holds.NODE_DATA: [
+        grid(2).replace(node_data={"temperature": np.arange(27) / 4}),
+        grid(2).replace(node_data={"velocity": np.arange(81.0).reshape(27, 3) / 8}),
+    ],
+    Holds.HEX_DATA: [grid(2).replace(hex_data={"pressure": np.arange(8) / 4})],
+    Holds.IDS: [
+        grid(2).replace(node_data={"id": SPACED}, hex_data={"id": SPACED[:8] + 7}),
+        grid(2).replace(node_data={"id": SPACED[::-1].copy()}, hex_data={"id": np.roll(SPACED[:8], 3)}),
+    ],
+    Holds.NODE_SETS: [grid(2).replace(node_sets={"inlet": np.array([0, 3, 26]), "all": np.arange(27)})],
+    Holds.HEX_SETS: [grid(2).replace(hex_sets={"steel": np.array([1, 4]), "air": np.array([0, 2, 3, 5, 6, 7])})],
+    Holds.SIDE_SETS: [grid(2).replace(side_sets={"wall": np.array([[0, 0], [0, 2], [7, 5]]), "top": np.array([[5, 1]])})],
+    Holds.PINS: [grid(3).replace(pinned=np.isin(np.arange(64), [21, 22]))],
+    Holds.LOWER_CELLS: [
+        beside("line", [[0, 1], [1, 2]]),
+        beside("quad", grid(2).topology.boundary_faces[:3]),
+        beside("triangle", [[0, 1, 3]]),
+    ],
+    Holds.VERTICES: [beside("vertex", [[0], [26]])],
+    Holds.OTHER_CELLS: [
+        beside("pyramid", [[18, 19, 22, 21, 27]], [[0.5, 0.5, 3]]),
+        beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]]),
+        beside("wedge", [[18, 19, 27, 21, 22, 28]], [[0, 0, 3], [0, 1, 3]]),
+    ],
+    Holds.SECOND_ORDER: [quadratic(20), quadratic(27)],
+    Holds.FIELD_DATA: [grid(2).replace(field_data={"time": np.array([0.25, 8]), "title": ["made", "elsewhere"]})],
+}  # fmt: skip
+
+
+def same_map(a, b):
+    assert set(a) <= set(b)
+    for name, values in a.items():
+        assert np.shape(b[name]) == np.shape(values)
+        np.testing.assert_array_equal(b[name], values)
+
+
+def same_sets(a, b):
+    """Sets of the same names and members, in whatever order."""
+    assert set(a) <= set(b)
+    for name, members in a.items():
+        np.testing.assert_array_equal(np.unique(b[name], axis=0), np.unique(members, axis=0))
+
+
+def same_cells(a, b):
+    assert [(one.kind, one.nodes.tolist()) for one in a.cells] == [(one.kind, one.nodes.tolist()) for one in b.cells]
+
+
+COMPARED = {
+    Holds.NODE_DATA: lambda a, b: same_map(a.node_data, b.node_data),
+    Holds.HEX_DATA: lambda a, b: same_map(a.hex_data, b.hex_data),
+    Holds.IDS: lambda a, b: (same_map(a.node_data, b.node_data), same_map(a.hex_data, b.hex_data)),
+    Holds.NODE_SETS: lambda a, b: same_sets(a.node_sets, b.node_sets),
+    Holds.HEX_SETS: lambda a, b: same_sets(a.hex_sets, b.hex_sets),
+    Holds.SIDE_SETS: lambda a, b: same_sets(a.side_sets, b.side_sets),
+    Holds.PINS: lambda a, b: np.testing.assert_array_equal(a.fixed, b.fixed),
+    Holds.LOWER_CELLS: same_cells,
+    Holds.VERTICES: same_cells,
+    Holds.OTHER_CELLS: same_cells,
+    Holds.SECOND_ORDER: lambda a, b: np.testing.assert_array_equal(a.mid_nodes, b.mid_nodes),
+    Holds.FIELD_DATA: lambda a, b: same_map(a.field_data, b.field_data),
+}
+
+
+def test_every_thing_that_formats_may_hold_is_tried():
+    assert set(MESHES) == set(COMPARED) == set(Holds)
+
+
+@pytest.mark.parametrize("thing", Holds, ids=lambda one: one.name)
+@pytest.mark.parametrize(("name", "encoding"), WAYS)
+def test_a_format_holds_what_it_says_and_says_what_it_does_not(name, encoding, thing, tmp_path):
+    format = FORMATS[name]
+    for k, mesh in enumerate(MESHES[thing]):
+        path = tmp_path / f"{k}{format.suffixes[0]}"
+        left = io.left_out(path, mesh)
+        if thing not in format.holds:
+            assert any(words.startswith(thing.value) for words in left)
+            continue
+        assert not any(words.startswith(thing.value) for words in left)
+        io.write(path, mesh, encoding=encoding)
+        back = io.read(path)
+        np.testing.assert_array_equal(back.points, mesh.points)
+        np.testing.assert_array_equal(back.hexes, mesh.hexes)
+        COMPARED[thing](mesh, back)
+
+
+@pytest.mark.parametrize(("name", "encoding"), WAYS)
+def test_what_a_format_does_not_hold_does_not_keep_the_mesh_from_being_written(name, encoding, tmp_path):
+    format = FORMATS[name]
+    for thing in set(Holds) - format.holds:
+        for mesh in MESHES[thing]:
+            path = tmp_path / f"a{format.suffixes[0]}"
+            io.write(path, mesh, encoding=encoding)
+            assert io.read(path).n_hexes == mesh.n_hexes
