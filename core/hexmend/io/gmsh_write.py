@@ -1,0 +1,165 @@
+"""Writes Gmsh's format, version 4.1: every combination of sets becomes an entity, every set a physical group."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from hexmend.io.content import Block, from_mesh
+from hexmend.io.decimals import blocks as parts_of
+from hexmend.io.decimals import lines
+from hexmend.io.gmsh_content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
+from hexmend.io.numbering import element_numbers, node_numbers, runs
+from hexmend.mesh import Mesh
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write version 4.1; elements stay in their order, so that an entity's may stand in several blocks."""
+    content = from_mesh(mesh)
+    tags = node_numbers(dict(content.node_data), len(content.points))
+    entities, groups, of_block = _entities(content.blocks, mesh.field_data.get(PHYSICAL))
+    with open(path, "wb") as file:
+        out = _Writer(file, encoding == "binary")
+        file.write(b"$MeshFormat\n4.1 %d 8\n" % out.binary)
+        if out.binary:
+            file.write(np.array([1], "<i4").tobytes() + b"\n")
+        file.write(b"$EndMeshFormat\n")
+        _write_names(file, groups)
+        _write_entities(out, entities, content.points)
+        _write_nodes(out, content.points, tags, next(tag for dimension, tag in entities if dimension == 3))
+        _write_elements(out, content.blocks, of_block, tags)
+
+
+class _Writer:
+    """Numbers as text, a row a line, or binary."""
+
+    def __init__(self, file: BinaryIO, binary: bool):
+        self.file, self.binary = file, binary
+
+    def whole(self, *parts: tuple[object, str]) -> None:
+        """A line of whole numbers, each part with its type in binary, i4 or u8."""
+        arrays = [(np.atleast_1d(np.asarray(values, np.int64)), code) for values, code in parts]
+        if self.binary:
+            self.file.write(b"".join(values.astype(f"<{code}").tobytes() for values, code in arrays))
+        else:
+            self.file.write(lines(np.concatenate([values for values, _ in arrays])[None]))
+
+    def rows(self, values: np.ndarray) -> None:
+        """Rows of floats, or of whole numbers of the type u8."""
+        if self.binary:
+            self.file.write(values.astype("<f8" if values.dtype.kind == "f" else "<u8").tobytes())
+        else:
+            for part in parts_of(len(values)):
+                self.file.write(lines(values[part]))
+
+    def end(self, name: bytes) -> None:
+        self.file.write((b"\n" if self.binary else b"") + b"$End%s\n" % name)
+
+
+def _entities(
+    blocks: tuple[Block, ...], lines_of_names: object
+) -> tuple[dict[tuple[int, int], list[int]], dict[tuple[int, int], str], list[np.ndarray]]:
+    """Entities (dimension, tag) with their groups' numbers; groups' names by (dimension, number); elements' tags."""
+    known = numbers_of(lines_of_names)
+    numbers: dict[tuple[int, str], int] = {}
+    for block in blocks:
+        for name in block.sets:
+            key = (dimension_of(block.kind), name)
+            number = known.get(key, unnamed(name) or 0)
+            if number and key not in numbers:
+                numbers[key] = number
+    for block in blocks:
+        for name in block.sets:
+            key = (dimension_of(block.kind), name)
+            if key not in numbers:
+                taken = [number for (dimension, _), number in numbers.items() if dimension == key[0]]
+                numbers[key] = max(taken, default=0) + 1
+    entities: dict[tuple[int, int], list[int]] = {}
+    tags: dict[tuple[int, tuple[int, ...]], int] = {}
+    of_block = []
+    for block in blocks:
+        dimension = dimension_of(block.kind)
+        combinations, which = _combinations(block.sets, len(block))
+        own = []
+        for names in combinations:
+            groups = tuple(sorted(numbers[dimension, name] for name in names))
+            if (dimension, groups) not in tags:
+                tags[dimension, groups] = 1 + sum(other == dimension for other, _ in tags)
+                entities[dimension, tags[dimension, groups]] = list(groups)
+            own.append(tags[dimension, groups])
+        of_block.append(np.array(own, np.int64)[which])
+    named = {(dimension, number): name for (dimension, name), number in numbers.items() if unnamed(name) != number}
+    return entities, named, of_block
+
+
+def _combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[str]], np.ndarray]:
+    """The combinations of sets that elements are in, and which of them each element is in, (count,) int."""
+    names = list(sets)
+    members = [np.unique(np.asarray(sets[name], np.int64)) for name in names]
+    marks = np.zeros(count, np.uint64)  # sums of random numbers, one a set, tell the combinations apart
+    weights = np.random.default_rng(0).integers(1, 2**63, len(names)).astype(np.uint64)
+    for rows, weight in zip(members, weights, strict=True):
+        marks[rows] += weight
+    _, first, which = np.unique(marks, return_index=True, return_inverse=True)
+    found: list[list[str]] = [[] for _ in first]
+    for name, rows in zip(names, members, strict=True):
+        for k in np.flatnonzero(np.isin(first, rows)).tolist():
+            found[k].append(name)
+    return found, which
+
+
+def _write_names(file: BinaryIO, groups: Mapping[tuple[int, int], str]) -> None:
+    if not groups:
+        return
+    file.write(b"$PhysicalNames\n%d\n" % len(groups))
+    for (dimension, number), name in groups.items():
+        file.write(f'{dimension} {number} "{" ".join(name.split())}"\n'.encode())
+    file.write(b"$EndPhysicalNames\n")
+
+
+def _write_entities(out: _Writer, entities: Mapping[tuple[int, int], list[int]], points: np.ndarray) -> None:
+    low, high = points.min(axis=0), points.max(axis=0)
+    out.file.write(b"$Entities\n")
+    out.whole(([sum(dimension == d for dimension, _ in entities) for d in range(4)], "u8"))
+    for (dimension, tag), groups in sorted(entities.items()):
+        box = low if dimension == 0 else np.concatenate([low, high])
+        behind = ([0], "u8") if dimension else ([], "u8")  # what bounds it
+        if out.binary:
+            out.whole(([tag], "i4"))
+            out.rows(box)
+            out.whole(([len(groups)], "u8"), (groups, "i4"), behind)
+        else:
+            text = " ".join(repr(value) for value in box.tolist())
+            words = [str(number) for number in (len(groups), *groups, *behind[0])]
+            out.file.write(f"{tag} {text} {' '.join(words)}\n".encode())
+    out.end(b"Entities")
+
+
+def _write_nodes(out: _Writer, points: np.ndarray, tags: np.ndarray, volume: int) -> None:
+    out.file.write(b"$Nodes\n")
+    out.whole(([1, len(points), tags.min(), tags.max()], "u8"))
+    out.whole(([3, volume, 0], "i4"), ([len(points)], "u8"))
+    out.rows(tags)
+    out.rows(points)
+    out.end(b"Nodes")
+
+
+def _write_elements(out: _Writer, blocks: tuple[Block, ...], of_block: list[np.ndarray], tags: np.ndarray) -> None:
+    numbers = element_numbers(blocks)
+    together = [runs(entity) for entity in of_block]
+    every = np.concatenate(numbers)
+    out.file.write(b"$Elements\n")
+    out.whole(([sum(map(len, together)), len(every), every.min(), every.max()], "u8"))
+    for block, entity, own, stretches in zip(blocks, of_block, numbers, together, strict=True):
+        nodes = tags[block.nodes]
+        if block.kind in ORDER:
+            nodes = nodes[:, np.argsort(ORDER[block.kind])]
+        rows = np.column_stack([own, nodes])
+        for stretch in stretches:
+            head = [dimension_of(block.kind), entity[stretch.start], NUMBERS[block.kind]]
+            out.whole((head, "i4"), ([stretch.stop - stretch.start], "u8"))
+            out.rows(rows[stretch])
+    out.end(b"Elements")
