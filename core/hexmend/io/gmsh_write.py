@@ -12,7 +12,7 @@ from hexmend.io.content import Block, from_mesh
 from hexmend.io.decimals import blocks as parts_of
 from hexmend.io.decimals import lines
 from hexmend.io.gmsh_content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
-from hexmend.io.numbering import element_numbers, node_numbers, runs
+from hexmend.io.numbering import combinations, element_numbers, node_numbers, runs
 from hexmend.mesh import Mesh
 
 
@@ -82,9 +82,9 @@ def _entities(
     of_block = []
     for block in blocks:
         dimension = dimension_of(block.kind)
-        combinations, which = _combinations(block.sets, len(block))
+        found, which = combinations(block.sets, len(block))
         own = []
-        for names in combinations:
+        for names in found:
             groups = tuple(sorted(numbers[dimension, name] for name in names))
             if (dimension, groups) not in tags:
                 tags[dimension, groups] = 1 + sum(other == dimension for other, _ in tags)
@@ -93,22 +93,6 @@ def _entities(
         of_block.append(np.array(own, np.int64)[which])
     named = {(dimension, number): name for (dimension, name), number in numbers.items() if unnamed(name) != number}
     return entities, named, of_block
-
-
-def _combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[str]], np.ndarray]:
-    """The combinations of sets that elements are in, and which of them each element is in, (count,) int."""
-    names = list(sets)
-    members = [np.unique(np.asarray(sets[name], np.int64)) for name in names]
-    marks = np.zeros(count, np.uint64)  # sums of random numbers, one a set, tell the combinations apart
-    weights = np.random.default_rng(0).integers(1, 2**63, len(names)).astype(np.uint64)
-    for rows, weight in zip(members, weights, strict=True):
-        marks[rows] += weight
-    _, first, which = np.unique(marks, return_index=True, return_inverse=True)
-    found: list[list[str]] = [[] for _ in first]
-    for name, rows in zip(names, members, strict=True):
-        for k in np.flatnonzero(np.isin(first, rows)).tolist():
-            found[k].append(name)
-    return found, which
 
 
 def _write_names(file: BinaryIO, groups: Mapping[tuple[int, int], str]) -> None:

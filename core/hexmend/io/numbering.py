@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -105,6 +105,29 @@ def runs(*keys: np.ndarray) -> list[slice]:
         changes |= key[1:] != key[:-1]
     ends = [0, *(np.flatnonzero(changes) + 1).tolist(), n]
     return [slice(begin, end) for begin, end in pairwise(ends)]
+
+
+def combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[str]], np.ndarray]:
+    """The combinations of sets that things are in, and which of them each of `count` things is in, (count,) int.
+
+    Examples
+    --------
+    >>> found, which = combinations({"a": [0, 1], "b": [1]}, 3)
+    >>> [found[k] for k in which]
+    [['a'], ['a', 'b'], []]
+    """
+    names = list(sets)
+    members = [np.unique(np.asarray(sets[name], np.int64)) for name in names]
+    marks = np.zeros(count, np.uint64)  # sums of random numbers, one a set, tell the combinations apart
+    weights = np.random.default_rng(0).integers(1, 2**63, len(names)).astype(np.uint64)
+    for rows, weight in zip(members, weights, strict=True):
+        marks[rows] += weight
+    _, first, which = np.unique(marks, return_index=True, return_inverse=True)
+    found: list[list[str]] = [[] for _ in first]
+    for name, rows in zip(names, members, strict=True):
+        for k in np.flatnonzero(np.isin(first, rows)).tolist():
+            found[k].append(name)
+    return found, which
 
 
 def _usable(ids: np.ndarray | None, count: int) -> np.ndarray | None:
