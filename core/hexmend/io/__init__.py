@@ -1,12 +1,12 @@
 """Meshes and recipes from and to files: one format a file, each announcing itself in FORMATS.
 
 >>> sorted(FORMATS)
-['abaqus', 'gmsh', 'med', 'medit', 'medit-binary', 'ovm', 'su2', 'vtk', 'vtu']
+['abaqus', 'gmsh', 'med', 'medit', 'medit-binary', 'nastran', 'ovm', 'su2', 'vtk', 'vtu']
 """
 
 from __future__ import annotations
 
-from hexmend.io import abaqus, gmsh, med, medit, medit_binary, ovm, su2, vtk_legacy, vtu  # noqa: F401  (they register themselves)
+from hexmend.io import abaqus, gmsh, med, medit, medit_binary, nastran, ovm, su2, vtk_legacy, vtu  # noqa: F401  (they register themselves)
 from hexmend.io.files import left_out, read, readable_suffixes, writable_suffixes, write, writer_for
 from hexmend.io.format import FORMATS, Format
 
