@@ -12,6 +12,7 @@ from hexmend.io.gmsh_4 import read_elements as elements_4
 from hexmend.io.gmsh_4 import read_entities as entities_4
 from hexmend.io.gmsh_4 import read_nodes as nodes_4
 from hexmend.io.gmsh_content import PHYSICAL, Read, to_mesh
+from hexmend.io.gmsh_data import DATA, read_data
 from hexmend.io.gmsh_write import write
 from hexmend.io.source import Source, shown
 from hexmend.mesh import Mesh
@@ -34,6 +35,8 @@ def read(path: Path) -> Mesh:
             _SECTIONS[version][key](source, order, result)
         elif version and key == "$PhysicalNames":
             _names(source, result)
+        elif version and key in DATA:
+            read_data(source, order, key, result)
         elif key == "$PartitionedEntities":
             result.notes.append("The mesh is in parts for several processors: groups of their own are left out.")
             _skip(source, key)
@@ -94,6 +97,8 @@ def _recognised(head: bytes) -> bool:
     return b"$MeshFormat" in head
 
 
+HELD = (Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.HEX_SETS, Holds.PINS, Holds.LOWER_CELLS)
+
 FORMATS.add(
     "gmsh",
     Format(
@@ -103,7 +108,7 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset({Holds.IDS, Holds.HEX_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
+        holds=frozenset({*HELD, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
         names=frozenset({PHYSICAL}),
         recognised=_recognised,
     ),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -64,6 +64,24 @@ class Elements:
     groups: np.ndarray | Sequence[int]
 
 
+@dataclass(frozen=True, eq=False)
+class Data:
+    """Values of nodes or elements, by their tags.
+
+    Parameters
+    ----------
+    of_nodes : bool
+    name : str
+    tags : (k,) int64
+    values : (k,) or (k, width) float64
+    """
+
+    of_nodes: bool
+    name: str
+    tags: np.ndarray
+    values: np.ndarray
+
+
 @dataclass(eq=False)
 class Read:
     """What was read of a file, section by section."""
@@ -74,6 +92,7 @@ class Read:
     names: list[str] = field(default_factory=list)
     #: Physical groups of the entities of the file, (dimension, tag) to numbers.
     entities: dict[tuple[int, int], list[int]] = field(default_factory=dict)
+    data: list[Data] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
 
@@ -122,10 +141,12 @@ def to_mesh(path: Path, read: Read) -> Mesh:
     for number in dict.fromkeys(part.type for part in read.elements):
         parts = [part for part in read.elements if part.type == number and len(part.tags)]
         if parts and number in KINDS:
-            blocks.append(_block(path, KINDS[number], parts, read.tags, titles, notes))
+            block = _block(path, KINDS[number], parts, read.tags, titles, notes)
+            blocks.append(replace(block, data={**_data(read.data, False, block.data[ID]), **block.data}))
     blocks.sort(key=lambda block: block.kind not in HEX_KINDS)
     field_data = {PHYSICAL: read.names} if read.names else {}
-    content = Content(read.points, tuple(blocks), {ID: read.tags}, field_data=field_data, notes=tuple(notes))
+    node_data = {**_data(read.data, True, read.tags), ID: read.tags}
+    content = Content(read.points, tuple(blocks), node_data, field_data=field_data, notes=tuple(notes))
     return mesh_of(path, content)
 
 
@@ -165,6 +186,21 @@ def _block(
         chosen = np.unique(place[chosen]) if place is not None else chosen
         sets[titles.get((dimension_of(kind), number)) or f"physical {number}"] = chosen
     return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: tags}, sets)
+
+
+def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray) -> dict[str, np.ndarray]:
+    """Values by name for things of some tags; where the file has none for some of them they are no number."""
+    found = {}
+    for one in data:
+        if one.of_nodes != of_nodes or not len(one.tags):
+            continue
+        order = np.argsort(one.tags, kind="stable")
+        at = np.minimum(np.searchsorted(one.tags[order], tags), len(order) - 1)
+        there = one.tags[order[at]] == tags
+        if there.any():
+            found[one.name] = one.values[order[at]]
+            found[one.name][~there] = np.nan
+    return found
 
 
 def _merged(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray] | tuple[None, None]:

@@ -9,9 +9,8 @@ from typing import BinaryIO
 import numpy as np
 
 from hexmend.io.content import Block, from_mesh
-from hexmend.io.decimals import blocks as parts_of
-from hexmend.io.decimals import lines
 from hexmend.io.gmsh_content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
+from hexmend.io.gmsh_data import Writer, pinned_data, write_data
 from hexmend.io.numbering import combinations, element_numbers, node_numbers, runs
 from hexmend.mesh import Mesh
 
@@ -22,7 +21,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     tags = node_numbers(dict(content.node_data), len(content.points))
     entities, groups, of_block = _entities(content.blocks, mesh.field_data.get(PHYSICAL))
     with open(path, "wb") as file:
-        out = _Writer(file, encoding == "binary")
+        out = Writer(file, encoding == "binary")
         file.write(b"$MeshFormat\n4.1 %d 8\n" % out.binary)
         if out.binary:
             file.write(np.array([1], "<i4").tobytes() + b"\n")
@@ -30,33 +29,14 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         _write_names(file, groups)
         _write_entities(out, entities, content.points)
         _write_nodes(out, content.points, tags, next(tag for dimension, tag in entities if dimension == 3))
-        _write_elements(out, content.blocks, of_block, tags)
-
-
-class _Writer:
-    """Numbers as text, a row a line, or binary."""
-
-    def __init__(self, file: BinaryIO, binary: bool):
-        self.file, self.binary = file, binary
-
-    def whole(self, *parts: tuple[object, str]) -> None:
-        """A line of whole numbers, each part with its type in binary, i4 or u8."""
-        arrays = [(np.atleast_1d(np.asarray(values, np.int64)), code) for values, code in parts]
-        if self.binary:
-            self.file.write(b"".join(values.astype(f"<{code}").tobytes() for values, code in arrays))
-        else:
-            self.file.write(lines(np.concatenate([values for values, _ in arrays])[None]))
-
-    def rows(self, values: np.ndarray) -> None:
-        """Rows of floats, or of whole numbers of the type u8."""
-        if self.binary:
-            self.file.write(values.astype("<f8" if values.dtype.kind == "f" else "<u8").tobytes())
-        else:
-            for part in parts_of(len(values)):
-                self.file.write(lines(values[part]))
-
-    def end(self, name: bytes) -> None:
-        self.file.write((b"\n" if self.binary else b"") + b"$End%s\n" % name)
+        numbers = element_numbers(content.blocks)
+        _write_elements(out, content.blocks, of_block, numbers, tags)
+        for name, values in pinned_data(mesh).items():
+            write_data(out, "$NodeData", name, [tags], [values])
+        for name in dict.fromkeys(name for block in content.blocks for name in block.data):
+            having = [k for k, block in enumerate(content.blocks) if name in block.data]
+            data = [np.asarray(content.blocks[k].data[name]) for k in having]
+            write_data(out, "$ElementData", name, [numbers[k] for k in having], data)
 
 
 def _entities(
@@ -104,7 +84,7 @@ def _write_names(file: BinaryIO, groups: Mapping[tuple[int, int], str]) -> None:
     file.write(b"$EndPhysicalNames\n")
 
 
-def _write_entities(out: _Writer, entities: Mapping[tuple[int, int], list[int]], points: np.ndarray) -> None:
+def _write_entities(out: Writer, entities: Mapping[tuple[int, int], list[int]], points: np.ndarray) -> None:
     low, high = points.min(axis=0), points.max(axis=0)
     out.file.write(b"$Entities\n")
     out.whole(([sum(dimension == d for dimension, _ in entities) for d in range(4)], "u8"))
@@ -122,7 +102,7 @@ def _write_entities(out: _Writer, entities: Mapping[tuple[int, int], list[int]],
     out.end(b"Entities")
 
 
-def _write_nodes(out: _Writer, points: np.ndarray, tags: np.ndarray, volume: int) -> None:
+def _write_nodes(out: Writer, points: np.ndarray, tags: np.ndarray, volume: int) -> None:
     out.file.write(b"$Nodes\n")
     out.whole(([1, len(points), tags.min(), tags.max()], "u8"))
     out.whole(([3, volume, 0], "i4"), ([len(points)], "u8"))
@@ -131,8 +111,9 @@ def _write_nodes(out: _Writer, points: np.ndarray, tags: np.ndarray, volume: int
     out.end(b"Nodes")
 
 
-def _write_elements(out: _Writer, blocks: tuple[Block, ...], of_block: list[np.ndarray], tags: np.ndarray) -> None:
-    numbers = element_numbers(blocks)
+def _write_elements(
+    out: Writer, blocks: tuple[Block, ...], of_block: list[np.ndarray], numbers: list[np.ndarray], tags: np.ndarray
+) -> None:
     together = [runs(entity) for entity in of_block]
     every = np.concatenate(numbers)
     out.file.write(b"$Elements\n")

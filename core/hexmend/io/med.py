@@ -36,11 +36,11 @@ def _opened(path: Path) -> Iterator[Mapping]:
     try:
         with h5py.File(path, "r", track_order=True) as file:
             yield file
-    except FileError:
-        raise
-    except (OSError, RuntimeError, LookupError, ValueError, TypeError, AttributeError, OverflowError) as error:
-        words = " ".join(str(error).split())[:120] or type(error).__name__
+    except (OSError, RuntimeError, LookupError, ValueError) as error:
+        words = " ".join(str(error).strip("'\"").split())[:120]
         raise FileError(path, f"cannot be read as HDF5 ({words})", _DAMAGED) from None
+    except (TypeError, AttributeError, OverflowError):  # a link to nothing, an attribute of another kind
+        raise FileError(path, "holds parts that are not what MED puts there", _DAMAGED) from None
 
 
 def _content(path: Path, file: Mapping) -> Content:

@@ -147,11 +147,15 @@ def column(value: float) -> str:
     text = repr(value)
     if len(text) <= 16 and "e" not in text:
         return text
-    for digits in range(16, 0, -1):
+    room = 14 - (value < 0)  # beside the sign, the first digit and the point
+    if 0.01 <= abs(value) < 1e12:
+        text = f"{value:.{room - len(str(int(abs(value)))) + 1}f}".rstrip("0")
+        if len(text) <= 16:
+            return text
+    for digits in range(room - 2, 0, -1):
         mantissa, exponent = f"{value:.{digits}e}".split("e")
-        whole, _, part = mantissa.partition(".")
         power = int(exponent)
-        short = f"{whole}.{part.rstrip('0')}{f'{power:+d}' if power else ''}"
+        short = f"{mantissa.rstrip('0')}{f'{power:+d}' if power else ''}"
         if len(short) <= 16:
             return short
     raise ValueError(f"{value} has no place in 16 columns")

@@ -38,10 +38,12 @@ class Bulk:
         begin = next((k + 1 for k, line in enumerate(lines) if line.strip().upper().startswith("BEGIN")), 0)
         where, name, fields = 0, "", []
         for k in range(begin, len(lines)):
-            line = lines[k].split("$", 1)[0].rstrip()
-            if not line.strip():
+            line = lines[k]
+            if "$" in line:
+                line = line[: line.index("$")]
+            if not line or line.isspace():
                 continue
-            head, own = _parted(line.expandtabs(8) if "," not in line else line)
+            head, own = _parted(line)
             if head[:1] in ("", "+", "*"):  # goes on with the card before
                 if name:
                     fields += own
@@ -58,6 +60,8 @@ class Bulk:
         """A whole number; 0 for a blank."""
         if not word:
             return 0
+        if word.isdecimal() and word.isascii() and len(word) < 19:
+            return int(word)
         digits = word[1:] if word[0] in "+-" else word
         if not (digits.isascii() and digits.isdigit() and len(digits) < 19):
             raise self.error(f"{name} in line {line} holds {shown(word)}: expected a whole number")
@@ -83,6 +87,7 @@ def _parted(line: str) -> tuple[str, list[str]]:
         width = 4 if head.endswith("*") or head.startswith("*") else 8
         own = parts[1 : 1 + width] + [""] * (width - len(parts[1 : 1 + width]))
     else:
+        line = line.expandtabs(8) if "\t" in line else line
         head = line[:8].strip().upper()
         large = head.endswith("*") or head.startswith("*")
         own = [line[part].strip() for part in (_LARGE if large else _SMALL)]

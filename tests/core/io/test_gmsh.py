@@ -136,3 +136,35 @@ def test_a_hex_that_stands_in_two_groups_is_one_hex_and_counts_are_not_believed(
     (tmp_path / "b.msh").write_bytes(binary[:at] + (2**62).to_bytes(8, "little") * 2 + binary[at + 16 :])
     with pytest.raises(FileError):
         io.read(tmp_path / "b.msh")
+
+
+@pytest.mark.parametrize("encoding", ["binary", "ascii"])
+def test_data_and_pins_survive(encoding, tmp_path):
+    mesh, random = with_everything(20), np.random.default_rng(0)
+    pinned = random.random(mesh.n_nodes) < 0.5
+    mesh = mesh.replace(
+        node_data={
+            **mesh.node_data,
+            "heat": random.normal(size=mesh.n_nodes),
+            "flow": random.normal(size=(mesh.n_nodes, 3)),
+        },
+        hex_data={**mesh.hex_data, "stress": random.normal(size=(mesh.n_hexes, 9)), "part": np.arange(mesh.n_hexes)},
+        pinned=pinned,
+    )
+    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
+    again = io.read(tmp_path / "a.msh")
+    assert_same(mesh, again, without=("node_sets", "side_sets"))
+    for kind, names in (("node_data", ("heat", "flow")), ("hex_data", ("stress", "part"))):
+        for name in names:
+            np.testing.assert_array_equal(getattr(again, kind)[name], getattr(mesh, kind)[name])
+    assert again.pinned[pinned].all()
+
+
+def test_data_of_some_nodes_is_no_number_for_the_others(tmp_path):
+    elements = "$Elements\n1\n7 5 2 1 1 1 2 4 3 5 6 8 7\n$EndElements\n"
+    data = '$NodeData\n1\n"heat"\n1\n0.5\n3\n0\n1\n2\n3 1.5\n1 2.5\n$EndNodeData\n'
+    data += '$ElementData\n1\n"flow"\n1\n0.5\n3\n0\n3\n1\n7 1 2 3\n$EndElementData\n'
+    (tmp_path / "a.msh").write_text(HEAD + NODES + elements + data)
+    mesh = io.read(tmp_path / "a.msh")
+    np.testing.assert_array_equal(mesh.node_data["heat"], [2.5, np.nan, 1.5] + [np.nan] * 5)
+    assert mesh.hex_data["flow"].tolist() == [[1, 2, 3]]
