@@ -1,12 +1,25 @@
 """Meshes and recipes from and to files: one format a file, each announcing itself in FORMATS.
 
->>> sorted(FORMATS)
-['medit', 'medit-binary', 'pvtu', 'vtk', 'vtkhdf', 'vtu']
+>>> sorted(FORMATS)[:4]
+['abaqus', 'gmsh', 'med', 'medit']
 """
 
 from __future__ import annotations
 
-from hexmend.io import medit, medit_binary, pvtu, vtk_legacy, vtkhdf, vtu  # noqa: F401  (they register themselves)
+from hexmend.io import (  # noqa: F401  (they register themselves)
+    abaqus,
+    gmsh,
+    med,
+    medit,
+    medit_binary,
+    nastran,
+    ovm,
+    pvtu,
+    su2,
+    vtk_legacy,
+    vtkhdf,
+    vtu,
+)
 from hexmend.io.files import left_out, read, readable_suffixes, writable_suffixes, write, writer_for
 from hexmend.io.format import FORMATS, Format
 

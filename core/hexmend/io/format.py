@@ -50,6 +50,8 @@ class Format:
         What is written, and read again as it was; all else is left out, which `left_out` says.
     names : frozenset of str
         Data and sets that are held by their names, though others are not.
+    exact : bool
+        Whether coordinates are written with all their digits.
     recognised : callable, optional
         Whether a file that begins with these bytes (some 4,096, or all) is of this format, whatever its suffix.
     """
@@ -63,6 +65,7 @@ class Format:
     holds: frozenset[Holds] = frozenset()
     names: frozenset[str] = frozenset()
     recognised: Callable[[bytes], bool] | None = None
+    exact: bool = True
 
 
 #: Every format by name.

@@ -119,6 +119,29 @@ class Source:
         self.pos = end
         return values.reshape(rows, width)
 
+    def decimals_until(self, section: str, mark: bytes, dtype: np.dtype | type) -> np.ndarray:
+        """Take all numbers written in decimals up to a word, and the word; (k,) array.
+
+        Parameters
+        ----------
+        section : str
+            What the numbers are, for errors.
+        mark : bytes
+            The word.
+        dtype : float64 or int64
+        """
+        end = self.data.find(mark, self.pos)
+        if end < 0:
+            raise self.error(f"{section} ends without {mark.decode()}: the file ends at {self.place(len(self.data))}")
+        values = self.decimals_to(section, end, dtype)
+        self.pos = end + len(mark)
+        return values
+
+    def decimals_to(self, section: str, end: int, dtype: np.dtype | type) -> np.ndarray:
+        """Take all numbers written in decimals before a byte, (k,) array; see `decimals_until`."""
+        count = _count_words(self.data[self.pos : end])
+        return self.decimals(section, count, 1, dtype)[:, 0]
+
     def binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
         """Take rows * width numbers as they lie in the file: a (rows, width) view of the file's byte order."""
         dtype = np.dtype(dtype)

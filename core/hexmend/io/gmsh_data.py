@@ -1,0 +1,113 @@
+"""$NodeData and $ElementData of Gmsh's format, and its numbers as they are written."""
+
+from __future__ import annotations
+
+from typing import BinaryIO
+
+import numpy as np
+
+from hexmend.io.content import FIXED, ID
+from hexmend.io.decimals import blocks as parts_of
+from hexmend.io.decimals import lines
+from hexmend.io.gmsh_content import Data, Read
+from hexmend.io.source import Source
+from hexmend.mesh import Mesh
+
+#: The sections, and what their rows belong to.
+DATA = {"$NodeData": "nodes", "$ElementData": "elements"}
+#: How many values a row may have.
+_WIDTHS = (1, 3, 9)
+
+
+def read_data(source: Source, order: str, key: str, result: Read) -> None:
+    """A section of data: a name, times, the step, and how many values a row and how many rows there are."""
+    titles = [source.line() for _ in range(_count(source, key))]
+    for _ in range(_count(source, key)):
+        source.line()
+    whole = [source.whole(source.line(), f"a number of {key}") for _ in range(_count(source, key))]
+    if not titles or len(whole) < 3 or whole[1] not in _WIDTHS:
+        raise source.error(f"{key} has not a name, a step, 1, 3 or 9 values a row, and a number of rows")
+    name, (step, width, count) = titles[0].strip('"'), whole[:3]
+    if order:
+        rows = source.binary(key, count, 1, [("tag", f"{order}i4"), ("values", f"{order}f8", (width,))])[:, 0]
+        tags, values = rows["tag"].astype(np.int64), rows["values"].astype(np.float64)
+    else:
+        rows = source.decimals(key, count, 1 + width, np.float64)
+        if not (np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53)).all():
+            raise source.error(f"{key} holds tags that are no numbers")
+        tags, values = rows[:, 0].astype(np.int64), rows[:, 1:].copy()
+    end = f"$End{key[1:]}"
+    if source.line() != end:
+        raise source.error(f"{key} ends without {end} before {source.here}")
+    if any(one.name == name and one.of_nodes == (key == "$NodeData") for one in result.data):
+        name = f"{name} ({step})"
+    result.data.append(Data(key == "$NodeData", name, tags, values[:, 0] if width == 1 else values))
+
+
+def _count(source: Source, key: str) -> int:
+    count = source.whole(source.line(), f"a number of {key}")
+    if count > 1000:
+        raise source.error(f"{key} announces {count} words: expected a few")
+    return count
+
+
+class Writer:
+    """Numbers as text, a row a line, or binary."""
+
+    def __init__(self, file: BinaryIO, binary: bool):
+        self.file, self.binary = file, binary
+
+    def whole(self, *parts: tuple[object, str]) -> None:
+        """A line of whole numbers, each part with its type in binary, i4 or u8."""
+        arrays = [(np.atleast_1d(np.asarray(values, np.int64)), code) for values, code in parts]
+        if self.binary:
+            self.file.write(b"".join(values.astype(f"<{code}").tobytes() for values, code in arrays))
+        else:
+            self.file.write(lines(np.concatenate([values for values, _ in arrays])[None]))
+
+    def rows(self, values: np.ndarray) -> None:
+        """Rows of floats, or of whole numbers of the type u8."""
+        if self.binary:
+            self.file.write(values.astype("<f8" if values.dtype.kind == "f" else "<u8").tobytes())
+        else:
+            for part in parts_of(len(values)):
+                self.file.write(lines(values[part]))
+
+    def end(self, name: bytes) -> None:
+        self.file.write((b"\n" if self.binary else b"") + b"$End%s\n" % name)
+
+
+def pinned_data(mesh: Mesh) -> dict[str, np.ndarray]:
+    """Data of the nodes; pins, unless the file said just that, as data named "fixed"."""
+    data = {name: np.asarray(values) for name, values in mesh.node_data.items()}
+    if mesh.pinned is not None:
+        name = next((name for name in data if name.lower() == FIXED), FIXED)
+        if name not in data or not np.array_equal(data[name] != 0, mesh.pinned):
+            data[name] = mesh.pinned.astype(np.int32)
+    return data
+
+
+def write_data(out: Writer, key: str, name: str, tags: list[np.ndarray], data: list[np.ndarray]) -> None:
+    """A section of data, in rows of 1, 3 or 9 values, of which some are 0 where there are fewer.
+
+    What is no number, has more than nine values a row, or is an id, is not written.
+    """
+    rows = [values.reshape(len(values), -1) for values in data]
+    widths = {values.shape[1] for values in rows}
+    if name == ID or len(widths) > 1 or not 1 <= max(widths) <= 9 or any(one.dtype.kind not in "biuf" for one in rows):
+        return
+    numbers, values = np.concatenate(tags), np.concatenate(rows).astype(np.float64)
+    missing = min(width for width in _WIDTHS if width >= max(widths)) - max(widths)
+    values = np.pad(values, ((0, 0), (0, missing)))
+    clean = " ".join(name.replace('"', "'").split())
+    head = f'{key}\n1\n"{clean}"\n1\n0\n3\n0\n{values.shape[1]}\n{len(values)}\n'
+    out.file.write(head.encode())
+    if out.binary:
+        packed = np.empty(len(values), [("tag", "<i4"), ("values", "<f8", (values.shape[1],))])
+        packed["tag"], packed["values"] = numbers, values
+        out.file.write(packed.tobytes() + b"\n")
+    else:
+        for part in parts_of(len(values)):
+            texts = lines(values[part]).split(b"\n")
+            out.file.write(b"".join(b"%d %s\n" % pair for pair in zip(numbers[part].tolist(), texts, strict=False)))
+    out.file.write(b"$End%s\n" % key[1:].encode())

@@ -1,0 +1,55 @@
+"""What MED calls cells, how it orders their nodes, and how it names groups."""
+
+from __future__ import annotations
+
+import numpy as np
+
+#: MED's names of the kinds of cells that are read.
+KINDS = {
+    "PO1": "vertex", "SE2": "line", "SE3": "line3", "TR3": "triangle", "TR6": "triangle6",
+    "QU4": "quad", "QU8": "quad8", "QU9": "quad9", "TE4": "tetra", "T10": "tetra10", "PE6": "wedge", "P15": "wedge15",
+    "PY5": "pyramid", "P13": "pyramid13", "HE8": "hex", "H20": "hex20", "H27": "hex27",
+}  # fmt: skip
+NAMES = {kind: name for name, kind in KINDS.items()}
+
+#: MED's number of each kind.
+GEOMETRIES = {
+    "PO1": 1, "SE2": 102, "SE3": 103, "TR3": 203, "TR6": 206, "QU4": 204, "QU8": 208, "QU9": 209, "TE4": 304,
+    "T10": 310, "PE6": 306, "P15": 315, "PY5": 305, "P13": 313, "HE8": 308, "H20": 320, "H27": 327,
+}  # fmt: skip
+
+_HEX20 = [0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17]
+#: VTK's order of nodes: nodes[ORDER[kind]] of MED's, which goes round the lower face the other way.
+ORDER = {
+    "tetra": [0, 2, 1, 3],
+    "tetra10": [0, 2, 1, 3, 6, 5, 4, 7, 9, 8],
+    "pyramid": [0, 3, 2, 1, 4],
+    "pyramid13": [0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10],
+    "wedge": [0, 2, 1, 3, 5, 4],
+    "wedge15": [0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13],
+    "hex": _HEX20[:8],
+    "hex20": _HEX20,
+    "hex27": [*_HEX20, 21, 23, 24, 22, 20, 25, 26],
+}
+
+#: How many bytes the name of a group has.
+_WIDTH = 80
+
+
+def names_of(values: np.ndarray) -> list[str]:
+    """Names of groups, of rows of bytes.
+
+    >>> names_of(bytes_of(["inlet"]))
+    ['inlet']
+    """
+    rows = np.asarray(values).reshape(-1, _WIDTH).astype(np.int8).view(np.uint8)
+    return [row.tobytes().split(b"\0", 1)[0].decode("utf-8", errors="replace").strip() for row in rows]
+
+
+def bytes_of(names: list[str]) -> np.ndarray:
+    """Names of groups as rows of bytes, (k, 80) int8; longer ones are cut."""
+    rows = np.zeros((len(names), _WIDTH), np.int8)
+    for row, name in zip(rows, names, strict=True):
+        letters = np.frombuffer(name.encode()[:_WIDTH], np.int8)
+        row[: len(letters)] = letters
+    return rows

@@ -1,0 +1,94 @@
+"""Nastran's bulk data as cards: fields of 8 or 16 columns, or between commas, with their continuations."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from hexmend.errors import FileError
+from hexmend.io.source import shown
+
+_EXPONENT = re.compile(r"([0-9.])([+-])")
+
+#: Fields of a line behind its name: eight of 8 columns, or four of 16.
+_SMALL = [slice(k, k + 8) for k in range(8, 72, 8)]
+_LARGE = [slice(k, k + 16) for k in range(8, 72, 16)]
+
+
+class Bulk:
+    """The cards of a file.
+
+    Parameters
+    ----------
+    path : Path
+    text : str
+    """
+
+    def __init__(self, path: Path, text: str):
+        self.path, self.text = path, text
+
+    def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
+        """The error to raise."""
+        return FileError(self.path, problem, remedy)
+
+    def cards(self) -> Iterator[tuple[int, str, list[str]]]:
+        """The line, name and fields of each card, continuations joined; fields are stripped."""
+        lines = self.text.split("\n")
+        begin = next((k + 1 for k, line in enumerate(lines) if line.strip().upper().startswith("BEGIN")), 0)
+        where, name, fields = 0, "", []
+        for k in range(begin, len(lines)):
+            line = lines[k]
+            if "$" in line:
+                line = line[: line.index("$")]
+            if not line or line.isspace():
+                continue
+            head, own = _parted(line)
+            if head[:1] in ("", "+", "*"):  # goes on with the card before
+                if name:
+                    fields += own
+                continue
+            if name:
+                yield where, name, fields
+            where, name, fields = k + 1, head, own
+            if name == "ENDDATA":
+                return
+        if name:
+            yield where, name, fields
+
+    def whole(self, word: str, line: int, name: str) -> int:
+        """A whole number; 0 for a blank."""
+        if not word:
+            return 0
+        if word.isdecimal() and word.isascii() and len(word) < 19:
+            return int(word)
+        digits = word[1:] if word[0] in "+-" else word
+        if not (digits.isascii() and digits.isdigit() and len(digits) < 19):
+            raise self.error(f"{name} in line {line} holds {shown(word)}: expected a whole number")
+        return int(word)
+
+    def real(self, word: str, line: int, name: str) -> float:
+        """A number, whose exponent may lack its letter: 1.5-3; 0 for a blank."""
+        try:
+            return float(word or 0)
+        except ValueError:
+            pass
+        try:
+            return float(_EXPONENT.sub(r"\1e\2", word.upper().replace("D", "E").replace("E", "")))
+        except ValueError:
+            raise self.error(f"{name} in line {line} holds {shown(word)}: expected a number") from None
+
+
+def _parted(line: str) -> tuple[str, list[str]]:
+    """Name and fields of a line; as many fields as its kind of line has."""
+    if "," in line:
+        parts = [part.strip() for part in line.split(",")]
+        head = parts[0].upper()
+        width = 4 if head.endswith("*") or head.startswith("*") else 8
+        own = parts[1 : 1 + width] + [""] * (width - len(parts[1 : 1 + width]))
+    else:
+        line = line.expandtabs(8) if "\t" in line else line
+        head = line[:8].strip().upper()
+        large = head.endswith("*") or head.startswith("*")
+        own = [line[part].strip() for part in (_LARGE if large else _SMALL)]
+    return (head.rstrip("*") if len(head) > 1 and not head.startswith("*") else head), own

@@ -1,0 +1,103 @@
+"""Nastran's bulk data: files that Gmsh 4.15 wrote in all three kinds of fields, and what is written and read again."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.hexahedron import UNIT_CUBE
+from hexmend.io.nastran import column
+from hexmend.quality import summarise
+from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
+
+FILES = Path(__file__).parent / "files"
+GRIDS = "".join(f"GRID,{k + 1},,{x},{y},{z}\n" for k, (x, y, z) in enumerate(UNIT_CUBE.tolist()))
+CUBE = f"BEGIN BULK\n{GRIDS}CHEXA,9,4,1,2,3,4,5,6\n,7,8\nENDDATA\n"
+
+
+def read(text, tmp_path):
+    (tmp_path / "a.bdf").write_text(text)
+    return io.read(tmp_path / "a.bdf")
+
+
+@pytest.mark.parametrize("file", ["o1", "o2i", "free", "large"])
+def test_a_file_of_gmsh_is_read(file):
+    mesh = io.read(FILES / f"gmsh-{file}.bdf")
+    assert (mesh.n_hexes, summarise(mesh).inverted) == (2, 0)
+    assert mesh.hex_sets["property 1"].tolist() == [0, 1]
+    assert mesh.hex_data["id"].tolist() == [5, 6]
+    wedges = mesh.cells[-1]
+    assert wedges.kind == ("wedge" if file == "o1" else "wedge15")
+    assert wedges.sets["property 2"].tolist() == [0, 1]
+    corners = mesh.points[mesh.hexes].mean(axis=1)
+    np.testing.assert_allclose(corners, [[0.5, 0.5, 0.25], [0.5, 0.5, 0.75]])
+    middles_are_in_the_middle(mesh)
+
+
+@pytest.mark.parametrize("nodes", [8, 20])
+def test_what_is_written_is_read_again(nodes, tmp_path):
+    mesh = with_everything(nodes)
+    mesh = mesh.replace(
+        hex_sets={"property 12": np.array([1, 2]), "property 7": np.array([0, *range(3, mesh.n_hexes)])}
+    )
+    io.write(tmp_path / "a.nas", mesh)
+    again = io.read(tmp_path / "a.nas")
+    np.testing.assert_allclose(again.points, mesh.points, rtol=1e-12, atol=1e-15)
+    assert_same(mesh.rebuilt(points=again.points), again, without=("node_sets", "side_sets", "cells"))
+    assert [one.kind for one in again.cells] == [one.kind for one in mesh.cells]
+    assert not any("element sets" in words for words in io.left_out(tmp_path / "a.nas", mesh))
+
+
+def test_27_nodes_are_refused(tmp_path):
+    with pytest.raises(FileError, match="no hexes of 27 nodes"):
+        io.write(tmp_path / "a.bdf", with_everything(27))
+
+
+@given(value=st.floats(-1e300, 1e300))
+def test_a_column_holds_a_number_as_well_as_it_can(value):
+    text = column(value)
+    assert len(text) <= 16
+    assert "." in text
+    sign, rest = text[:1], text[1:]
+    exponent = max(rest.rfind("+"), rest.rfind("-"))
+    number = float(sign + rest[:exponent] + "e" + rest[exponent:]) if exponent > 0 else float(text)
+    assert number == pytest.approx(value, rel=1e-8, abs=0)
+
+
+def test_numbers_as_nastran_writes_them(tmp_path):
+    text = CUBE.replace("GRID,2,,1.0,0.0", "GRID,2,,10.-1,0.0").replace("GRID,3,,1.0,1.0", "GRID,3,,+.1+1,1.D0")
+    text = "SOL 101\nCEND\nTITLE = cube $ none\n" + text + "GRID,99,,x,y,z\n"
+    mesh = read(text.replace("BEGIN BULK", "BEGIN BULK\nMAT1,1,2.1+5,,.3"), tmp_path)
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+    assert "1 MAT1" in mesh.notes[0]
+
+
+def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
+    mesh = read(CUBE.replace(",7,8\n", ",7,8,,,1\n"), tmp_path)
+    assert mesh.mid_nodes is None
+    assert "some of their mid-nodes" in mesh.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5: expected 0"),
+        ("GRID,2,,1.0", "GRID,2,,one", "GRID in line 3 holds 'one': expected a number"),
+        ("GRID,2,", "GRID,1,", "node 1 is given twice"),
+        (",7,8\n", ",7\n", "CHEXA in line 10 has 7 nodes: expected 8"),
+        (",7,8\n", ",7,77\n", "node 77 is used"),
+        (",7,8\n", ",7,8.5\n", "CHEXA in line 10 holds '8.5': expected a whole number"),
+        ("CHEXA,9", "INCLUDE 'more.bdf'\nCHEXA,9", "INCLUDE in line 10 takes what follows from another file"),
+        ("CHEXA", "CGAP", "holds no hexahedra"),
+        (GRIDS, "", "has no GRID"),
+    ],
+)
+def test_what_is_wrong_is_named(old, new, words, tmp_path):
+    assert old in CUBE
+    with pytest.raises(FileError) as error:
+        read(CUBE.replace(old, new), tmp_path)
+    assert words in str(error.value)

@@ -1,0 +1,117 @@
+"""OpenVolumeMesh's files: hexes out of half-faces, whichever of its corners each begins with."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.hexahedron import FACES, UNIT_CUBE
+from hexmend.quality import summarise
+from tests.core.grids import grid
+
+
+def written(points, hexes, properties="", seed=0) -> str:
+    """The text of a file whose edges and faces go round as chance has it, and the cells' half-faces as they must."""
+    chance = np.random.default_rng(seed)
+    edges, faces, cells = {}, {}, []
+    for nodes in hexes:
+        sides = []
+        for face in chance.permutation(6):
+            loop = [int(node) for node in np.roll(nodes[FACES[face]][::-1], chance.integers(4))]  # from inside
+            key = tuple(sorted(loop))
+            if key not in faces:
+                kept = loop if chance.random() < 0.5 else loop[::-1]
+                around = []
+                for a, b in itertools.pairwise([*kept, kept[0]]):
+                    pair = (min(a, b), max(a, b))
+                    edges.setdefault(pair, (len(edges), (a, b) if chance.random() < 0.5 else (b, a)))
+                    number, direction = edges[pair]
+                    around.append(2 * number + (direction != (a, b)))
+                faces[key] = (len(faces), kept, around)
+            number, kept, _ = faces[key]
+            same = any(np.array_equal(np.roll(kept, k), loop) for k in range(4))
+            sides.append(2 * number + (not same))
+        cells.append(sides)
+
+    def rows(values):
+        return f"{len(values)}\n" + "".join(" ".join(map(str, row)) + "\n" for row in values)
+
+    return (
+        "OVM ASCII\nVertices\n" + rows(points.tolist())
+        + "Edges\n" + rows([direction for _, direction in edges.values()])
+        + "Faces\n" + rows([[4, *around] for _, _, around in faces.values()])
+        + "Polyhedra\n" + rows([[6, *sides] for sides in cells]) + properties
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_hexes_are_found_in_half_faces(seed, tmp_path):
+    mesh = grid(3, 2, 2)
+    (tmp_path / "a.ovm").write_text(written(mesh.points, mesh.hexes, seed=seed))
+    found = io.read(tmp_path / "a.ovm")
+    np.testing.assert_array_equal(np.sort(found.hexes, axis=1), np.sort(mesh.hexes, axis=1))
+    assert summarise(found).q_min == pytest.approx(1)
+    assert found.notes == ()
+
+
+def test_properties_are_data(tmp_path):
+    properties = (
+        'VProp double "heat"\n' + "0.5\n" * 8 + 'HFProp int "odd"\n' + "3\n" * 12 + 'CProp vec3d "flow x"\n1 2 3\n'
+    )
+    properties += 'CProp int "id"\n7\n'
+    (tmp_path / "a.ovm").write_text(written(UNIT_CUBE, np.arange(8)[None], properties))
+    mesh = io.read(tmp_path / "a.ovm")
+    assert mesh.node_data["heat"].tolist() == [0.5] * 8
+    assert mesh.hex_data["flow x"].tolist() == [[1, 2, 3]]
+    assert mesh.hex_data["id"].tolist() == [7]
+    assert any("'odd'" in note for note in mesh.notes)
+
+
+def test_other_polyhedra_are_left_out_and_said(tmp_path):
+    text = written(UNIT_CUBE, np.arange(8)[None])
+    head, cells = text.split("Polyhedra\n1\n")
+    five = " ".join(cells.split()[1:6])
+    (tmp_path / "a.ovm").write_text(f"{head}Polyhedra\n2\n5 {five}\n{cells}")
+    mesh = io.read(tmp_path / "a.ovm")
+    assert mesh.n_hexes == 1
+    assert mesh.notes == ("1 polyhedra that are no hexes are left out.",)
+    (tmp_path / "a.ovm").write_text(f"{head}Polyhedra\n1\n5 {five}\n")
+    with pytest.raises(FileError, match="holds no hexahedra, but 1 other polyhedra"):
+        io.read(tmp_path / "a.ovm")
+
+
+def test_a_real_file_is_read(real_mesh):
+    mesh = io.read(real_mesh("Cylinder.ovm"))
+    assert (mesh.n_hexes, mesh.n_nodes, summarise(mesh).inverted, mesh.notes) == (288, 399, 0, ())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("OVM ASCII", "OVM BINARY", "does not begin with OVM ASCII"),
+        ("Polyhedra\n1\n", "Polyhedra\n2\n", "Polyhedra holds 1 whole rows of 2"),
+        ("Edges\n12\n", "Edges\n99999999999\n", "Edges ends after 12 of 99999999999 rows"),
+        ("Vertices\n8\n0.0 ", "Vertices\n8\nx ", "Vertices holds 'x' in row 1 of 8 (line 4)"),
+        ("Faces\n6\n4 ", "Faces\n6\n4 99 ", "Faces holds"),
+        ("Faces\n6\n4 ", "Faces\n6\n-4 ", "Faces holds 0 whole rows of 6"),
+        ("Polyhedra\n1\n6 ", "Polyhedra\n1\n7 99 ", "Polyhedra name 99: expected numbers from 0 to 11"),
+        ("Edges", "Hedges", "'Hedges' stands where a section should begin (line 12)"),
+    ],
+)
+def test_what_is_wrong_is_named(old, new, words, tmp_path):
+    text = written(UNIT_CUBE, np.arange(8)[None])
+    assert old in text
+    (tmp_path / "a.ovm").write_text(text.replace(old, new))
+    with pytest.raises(FileError) as error:
+        io.read(tmp_path / "a.ovm")
+    assert words in str(error.value)
+
+
+def test_a_file_cut_short_is_an_error_or_ends_between_lines(tmp_path):
+    text = written(UNIT_CUBE, np.arange(8)[None])
+    for end in range(0, len(text) - 1, 3):
+        (tmp_path / "a.ovm").write_text(text[:end])
+        with pytest.raises(FileError):
+            io.read(tmp_path / "a.ovm")
