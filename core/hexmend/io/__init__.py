@@ -1,12 +1,12 @@
 """Meshes and recipes from and to files: one format a file, each announcing itself in FORMATS.
 
 >>> sorted(FORMATS)
-['medit', 'medit-binary', 'vtk', 'vtu']
+['cgns', 'exodus', 'medit', 'medit-binary', 'vtk', 'vtu']
 """
 
 from __future__ import annotations
 
-from hexmend.io import medit, medit_binary, vtk_legacy, vtu  # noqa: F401  (they register themselves)
+from hexmend.io import cgns, exodus, medit, medit_binary, vtk_legacy, vtu  # noqa: F401  (they register themselves)
 from hexmend.io.files import left_out, read, readable_suffixes, writable_suffixes, write, writer_for
 from hexmend.io.format import FORMATS, Format
 
