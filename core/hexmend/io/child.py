@@ -40,22 +40,25 @@ def in_child(reader: str, path: Path) -> Content:
     """
     size = os.path.getsize(path)
     with tempfile.TemporaryDirectory(prefix="hexmend-") as folder:
-        answer = Path(folder) / "answer.npz"
+        answer, said = Path(folder) / "answer.npz", Path(folder) / "said"
         program = "import sys; sys.path[:] = sys.argv[4:]; from hexmend.io.child import main; main(*sys.argv[1:4])"
         limit = SECONDS + SECONDS_PER_MB * size / 1e6
         try:
-            done = subprocess.run(
-                [sys.executable, "-c", program, reader, str(path.absolute()), str(answer), *sys.path],
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                timeout=limit,
-                check=False,
-            )
+            with open(said, "wb") as errors:
+                done = subprocess.run(
+                    [sys.executable, "-c", program, reader, str(path.absolute()), str(answer), *sys.path],
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=errors,
+                    timeout=limit,
+                    check=False,
+                )
         except subprocess.TimeoutExpired:
             raise FileError(path, f"is not read within {limit:.0f} seconds", _DAMAGED) from None
+        if done.returncode == 1:  # an exception that its reader did not expect
+            raise FileError(path, f"its reader fails ({_last_line(said)})", "Write the file again, and report this.")
         if done.returncode or not answer.exists():
-            raise FileError(path, "ends the library that reads it, or needs too much memory", _DAMAGED)
+            raise FileError(path, "ends the library that reads it", _DAMAGED)
         with np.load(answer, allow_pickle=False) as arrays:
             said = json.loads(arrays["said"].tobytes())
             if "problem" in said:
@@ -70,6 +73,8 @@ def main(reader: str, path: str, answer: str) -> None:
     arrays: dict[str, np.ndarray] = {}
     try:
         said = {"content": packed(getattr(import_module(module), function)(Path(path)), arrays)}
+    except MemoryError:
+        said = {"problem": "needs more memory than a file of its size should", "remedy": _DAMAGED}
     except FileError as error:
         said = {"problem": error.problem, "remedy": error.remedy}
     np.savez(answer, said=np.frombuffer(json.dumps(said).encode(), np.uint8), **arrays)
@@ -106,6 +111,15 @@ def unpacked(value: object, arrays: object) -> object:
     if kind == "block":
         return Block(**parts)
     return Content(**{**parts, "blocks": tuple(parts["blocks"]), "notes": tuple(parts["notes"])})
+
+
+def _last_line(path: Path) -> str:
+    """The last line of what a process has said, short and printable."""
+    with open(path, "rb") as file:
+        file.seek(max(0, os.path.getsize(path) - 2000))
+        lines = file.read().decode(errors="replace").split("\n")
+    last = next((line for line in reversed(lines) if line.strip()), "it does not say why")
+    return "".join(letter if letter.isprintable() else " " for letter in last)[:200]
 
 
 def _limit_memory(path: Path) -> None:
