@@ -8,8 +8,8 @@ from hexmend.errors import FileError
 from hexmend.io.cgns_tree import Node
 from hexmend.io.cgns_zone import DAMAGED, Zone, add, conditions, coordinates, family, location_of, results, sizes
 from hexmend.io.content import Block
-from hexmend.orientation import TURNED_CORNERS, TURNED_FACES
 from hexmend.kernels import elements
+from hexmend.orientation import TURNED_CORNERS, TURNED_FACES
 
 #: The faces of hexes at the lower and the upper end of i, j and k.
 FACES_AT = np.array([[0, 1], [2, 3], [4, 5]])
