@@ -36,6 +36,7 @@ CORE = [
 ]
 APP = [
     {"resources"},
+    {"formats"},
     {"state"},
     {"scene"},
     {"widgets"},

@@ -26,17 +26,10 @@ def structured(node: Node) -> Zone:
             node.path, f"zone {node.name!r} has {count.tolist()} vertices along i, j, k: expected 2 or more"
         )
     points = coordinates(node, tuple(count[::-1].tolist()))
-    i, j, k = (np.arange(n - 1) for n in count)
-    corner = (i + count[0] * (j[:, None] + count[1] * k[:, None, None])).ravel()
-    steps = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
-    hexes = corner[:, None] + steps @ [1, count[0], count[0] * count[1]]
-    sigma = np.empty((len(hexes), 8))
-    elements.corner_determinants(points, hexes.astype(np.int32), sigma)
-    with np.errstate(all="ignore"):
-        mirrored = np.count_nonzero(sigma.sum(axis=1) < 0) > len(hexes) / 2
+    hexes, mirrored = hexes_between(points, count)
     data = results(node, "CellCenter", tuple((count - 1)[::-1].tolist()))
     zone = Zone(node.name, family(node), points, shape=count)
-    zone.blocks.append(Block("hex", hexes[:, TURNED_CORNERS] if mirrored else hexes, data))
+    zone.blocks.append(Block("hex", hexes, data))
     zone.node_data = results(node, "Vertex", tuple(count[::-1].tolist()))
     _add_conditions(zone, node, count)
     if mirrored:
@@ -48,6 +41,31 @@ def structured(node: Node) -> Zone:
             if ends is not None:
                 zone.interfaces.append((one.text(), *ends))
     return zone
+
+
+def hexes_between(points: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, bool]:
+    """The hexes of a grid, and whether its i, j and k are left-handed, so that they have been turned.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        i runs fastest.
+    count : (3,) int
+        Nodes along i, j and k, two or more.
+
+    Returns
+    -------
+    (m, 8) int64, bool
+    """
+    i, j, k = (np.arange(n - 1) for n in count)
+    corner = (i + count[0] * (j[:, None] + count[1] * k[:, None, None])).ravel()
+    steps = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+    hexes = corner[:, None] + steps @ [1, count[0], count[0] * count[1]]
+    sigma = np.empty((len(hexes), 8))
+    elements.corner_determinants(points, hexes.astype(np.int32), sigma)
+    with np.errstate(all="ignore"):
+        mirrored = np.count_nonzero(sigma.sum(axis=1) < 0) > len(hexes) / 2
+    return hexes[:, TURNED_CORNERS] if mirrored else hexes, bool(mirrored)
 
 
 def _add_conditions(zone: Zone, node: Node, count: np.ndarray) -> None:
