@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 # From the ground up; an import goes down, or stays inside one package's own folder.
 CORE = [
-    {"arrays", "errors", "hexahedron"},
+    {"arrays", "errors", "hexahedron", "shape_functions"},
     {"figures", "parameters", "registry", "second_order"},
     {"kernels"},
     {"topology"},
@@ -36,6 +36,7 @@ CORE = [
 ]
 APP = [
     {"resources"},
+    {"formats"},
     {"state"},
     {"scene"},
     {"widgets"},

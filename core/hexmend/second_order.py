@@ -15,6 +15,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.hexahedron import FACES, UNIT_CUBE
+from hexmend.shape_functions import lagrange, serendipity
 
 #: The edges of nodes 8 to 19.
 MID_EDGES = np.array(
@@ -31,6 +32,14 @@ SHARES = np.prod(np.where(UNIT_CUBE[None] == 1, MID_PLACES[:, None], 1 - MID_PLA
 
 #: Where nodes 8 to 26 are in a hex whose lower and upper face are exchanged.
 EXCHANGED = np.array([4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 17, 16, 18])
+
+#: Places of all 27 nodes, and of the 3 x 3 x 3 Gauss points.
+PLACES = np.concatenate([UNIT_CUBE, MID_PLACES])
+_GAUSS = np.array([0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)])
+GAUSS_PLACES = np.stack(np.meshgrid(_GAUSS, _GAUSS, _GAUSS, indexing="ij"), axis=-1).reshape(-1, 3)
+
+#: Hexes of which Jacobians are computed at a time.
+_AT_A_TIME = 1 << 15
 
 
 def following(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
@@ -60,6 +69,38 @@ def following(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid_node
         corners = hexes[chosen[first]][:, used]
         moves = np.einsum("c,kcx->kx", SHARES[corner, used], after[corners] - before[corners])
         answer[nodes] = before[nodes] + moves
+    return answer
+
+
+def jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
+    """The least determinant of each hex's map from the unit cube, over its nodes and the Gauss points, scaled.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    mid_nodes : (m, 19) int32
+
+    Returns
+    -------
+    (m,) float64
+        The determinant by the lengths of its columns: 1 at right angles, 0 or less where the element is of no use. NaN
+        for hexes that have neither 20 nor 27 nodes.
+    """
+    answer = np.full(len(hexes), np.nan)
+    more = (mid_nodes >= 0).sum(axis=1)
+    for width, functions in ((20, serendipity), (27, lagrange)):
+        gradients = functions(np.concatenate([PLACES[:width], GAUSS_PLACES]), PLACES[:width])[1]
+        chosen = np.flatnonzero(more == width - 8)
+        for some in np.split(chosen, range(_AT_A_TIME, len(chosen), _AT_A_TIME)):
+            nodes = points[np.column_stack([hexes[some], mid_nodes[some, : width - 8]])]
+            least = np.full(len(some), np.inf)
+            for gradient in gradients:
+                columns = gradient.T @ nodes  # the derivatives of the place, one by one
+                sizes = np.linalg.norm(columns, axis=2).prod(axis=1)
+                scaled = np.linalg.det(columns) / np.where(sizes > 0, sizes, 1)
+                least = np.minimum(least, scaled)
+            answer[some] = least
     return answer
 
 

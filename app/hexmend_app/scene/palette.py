@@ -98,6 +98,7 @@ BACKGROUND = Role("#eef1f5", "#323943")  # one colour: a gradient costs software
 AXES = Role("#39414d", "#d5dae1", on=(BACKGROUND,))
 GHOST = Role("#6f7b8b", "#aab4c1")
 ORIGINAL = Role("#0072b2", "#6cb9f0")  # the boundary as it was opened
+OTHER_CELLS = Role("#5f6670", "#b9bfc8")  # tetrahedra and the like beside the hexes
 SHARP = Role("#1b1f2a", "#0c0e13")
 SILHOUETTE = Role("#7d8797", "#8d97a5")
 SHADE = Role("#d9dfe8", "#3e4651")  # a little apart from the background

@@ -18,6 +18,7 @@ from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.chosen import Chosen
 from hexmend_app.scene.layers.ghosts import Ghosts
 from hexmend_app.scene.layers.original import Original
+from hexmend_app.scene.layers.others import OtherCells
 from hexmend_app.scene.layers.silhouette import Silhouette
 from hexmend_app.scene.layers.structure import StructureLayers
 from hexmend_app.scene.palette import BACKGROUND
@@ -44,6 +45,7 @@ class Viewport:
         What a part is cut from, once there is a mesh.
     structure : StructureLayers
     original : Original
+    others : OtherCells
     arrow_layer : ArrowLayer
 
     Parameters
@@ -68,6 +70,7 @@ class Viewport:
         self.body = Body(pane, pen)
         self._ghosts = Ghosts(pane.renderer, pen)
         self.original = Original(pane.renderer, pen)
+        self.others = OtherCells(pane.renderer, pen)
         self.outline: Silhouette | None = None
         self.structure = StructureLayers(pane, pen)
         self.arrow_layer = ArrowLayer(pane, pen)
@@ -85,6 +88,7 @@ class Viewport:
         self.chosen.set_dark(dark)
         self._ghosts.set_dark(dark)
         self.original.set_dark(dark)
+        self.others.set_dark(dark)
         if self.outline is not None:
             self.outline.set_dark(dark)
 
@@ -111,6 +115,7 @@ class Viewport:
             self.colours.measure(frame)
         keep = self.kept()
         self.original.draw(frame, keep)
+        self.others.draw(frame)
         if looked or not same_mask(keep, self._keep):
             self._keep = keep
             self._rebuild()
@@ -198,8 +203,9 @@ class Viewport:
 
     @property
     def places(self) -> np.ndarray:
-        """The corners of what is shown, ghosts too, (k, 3); of the mesh where nothing is left of it."""
-        places, mesh = np.concatenate([self.body.places, self._ghosts.places]), self.frame.mesh
+        """The corners of what is shown, ghosts and other cells too, (k, 3); of the mesh where nothing is left of it."""
+        places = np.concatenate([self.body.places, self._ghosts.places, self.others.places])
+        mesh = self.frame.mesh
         return places if len(places) else mesh.points[mesh.topology.used]
 
     def view(self, direction: str | tuple[float, float, float]) -> None:

@@ -130,6 +130,8 @@ class Structure:
         What the nodes of the boundary in sight may do where it slides: corners, those of curves, those of patches.
     original : bool
         The boundary as it was when the mesh was opened, see-through.
+    others : bool
+        Cells beside the hexes that fill space, where the mesh has any: their outer skin, see-through.
     """
 
     irregular: bool = False
@@ -140,6 +142,7 @@ class Structure:
     locked: bool = False
     kinds: bool = False
     original: bool = False
+    others: bool = True
 
     @property
     def edges(self) -> bool:

@@ -38,19 +38,22 @@ class Info:
         from hexmend.cli.command.files import say_notes
         from hexmend.doctor import examine
         from hexmend.io import read
-        from hexmend.quality import measure, spreads, summarise
+        from hexmend.quality import measure, spreads, summarise, summarise_second_order
 
         mesh = read(args.mesh, as_is=args.as_is)
         say_notes(mesh)
         figures = measure(mesh.points, mesh.hexes)
         summary = summarise(mesh, figures)
         metrics = spreads(mesh, figures) if args.metrics else {}
+        curved = summarise_second_order(mesh)
         if args.json:
             from hexmend.report import to_json
 
             answer = summary.to_dict()
             if args.metrics:
                 answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
+            if curved is not None:
+                answer["second_order"] = curved.to_dict()
             if args.doctor:
                 answer["doctor"] = [finding.to_dict(FIRST) for finding in examine(mesh)]
             print(to_json(answer))
@@ -70,6 +73,8 @@ class Info:
                 f"Locked: {count(freed)} can be freed where the boundary slides (--boundary slide), "
                 f"{count(left)} cannot."
             )
+        if curved is not None:
+            print(f"Second order: {curved.words}.")
         if args.metrics:
             print_spreads(metrics)
         for finding in examine(mesh, quick=not args.doctor):

@@ -30,6 +30,7 @@ class Smooth:
         from hexmend.cli.command.progress import follow
         from hexmend.cli.tables import print_summaries
         from hexmend.io import read, write_recipe, writer_for
+        from hexmend.quality import summarise_second_order
         from hexmend.report import record, write_history, write_json
         from hexmend.run import iterate
 
@@ -46,12 +47,20 @@ class Smooth:
         follow(run)
         result = run.result()
         write(args.output, result.mesh)
+        curved = {"before": summarise_second_order(mesh), "after": summarise_second_order(result.mesh)}
         if args.json:
-            write_json(args.json, record(result))
+            report = record(result)
+            for when, one in curved.items():
+                if one is not None:
+                    report[when]["second_order"] = one.to_dict()
+            write_json(args.json, report)
         if args.history:
             write_history(args.history, result)
         print_summaries(f"{args.mesh}: {what.title}", ["before", "after"], [result.before, result.after])
         print(result.message)
+        for when, one in curved.items():
+            if one is not None:
+                print(f"Second order, {when}: {one.words}.")
         if result.surface is not None:
             print(result.surface.words)
         print(f"Written to {args.output}.")

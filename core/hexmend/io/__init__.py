@@ -1,13 +1,15 @@
 """Meshes and recipes from and to files: one format a file, each announcing itself in FORMATS.
 
 >>> sorted(FORMATS)[:4]
-['abaqus', 'gmsh', 'med', 'medit']
+['abaqus', 'cgns', 'exodus', 'gmsh']
 """
 
 from __future__ import annotations
 
 from hexmend.io import (  # noqa: F401  (they register themselves)
     abaqus,
+    cgns,
+    exodus,
     gmsh,
     med,
     medit,

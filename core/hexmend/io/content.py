@@ -117,7 +117,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
         node_data=content.node_data,
         hex_data=joined([block.data for block in hexes], lengths),
         node_sets=content.node_sets,
-        hex_sets=_joined_sets([block.sets for block in hexes], lengths),
+        hex_sets=joined_sets([block.sets for block in hexes], lengths),
         cells=tuple(Cells(block.kind, block.nodes.astype(np.int32), block.data, block.sets) for block in others),
         side_sets=content.side_sets,
         mid_nodes=_mid_nodes(hexes),
@@ -170,7 +170,8 @@ def joined(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[st
     return answer
 
 
-def _joined_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
+def joined_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
+    """The sets of all parts, whose cells are counted through them."""
     first = np.concatenate([[0], np.cumsum(lengths)])
     return {
         name: np.concatenate([np.asarray(part[name]) + first[k] for k, part in enumerate(parts) if name in part])

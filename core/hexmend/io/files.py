@@ -13,6 +13,7 @@ from hexmend.io.atomic import check_writable, replacing
 from hexmend.io.carried import found_in
 from hexmend.io.content import PLACING
 from hexmend.io.format import FORMATS, Format
+from hexmend.io.further import further
 from hexmend.mesh import Mesh
 from hexmend.orientation import upright
 
@@ -140,6 +141,11 @@ def _format_of(path: Path) -> Format:
             return format
     for format in FORMATS.values():
         if format.recognised is not None and format.recognised(head):
+            return format
+    for format in further():  # which are looked for only where none of these knows the file
+        if format.recognised is not None and format.recognised(head):
+            return format
+        if not named and path.suffix.lower() in format.suffixes:
             return format
     return named[0] if named else _unknown(path, "read", FORMATS.values())
 

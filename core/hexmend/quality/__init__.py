@@ -11,6 +11,7 @@ from hexmend.quality.measure import ElementQuality, corner_determinants, corner_
 from hexmend.quality.metric import METRICS, ElementFigure, Metric
 from hexmend.quality.q import Q
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
+from hexmend.quality.second_order import SecondOrder, summarise_second_order
 from hexmend.quality.spread import Spread, spreads
 from hexmend.quality.summary import FIGURES, Summary, objective, summarise
 from hexmend.quality.worse import JUDGED, worse, worse_in_words
@@ -29,6 +30,7 @@ __all__ = [
     "Metric",
     "Node",
     "Q",
+    "SecondOrder",
     "Spread",
     "Summary",
     "corner_determinants",
@@ -40,6 +42,7 @@ __all__ = [
     "objective",
     "spreads",
     "summarise",
+    "summarise_second_order",
     "worse",
     "worse_in_words",
     "worst",

@@ -111,6 +111,8 @@ class FeatureOpen(Feature):
     def _on_ended(self, path: Path) -> None:
         self.host.busy.done("open")
         self.host.messages.clear()
+        if notes := self._document.start.mesh.notes:
+            self.host.messages.show_info(" ".join(notes), timeout_ms=0)
         if path.resolve() != demo_mesh().resolve():
             remember_folder(path)
             self.recent.add(path)

@@ -28,6 +28,7 @@ _LAYERS = {
     "free": ("Free &nodes", "M", "Show nodes that methods may move."),
     "locked": ("&Locked nodes", "L", "Show the nodes of hexes that fixed nodes alone keep inverted."),
     "kinds": ("&Kinds of boundary nodes", "J", "Show what nodes of the boundary may do where it slides."),
+    "others": ("Other c&ells", "G", "Show tetrahedra, pyramids and wedges beside the hexes, grey and see-through."),
     "original": ("&Original surface", "O", "Show the boundary as it was when the mesh was opened, see-through."),
 }
 
@@ -85,6 +86,9 @@ class FeatureStructure(Feature):
         if self._seen.another("found", session.finder.structure, session.document.start):
             self.panel.set_found(session.finder.structure)
         now = session.document.now
+        if self._seen.another("others", now.mesh.cells):
+            solid = [cells for cells in now.mesh.cells if cells.dimension == 3]
+            self.panel.set_others({cells.kind: len(cells.nodes) for cells in solid})
         counted = now.mesh.pinned, now.summary.free_nodes, now.summary.locked_inverted
         if self._seen.another("counts", session.document.start, *counted):
             mesh, boundary = now.mesh, now.mesh.topology.boundary

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 
 import numpy as np
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
@@ -23,7 +24,7 @@ from hexmend_app.scene.layers.structure import (
     SHARP,
     VALENCES,
 )  # fmt: skip
-from hexmend_app.scene.palette import ORIGINAL, RIM, Role
+from hexmend_app.scene.palette import ORIGINAL, OTHER_CELLS, RIM, Role
 from hexmend_app.state.classer import PIN, WHISKER, Classes
 from hexmend_app.state.look import Structure
 from hexmend_app.widgets.style import explain, note, tabular
@@ -73,6 +74,11 @@ _LAYERS: dict[str, tuple[str, str, str]] = {
         "edge that ends amid a patch: its nodes slide on that. Shift+P pins the chosen node.",
         "None: the mesh has no boundary.",
     ),
+    "others": (
+        "Other cells",
+        "Tetrahedra, pyramids and wedges beside the hexes: the outside of them, see-through. Their nodes are fixed.",
+        "None: the mesh has hexes alone.",
+    ),
     "original": (
         "Original surface",
         "The boundary as it was when the mesh was opened, see-through, where the boundary has left it.",
@@ -87,6 +93,8 @@ _CALLED = {
 #: Layers that can be chosen before it is known what there is of them: somebody has to want it first.
 _AT_ONCE = ("kinds",)
 _NOT_YET = "Being counted."
+#: Layers that are on unless they are switched off: a mesh that has nothing of them does not offer them.
+_UNLESS = ("others",)
 #: What is said where it could not be found out what there is.
 _FAILED = "could not be worked out"
 _COLUMNS = 2
@@ -120,7 +128,9 @@ class StructurePanel(QWidget):
         self._structure = Structure()
         self._counts: tuple[int, ...] = ()
         self._classes: Classes | None = None
-        self.layers = {name: _Layer(*texts, at_once=name in _AT_ONCE) for name, texts in _LAYERS.items()}
+        self.layers = {
+            name: _Layer(*texts, at_once=name in _AT_ONCE, unless=name in _UNLESS) for name, texts in _LAYERS.items()
+        }
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(6)
@@ -169,6 +179,11 @@ class StructurePanel(QWidget):
         self.layers["original"].set_entries([(ORIGINAL, True, "as opened")] if boundary else [])
         self._show_locked()
 
+    def set_others(self, counts: Mapping[str, int]) -> None:
+        """Take the numbers of cells beside the hexes that fill space, by their kind."""
+        entries: list[_Entry] = [(OTHER_CELLS, False, f"{count:,} {kind}") for kind, count in counts.items()]
+        self.layers["others"].set_entries(entries)
+
     def set_classes(self, classes: Classes | None, error: BaseException | None = None) -> None:
         """Take what the nodes of the boundary are; None while that is being found, or with the error why not."""
         self._classes = classes
@@ -196,8 +211,9 @@ class StructurePanel(QWidget):
 class _Layer:
     """The check box of one layer, and beside it what its marks stand for."""
 
-    def __init__(self, name: str, help: str, reason: str, at_once: bool = False):
+    def __init__(self, name: str, help: str, reason: str, at_once: bool = False, unless: bool = False):
         self._name, self._help, self._reason, self._at_once = name, help, reason, at_once
+        self._unless = unless
         self._known: list[_Entry] | None = []
         self._error: BaseException | None = None
         self.box = QCheckBox(name)
@@ -233,7 +249,10 @@ class _Layer:
         failed = self._error is not None
         waits = self._known is None and not self._at_once
         there = bool(self._known) or (self._known is None and self._at_once and not failed)
-        self.box.setEnabled(there or self.box.isChecked())  # what is on can be switched off
+        self.box.setEnabled(there or (self.box.isChecked() and not self._unless))  # what is on can be switched off
+        if self._unless:
+            self.box.setVisible(there)
+            self.entries.setVisible(there)
         reason = f"This could not be worked out: {self._error}." if failed else _NOT_YET if waits else self._reason
         explain(self.box, self._name, self._help if there else reason)
 

@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit
 
 from hexmend import gallery, io
-from hexmend.mesh import Mesh
+from hexmend.mesh import Cells, Mesh
 from hexmend.structure import structure
 from hexmend.surface import Kind
 from hexmend_app.features.structure.structure_panel import StructurePanel
@@ -37,6 +37,7 @@ KEYS = {
     "free": "M",
     "locked": "L",
     "kinds": "J",
+    "others": "G",
     "original": "O",
 }
 
@@ -147,7 +148,7 @@ def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off
     panel.set_nodes(26, 0, 1, 0)
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
-        "kinds": False, "original": True,
+        "kinds": False, "others": False, "original": True,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
     assert "four hexes share every edge" in panel.layers["irregular"].box.toolTip()
@@ -383,3 +384,28 @@ def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(w
     window.session.document.replace(last, None)
     qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
     assert len(window.session.finder.structure.sharp) == 24
+
+
+def test_other_cells_are_shown_and_told_of(window, qtbot, tmp_path):
+    bare = grid(2, 2, 1)
+    tip = bare.points[bare.hexes[0, 4:]].mean(axis=0) + [0, 0, 1]
+    pyramid = Cells("pyramid", np.array([[*bare.hexes[0, 4:], bare.n_nodes]]))
+    io.write(tmp_path / "mixed.exo", Mesh(np.vstack([bare.points, tip]), bare.hexes, cells=(pyramid,)))
+    open_and_know(qtbot, window, tmp_path / "mixed.exo")
+    (message,) = window.messages.messages()
+    assert "1 pyramid cell beside the hexes" in message[1]
+    assert window.canvas.viewport.others.shown
+    layer = window.features["structure"].panel.layers["others"]
+    assert layer.box.isVisibleTo(window.features["structure"].panel)
+    assert texts(window.features["structure"].panel, "others") == ["1 pyramid"]
+    press_key(window, "others")
+    window.refresh()
+    assert not window.canvas.viewport.others.shown
+    press_key(window, "others")
+    window.refresh()
+    assert window.canvas.viewport.others.shown
+    io.write(tmp_path / "plain.exo", bare)
+    open_and_know(qtbot, window, tmp_path / "plain.exo")
+    assert window.messages.messages() == []
+    assert not window.canvas.viewport.others.shown
+    assert not layer.box.isVisibleTo(window.features["structure"].panel)

@@ -1,0 +1,104 @@
+"""CGNS files of the ADF kind, read by VTK; those on HDF5 the core reads itself, and more of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.io.carry import KINDS, WIDTHS
+from hexmend.io.cgns import ADF
+from hexmend.io.cgns_structured import hexes_between
+from hexmend.io.child import in_child
+from hexmend.io.content import Block, Content, joined, to_mesh
+from hexmend.io.format import Format
+from hexmend.mesh import Mesh
+
+
+def read(path: Path) -> Mesh:
+    """Read a CGNS file by VTK, in a process of its own: on a damaged file the library can end that."""
+    return to_mesh(path, in_child("hexmend_app.formats.cgns_adf:content", path))
+
+
+def content(path: Path) -> Content:
+    """What VTK's reader finds in a file: zones of three dimensions, with their results."""
+    from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
+
+    reader = vtkCGNSReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    reader.EnableAllBases()
+    reader.EnableAllPointArrays()
+    reader.EnableAllCellArrays()
+    reader.Update()
+    zones = [zone for zone in _leaves(reader.GetOutput()) if zone[1].GetNumberOfCells()]
+    if not zones:
+        raise FileError(
+            path, "VTK finds no cells in it", "Write the file again with the program that made it, or on HDF5."
+        )
+    notes = ["Of a CGNS file of the ADF kind, boundary conditions are left out; adf2hdf makes a file that has them."]
+    if len(zones) > 1:
+        notes.append(f"{len(zones)} zones are one mesh, and not joined where they meet.")
+    points, blocks, data, first = [], [], [], 0
+    for name, zone in zones:
+        here = _array(zone.GetPoints().GetData()).astype(np.float64)
+        for block in _blocks(zone, here):
+            sets = {name: np.arange(len(block))} if len(zones) > 1 and name else {}
+            blocks.append(Block(block.kind, block.nodes + first, block.data, sets))
+        points.append(here)
+        data.append(_arrays(zone.GetPointData()))
+        first += len(here)
+    node_data = joined(data, [len(part) for part in points])
+    return Content(np.concatenate(points), tuple(blocks), node_data, notes=tuple(notes))
+
+
+def recognised(head: bytes) -> bool:
+    """Whether a file begins as those of the ADF kind do."""
+    return ADF in head[:64]
+
+
+def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:
+    """Names and grids below a block of blocks."""
+    if not data.IsA("vtkMultiBlockDataSet"):
+        return [(name, data)]
+    found = []
+    for k in range(data.GetNumberOfBlocks()):
+        block, more = data.GetBlock(k), data.GetMetaData(k) if data.HasMetaData(k) else None
+        if block is not None:
+            found += _leaves(block, more.Get(data.NAME()) if more is not None and more.Has(data.NAME()) else name)
+    return found
+
+
+def _blocks(zone: object, points: np.ndarray) -> list[Block]:
+    """The cells of a grid by their kinds."""
+    data = _arrays(zone.GetCellData())
+    if zone.IsA("vtkStructuredGrid"):
+        count = np.zeros(3, np.int32)
+        zone.GetDimensions(count)
+        return [Block("hex", hexes_between(points, count.astype(np.int64))[0], data)] if (count > 1).all() else []
+    if not zone.IsA("vtkUnstructuredGrid"):
+        return []
+    types, start = _array(zone.GetCellTypes()), _array(zone.GetCells().GetOffsetsArray()).astype(np.int64)
+    nodes, answer = _array(zone.GetCells().GetConnectivityArray()).astype(np.int64), []
+    for number in dict.fromkeys(types.tolist()):
+        chosen = np.flatnonzero(types == number)
+        if number in KINDS and (np.diff(start)[chosen] == WIDTHS[number]).all():
+            rows = nodes[start[chosen][:, None] + np.arange(WIDTHS[number])]
+            answer.append(Block(KINDS[number], rows, {name: values[chosen] for name, values in data.items()}))
+    return answer
+
+
+def _arrays(of: object) -> dict[str, np.ndarray]:
+    """Numeric arrays of points or cells, but for those that VTK adds for itself."""
+    arrays = [of.GetArray(k) for k in range(of.GetNumberOfArrays())]
+    return {one.GetName(): _array(one) for one in arrays if one is not None and not one.GetName().startswith("vtk")}
+
+
+def _array(values: object) -> np.ndarray:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    return np.array(vtk_to_numpy(values))
+
+
+FORMAT = Format("cgns-adf", "CGNS (ADF)", (".cgns",), (), read, recognised=recognised)

@@ -1,0 +1,40 @@
+"""CGNS (.cgns), read: structured and unstructured zones of files on HDF5, as one mesh.
+
+Files of the older kind, ADF, are read by VTK: its reader joins through the entry-point group `hexmend.formats`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hexmend.errors import FileError
+from hexmend.io import hdf5
+from hexmend.io.content import to_mesh
+from hexmend.io.format import FORMATS, Format
+from hexmend.mesh import Mesh
+
+#: Marks of the two kinds near the beginning of a file.
+ADF, ON_HDF5 = b"ADF Database", (b"HDF5 MotherNode", b"CGNSLibraryVersion")
+
+
+def read(path: Path) -> Mesh:
+    """Read a CGNS file, in a process of its own, which the HDF5 library may end."""
+    with open(path, "rb") as file:
+        head = file.read(64)
+    if ADF in head:
+        raise FileError(
+            path, "is a CGNS file of the ADF kind", "pip install hexmend[app] reads it; or adf2hdf converts it."
+        )
+    if not head.startswith(hdf5.MAGIC):
+        raise FileError(path, "is no CGNS file: it begins neither as HDF5 nor as ADF", "Name the mesh file.")
+    from hexmend.io.child import in_child
+
+    return to_mesh(path, in_child("hexmend.io.cgns_reader:content", path))
+
+
+def recognised(head: bytes) -> bool:
+    """Whether a file begins as CGNS on HDF5 does."""
+    return head.startswith(hdf5.MAGIC) and any(mark in head for mark in ON_HDF5)
+
+
+FORMATS.add("cgns", Format("cgns", "CGNS", (".cgns",), (), read, recognised=recognised))

@@ -1,0 +1,57 @@
+"""ExodusII (.exo, .e, .g): element blocks, node, side and element sets, ids, and results of the last time step."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hexmend.io import hdf5, netcdf3
+from hexmend.io.content import to_mesh
+from hexmend.io.format import FORMATS, Format, Holds
+from hexmend.mesh import Mesh
+
+
+def read(path: Path) -> Mesh:
+    """Read an ExodusII file; one on HDF5 in a process of its own, which its library may end."""
+    from hexmend.io.exodus_reader import content
+
+    with open(path, "rb") as file:
+        classic = file.read(3) == b"CDF"
+    if classic:
+        return to_mesh(path, content(path))
+    from hexmend.io.child import in_child
+
+    return to_mesh(path, in_child("hexmend.io.exodus_reader:content", path))
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write an ExodusII file of NetCDF's classic format with 64-bit offsets."""
+    from hexmend.io.exodus_writer import write as write_file
+
+    write_file(path, mesh)
+
+
+def recognised(head: bytes) -> bool:
+    """Whether a file begins as NetCDF's do; on HDF5, as one with what Exodus keeps."""
+    if netcdf3.recognised(head):
+        return True
+    return head.startswith(hdf5.MAGIC) and any(mark in head for mark in (b"num_nodes", b"_NCProperties", b"coordx"))
+
+
+FORMATS.add(
+    "exodus",
+    Format(
+        "exodus",
+        "ExodusII",
+        (".exo", ".e", ".ex2", ".g", ".gen"),
+        ("binary",),
+        read,
+        write,
+        frozenset(
+            {
+                Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.SIDE_SETS,
+                Holds.PINS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER,
+            }
+        ),
+        recognised=recognised,
+    )
+)  # fmt: skip

@@ -1,0 +1,270 @@
+"""The content of an ExodusII file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.io.content import FIXED, HEX_KINDS, ID, Block, Content, joined, joined_sets
+from hexmend.io.exodus_elements import FACE_OF_SIDE, FAMILIES, ORDER
+from hexmend.io.exodus_store import Store, opened
+from hexmend.mesh import CELL_KINDS
+
+_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
+_COMPONENT = re.compile(r"(.+)_(x|1)$", re.IGNORECASE)
+
+
+def content(path: Path) -> Content:
+    """What an ExodusII file holds, the results being those of the last time step."""
+    with opened(path) as store:
+        return _Reader(path, store).content()
+
+
+class _Reader:
+    """One file, and what is found in it on the way."""
+
+    def __init__(self, path: Path, store: Store):
+        self.path, self.store = path, store
+        self.notes: list[str] = []
+        if "num_nodes" not in store.dimensions:
+            raise FileError(path, "is NetCDF, but has no dimension num_nodes, as ExodusII has", "Name an Exodus file.")
+        self.n_nodes = store.dimensions["num_nodes"]
+        self.n_elements = store.dimensions.get("num_elem", 0)
+        self.last = max(0, store.dimensions.get("time_step", 0) - 1)
+
+    def content(self) -> Content:
+        points = self.points()
+        blocks, numbers = self.blocks()
+        node_sets = self.node_sets()
+        pinned = None
+        for name in [name for name in node_sets if name.lower() == FIXED]:
+            pinned = np.zeros(self.n_nodes, bool)
+            pinned[node_sets.pop(name)] = True
+        node_data = self.variables("nod", "", self.n_nodes)
+        if "node_num_map" in self.store:
+            node_data[ID] = self.whole("node_num_map", self.n_nodes)
+        self.element_sets(blocks, numbers)
+        hexes = [part for block, part in zip(blocks, numbers, strict=True) if block.kind in HEX_KINDS]
+        side_sets = self.side_sets(np.concatenate(hexes) if hexes else np.empty(0, np.int64))
+        return Content(
+            points, tuple(_by_kind(blocks)), node_data, node_sets, side_sets, pinned=pinned, notes=tuple(self.notes)
+        )
+
+    # Parts of the file
+
+    def points(self) -> np.ndarray:
+        points = np.zeros((self.n_nodes, 3))
+        width = self.store.dimensions.get("num_dim", 3)
+        if not 1 <= width <= 3:
+            raise FileError(self.path, f"num_dim is {width}: expected 1 to 3", _DAMAGED)
+        if "coord" in self.store:
+            points[:, :width] = self.array("coord", width, self.n_nodes).T
+            return points
+        for axis, name in enumerate("xyz"[:width]):
+            if "coord" + name in self.store:
+                points[:, axis] = self.array("coord" + name, self.n_nodes)
+            elif self.n_nodes:
+                raise FileError(self.path, f"has no coordinates coord{name}", _DAMAGED)
+        return points
+
+    def blocks(self) -> tuple[list[Block], list[np.ndarray]]:
+        """Blocks of cells, and the numbers of their cells in the file, from 0."""
+        ids = self.ids("eb_prop1", "num_el_blk")
+        names = self.words("eb_names") if "eb_names" in self.store else []
+        id_map = self.whole("elem_num_map", self.n_elements) if "elem_num_map" in self.store else None
+        blocks, numbers, of_ids, first = [], [], [], 0
+        for k, number in enumerate(ids, 1):
+            count = self.store.dimensions.get(f"num_el_in_blk{k}", 0)
+            cells = np.arange(first, first + count)
+            first += count
+            if not count or f"connect{k}" not in self.store:
+                continue
+            block = self.block(k, number, count)
+            if block is None:
+                continue
+            data = {**block.data, **self.variables("elem", f"eb{k}", count, k - 1)}
+            if id_map is not None:
+                data[ID] = id_map[cells]
+            sets = {names[k - 1]: np.arange(count)} if k <= len(names) and names[k - 1] else {}
+            blocks.append(Block(block.kind, block.nodes, data, sets))
+            numbers.append(cells)
+            of_ids.append(number)
+        if first != self.n_elements:  # which all numbers of elements rest on
+            raise FileError(self.path, f"has {self.n_elements} elements, but its blocks {first}", _DAMAGED)
+        kinds = [block.kind for block in blocks]
+        if not any(names) and any(kinds.count(kind) > 1 for kind in HEX_KINDS):  # which tell materials apart
+            for block, number in zip(blocks, of_ids, strict=True):
+                block.sets[f"block {number}"] = np.arange(len(block))
+        return blocks, numbers
+
+    def block(self, k: int, number: int, count: int) -> Block | None:
+        """Nodes and attributes of the cells of block k, or None where they are of no kind that is known."""
+        variable = f"connect{k}"
+        type_ = str(self.store.attribute(variable, "elem_type") or "").upper()
+        width = self.store.dimensions.get(f"num_nod_per_el{k}", 0)
+        family = next((kinds for start, kinds in FAMILIES.items() if type_.startswith(start)), ())
+        if type_.startswith("SHELL") and width in (3, 6):
+            family = FAMILIES["TRI"]
+        widths = [HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes for kind in family]
+        kind = dict(zip(widths, family, strict=True)).get(width)
+        if kind is None and (not family or width < widths[0]):
+            self.notes.append(f"{count:,} cells of type {type_ or 'unnamed'} in block {number} are left out.")
+            return None
+        nodes = self.whole(variable, count, width) - 1
+        if nodes.min() < 0 or nodes.max() >= self.n_nodes:
+            raise FileError(
+                self.path,
+                f"block {number} uses the nodes {nodes.min() + 1} to {nodes.max() + 1}: expected 1 to {self.n_nodes}",
+                _DAMAGED,
+            )
+        if kind is None:
+            self.notes.append(f"Cells of type {type_} with {width} nodes in block {number} are read by their corners.")
+            kind, nodes = family[0], nodes[:, : widths[0]]
+        return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, self.attributes(k, count))
+
+    def attributes(self, k: int, count: int) -> dict[str, np.ndarray]:
+        width = self.store.dimensions.get(f"num_att_in_blk{k}", 0)
+        if not width or f"attrib{k}" not in self.store:
+            return {}
+        values = self.array(f"attrib{k}", count, width)
+        names = self.words(f"attrib_name{k}") if f"attrib_name{k}" in self.store else []
+        return {
+            (names[j] if j < len(names) and names[j] else f"attribute {j + 1}"): np.ascontiguousarray(values[:, j])
+            for j in range(width)
+        }
+
+    def node_sets(self) -> dict[str, np.ndarray]:
+        ids = self.ids("ns_prop1", "num_node_sets")
+        answer = {}
+        for k, name in enumerate(self.names("ns_names", ids, "node set"), 1):
+            if f"node_ns{k}" in self.store:
+                answer[name] = self.members(f"node_ns{k}", f"num_nod_ns{k}", self.n_nodes, "nodes")
+        return answer
+
+    def element_sets(self, blocks: list[Block], numbers: list[np.ndarray]) -> None:
+        """Add the sets of elements to the blocks that their members are in."""
+        ids = self.ids("els_prop1", "num_elem_sets")
+        for k, name in enumerate(self.names("els_names", ids, "element set"), 1):
+            if f"elem_els{k}" not in self.store:
+                continue
+            members = self.members(f"elem_els{k}", f"num_ele_els{k}", self.n_elements, "elements")
+            for block, cells in zip(blocks, numbers, strict=True):
+                inside = members[(members >= cells[0]) & (members <= cells[-1])] - cells[0]
+                if inside.size:
+                    block.sets[name] = inside
+
+    def side_sets(self, hexes: np.ndarray) -> dict[str, np.ndarray]:
+        """Sides of hexes by name; `hexes` are the elements that are hexes, ascending."""
+        ids = self.ids("ss_prop1", "num_side_sets")
+        answer = {}
+        for k, name in enumerate(self.names("ss_names", ids, "side set"), 1):
+            if f"elem_ss{k}" not in self.store or f"side_ss{k}" not in self.store:
+                continue
+            elements = self.members(f"elem_ss{k}", f"num_side_ss{k}", self.n_elements, "elements")
+            sides = self.whole(f"side_ss{k}", len(elements))
+            place = np.searchsorted(hexes, elements).clip(0, max(0, len(hexes) - 1))
+            of_hex = hexes[place] == elements if len(hexes) else np.zeros(len(elements), bool)
+            if not of_hex.all():
+                self.notes.append(f"{int((~of_hex).sum()):,} sides of other cells in {name!r} are left out.")
+            sides = sides[of_hex]
+            if sides.size and (sides.min() < 1 or sides.max() > 6):
+                raise FileError(self.path, f"{name!r} has the sides {sides.min()} to {sides.max()}: expected 1 to 6")
+            if sides.size:
+                answer[name] = np.column_stack([place[of_hex], FACE_OF_SIDE[sides - 1]])
+        return answer
+
+    def variables(self, what: str, place: str, count: int, block: int = 0) -> dict[str, np.ndarray]:
+        """Results of the last step: of the nodes ("nod", ""), or of the elements of a block ("elem", "eb1")."""
+        if f"name_{what}_var" not in self.store or not self.store.dimensions.get("time_step"):
+            return {}
+        found = {}
+        for v, name in enumerate(self.words(f"name_{what}_var"), 1):
+            if f"vals_{what}_var{v}{place}" in self.store:
+                found[name] = self.array(f"vals_{what}_var{v}{place}", count)
+            elif what == "nod" and "vals_nod_var" in self.store:
+                found[name] = self.array("vals_nod_var", len(self.words("name_nod_var")), count)[v - 1]
+        return _joined(found)
+
+    # Kinds of variables
+
+    def array(self, name: str, *shape: int) -> np.ndarray:
+        values = self.store.array(name, self.last)
+        if values.dtype.kind not in "iuf" or values.shape != shape:
+            raise FileError(
+                self.path, f"variable {name!r} holds {values.dtype} {values.shape}: expected numbers {shape}", _DAMAGED
+            )
+        return values
+
+    def whole(self, name: str, *shape: int) -> np.ndarray:
+        values = self.array(name, *shape)
+        if values.dtype.kind == "f":
+            raise FileError(self.path, f"variable {name!r} holds {values.dtype}: expected whole numbers", _DAMAGED)
+        return values.astype(np.int64)
+
+    def members(self, name: str, dimension: str, bound: int, what: str) -> np.ndarray:
+        """Numbers of nodes or elements, from 0."""
+        members = self.whole(name, self.store.dimensions.get(dimension, 0)) - 1
+        if members.size and (members.min() < 0 or members.max() >= bound):
+            raise FileError(
+                self.path,
+                f"{name!r} names the {what} {members.min() + 1} to {members.max() + 1}: expected 1 to {bound}",
+                _DAMAGED,
+            )
+        return members
+
+    def ids(self, name: str, dimension: str) -> list[int]:
+        count = self.store.dimensions.get(dimension, 0)
+        return self.whole(name, count).tolist() if name in self.store else list(range(1, count + 1))
+
+    def words(self, name: str) -> list[str]:
+        values = self.store.array(name, self.last)
+        if values.dtype.kind != "S" or values.ndim != 2:
+            return []
+        rows = [bytes(row.tobytes()).split(b"\0")[0] for row in values]
+        return [row.decode("utf-8", errors="replace").strip() for row in rows]
+
+    def names(self, variable: str, ids: list[int], what: str) -> list[str]:
+        """A name for each id: that of the file, or one made of the id."""
+        words = self.words(variable) if variable in self.store else []
+        words = [words[k] if k < len(words) and words[k] else f"{what} {number}" for k, number in enumerate(ids)]
+        return [word if words.count(word) == 1 else f"{word} {number}" for word, number in zip(words, ids, strict=True)]
+
+
+def _by_kind(blocks: list[Block]) -> list[Block]:
+    """The blocks, of which those of one kind that is no hex are one."""
+    answer = [block for block in blocks if block.kind in HEX_KINDS]
+    for kind in dict.fromkeys(block.kind for block in blocks if block.kind not in HEX_KINDS):
+        parts = [block for block in blocks if block.kind == kind]
+        lengths = [len(block) for block in parts]
+        answer.append(
+            Block(
+                kind,
+                np.concatenate([block.nodes for block in parts]),
+                joined([block.data for block in parts], lengths),
+                joined_sets([block.sets for block in parts], lengths),
+            )
+        )
+    return answer
+
+
+def _joined(found: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Arrays of which those called a_x a_y a_z, or a_1 a_2 ..., are one with columns."""
+    left, answer = dict(found), {}
+    while left:
+        name = next(iter(left))
+        match = _COMPONENT.match(name)
+        parts = [name]
+        if match:
+            start, mark = match.groups()
+            ends = ["x", "y", "z"] if mark in "xX" else [str(k) for k in range(1, len(left) + 1)]
+            parts = [start + "_" + (end.upper() if mark == "X" else end) for end in ends]
+            parts = parts[: next((k for k, part in enumerate(parts) if part not in left), len(parts))]
+            if len(parts) < (3 if mark in "xX" else 2) or start in found:
+                parts = [name]
+        arrays = [left.pop(part) for part in parts]
+        answer[match[1] if len(parts) > 1 else name] = np.column_stack(arrays) if len(parts) > 1 else arrays[0]
+    return answer

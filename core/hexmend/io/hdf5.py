@@ -1,0 +1,56 @@
+"""HDF5 files as others lay their formats in them: what is read of one is bounded by its size."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+
+MAGIC = b"\x89HDF\r\n\x1a\n"
+
+#: Compressed arrays may be that many times the size of the file, and that many bytes whatever its size.
+_GROWTH, _ALWAYS = 100, 1 << 28
+
+
+def open_file(path: Path) -> object:
+    """The `h5py.File`, to be used with `with`.
+
+    Raises
+    ------
+    FileError
+        Where the library cannot open it.
+    """
+    import h5py
+
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        raise damaged(path, error) from None
+
+
+def values_of(path: Path, dataset: object) -> np.ndarray:
+    """The values of a dataset, once it is known that they are not larger than a file of this size can hold."""
+    bound = max(_ALWAYS, _GROWTH * os.path.getsize(path))
+    if dataset.size is None or dataset.size * dataset.dtype.itemsize > bound:
+        raise FileError(
+            path,
+            f"{dataset.name} would have {dataset.size} values: more than a file of its size holds",
+            "Write the file again without compression, if it is true.",
+        )
+    try:
+        return dataset[()]
+    except (OSError, ValueError, TypeError, RuntimeError) as error:
+        raise damaged(path, error) from None
+
+
+def damaged(path: Path, error: Exception) -> FileError:
+    """The error to raise where the library has failed."""
+    detail = " ".join(str(error).split())[:160]
+    return FileError(
+        path,
+        f"the HDF5 library cannot read it ({detail})",
+        "Write the file again with the program that made it: it is damaged or cut short.",
+    )

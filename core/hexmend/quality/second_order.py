@@ -1,0 +1,51 @@
+"""The Jacobian of hexes of second order, which a solver computes where their eight corners alone say nothing."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.figures import count, quality
+from hexmend.mesh import Mesh
+from hexmend.second_order import jacobians
+
+
+@dataclass(frozen=True)
+class SecondOrder:
+    """Hexes of 20 or 27 nodes in a mesh.
+
+    Parameters
+    ----------
+    hexes : int
+    non_positive : int
+        How many have a Jacobian of 0 or less at one of their nodes or of the 3 x 3 x 3 Gauss points.
+    scaled_jacobian_min : float
+        The least over all of them, by the lengths of its columns.
+    """
+
+    hexes: int
+    non_positive: int
+    scaled_jacobian_min: float
+
+    def to_dict(self) -> dict[str, float | int]:
+        """Figures by name."""
+        return dataclasses.asdict(self)
+
+    @property
+    def words(self) -> str:
+        """The same as a part of a sentence."""
+        return (
+            f"{count(self.non_positive)} of {count(self.hexes)} have a Jacobian that is not positive at their nodes or "
+            f"Gauss points (least, scaled: {quality(self.scaled_jacobian_min)})"
+        )
+
+
+def summarise_second_order(mesh: Mesh) -> SecondOrder | None:
+    """The hexes of second order of a mesh; None where there are none."""
+    if mesh.mid_nodes is None:
+        return None
+    least = jacobians(mesh.points, mesh.hexes, mesh.mid_nodes)
+    least = least[~np.isnan(least)]
+    return SecondOrder(len(least), int(np.count_nonzero(least <= 0)), float(least.min())) if len(least) else None

@@ -1,0 +1,96 @@
+"""CGNS files of the ADF kind, written by the CGNS library that comes with VTK."""
+
+import ctypes
+import tomllib
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.io import files
+from hexmend.quality import summarise
+from hexmend_app.formats.cgns_adf import FORMAT
+from tests.core.grids import grid
+
+pytest.importorskip("vtkmodules.vtkIOCGNSReader")
+
+
+@pytest.fixture
+def library():
+    import vtkmodules
+
+    found = sorted(Path(vtkmodules.__file__).parent.glob("libvtkcgns*.so"))
+    if not found:
+        pytest.skip("VTK's CGNS library is not where it is looked for on this system")
+    return ctypes.CDLL(str(found[0]))
+
+
+@pytest.fixture
+def joined(monkeypatch):
+    """The reader joins, whatever the environment has been told of it."""
+    monkeypatch.setattr(files, "further", lambda: (FORMAT,))
+
+
+def write_adf(library, path, mesh):
+    """One unstructured zone of hexes, and a structured one of eight beside it."""
+
+    def call(name, *words):
+        assert getattr(library, f"vtkcgns_cg_{name}")(*words) == 0, name
+
+    file, base, zone, more = (ctypes.c_int() for _ in range(4))
+    one = ctypes.byref
+    call("set_file_type", 1)
+    call("open", str(path).encode(), 1, one(file))
+    call("base_write", file, b"Base", 3, 3, one(base))
+    hexes = np.ascontiguousarray(mesh.hexes + 1, dtype=np.int32)
+    # Of 32 or 64 bits as the library was built: both read right here.
+    sizes = np.array([mesh.n_nodes, mesh.n_hexes, 0], np.int64)
+    call("zone_write", file, base, b"hexes", sizes.ctypes, 3, one(zone))
+    for axis, letter in enumerate("XYZ"):
+        values = np.ascontiguousarray(mesh.points[:, axis])
+        call("coord_write", file, base, zone, 4, f"Coordinate{letter}".encode(), values.ctypes, one(more))
+    hexes = hexes.astype(np.int64)
+    first, last = ctypes.c_int64(1), ctypes.c_int64(mesh.n_hexes)
+    call("section_write", file, base, zone, b"cells", 17, first, last, 0, hexes.ctypes, one(more))
+    sizes = np.array([3, 3, 3, 2, 2, 2, 0, 0, 0], np.int64)
+    call("zone_write", file, base, b"block", sizes.ctypes, 2, one(zone))
+    for axis, letter in enumerate("XYZ"):
+        values = np.ascontiguousarray(grid(2).points[:, axis] + 10)
+        call("coord_write", file, base, zone, 4, f"Coordinate{letter}".encode(), values.ctypes, one(more))
+    call("close", file)
+
+
+def test_a_file_of_that_kind_is_read(library, joined, tmp_path):
+    mesh = grid(3)
+    write_adf(library, tmp_path / "old.cgns", mesh)
+    assert b"ADF Database" in (tmp_path / "old.cgns").read_bytes()[:64]
+    found = io.read(tmp_path / "old.cgns")
+    assert found.n_hexes == 27 + 8
+    assert summarise(found).q_min == pytest.approx(1)
+    assert sorted(len(members) for members in found.hex_sets.values()) == [8, 27]
+    assert any("boundary conditions" in note for note in found.notes)
+
+
+def test_a_damaged_file_ends_no_process_but_its_own(library, joined, tmp_path):
+    write_adf(library, tmp_path / "old.cgns", grid(3))
+    data = bytearray((tmp_path / "old.cgns").read_bytes())
+    (tmp_path / "bad.cgns").write_bytes(data[: len(data) // 2])
+    with pytest.raises(FileError, match=r"bad\.cgns: "):
+        io.read(tmp_path / "bad.cgns")
+
+
+def test_without_the_app_it_is_said_what_reads_it(library, monkeypatch, tmp_path):
+    monkeypatch.setattr(files, "further", tuple)
+    write_adf(library, tmp_path / "old.cgns", grid(1))
+    with pytest.raises(FileError, match=r"pip install hexmend\[app\] reads it") as caught:
+        io.read(tmp_path / "old.cgns")
+    assert "damaged" not in str(caught.value)
+
+
+def test_the_distribution_announces_it():
+    data = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())
+    (value,) = data["project"]["entry-points"]["hexmend.formats"].values()
+    assert EntryPoint("cgns-adf", value, "hexmend.formats").load() is FORMAT

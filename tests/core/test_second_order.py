@@ -1,0 +1,108 @@
+"""Hexes of second order: their shape functions, and the Jacobian at nodes and Gauss points."""
+
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from hexmend import io
+from hexmend.cli.main import main
+from hexmend.hexahedron import UNIT_CUBE
+from hexmend.mesh import Mesh
+from hexmend.quality import summarise_second_order
+from hexmend.second_order import MID_PLACES, PLACES, following, jacobians
+from hexmend.shape_functions import lagrange, serendipity
+from tests.core.grids import grid
+
+every_function = pytest.mark.parametrize(("functions", "width"), [(serendipity, 20), (lagrange, 27)])
+places = arrays(np.float64, (3, 3), elements=st.floats(-0.2, 1.2))
+
+
+def one(width, moved=None):
+    """A mesh of one hex, the unit cube; `moved` is added to its nodes."""
+    points = PLACES[:width] + (0 if moved is None else moved)
+    mids = np.full((1, 19), -1)
+    mids[0, : width - 8] = np.arange(8, width)
+    return Mesh(points, [range(8)], mid_nodes=mids)
+
+
+@every_function
+def test_each_function_is_one_at_its_node_and_zero_at_the_others(functions, width):
+    np.testing.assert_allclose(functions(PLACES[:width], PLACES[:width])[0], np.eye(width), atol=1e-14)
+
+
+@every_function
+@given(at=places)
+def test_functions_place_every_point_where_it_is(functions, width, at):
+    values, gradients = functions(at, PLACES[:width])
+    np.testing.assert_allclose(values.sum(axis=1), 1, atol=1e-12)
+    np.testing.assert_allclose(values @ PLACES[:width], at, atol=1e-12)
+    np.testing.assert_allclose(
+        np.einsum("kwa,wx->kax", gradients, PLACES[:width]), np.broadcast_to(np.eye(3), (3, 3, 3)), atol=1e-12
+    )
+
+
+@every_function
+@given(at=places)
+def test_derivatives_are_those_of_differences(functions, width, at):
+    step = 1e-6
+    gradients = functions(at, PLACES[:width])[1]
+    for axis in range(3):
+        move = step * np.eye(3)[axis]
+        change = functions(at + move, PLACES[:width])[0] - functions(at - move, PLACES[:width])[0]
+        np.testing.assert_allclose(gradients[..., axis], change / (2 * step), atol=1e-7)
+
+
+@pytest.mark.parametrize("width", [20, 27])
+def test_a_cube_has_the_scaled_jacobian_one_wherever_it_lies(width):
+    turn = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    mesh = one(width)
+    mesh = mesh.rebuilt(points=1e-3 * mesh.points @ turn + 7)
+    np.testing.assert_allclose(jacobians(mesh.points, mesh.hexes, mesh.mid_nodes), 1, atol=1e-9)
+
+
+@pytest.mark.parametrize("width", [20, 27])
+@pytest.mark.parametrize(("shift", "good"), [(0.2, True), (0.26, False)])
+def test_a_middle_node_beyond_a_quarter_of_its_edge_makes_the_map_fold(width, shift, good):
+    """Along an edge x(u) is a parabola through 0, its middle and 1: its slope at the end is 0 for a middle at 1/4."""
+    moved = np.zeros((width, 3))
+    moved[8, 0] = shift
+    found = summarise_second_order(one(width, moved))
+    assert (found.hexes, found.non_positive) == (1, int(not good))
+    assert (found.scaled_jacobian_min > 0) == good
+
+
+def test_hexes_of_first_order_have_none():
+    mesh = grid(2)
+    assert summarise_second_order(mesh) is None
+    assert summarise_second_order(mesh.replace(mid_nodes=np.full((8, 19), -1, np.int32))) is None
+
+
+@given(moves=arrays(np.float64, (8, 3), elements=st.floats(-1, 1)))
+def test_an_element_that_is_moved_by_its_corners_moves_as_their_map_does(moves):
+    mesh = one(27)
+    after = following(mesh.points, np.concatenate([UNIT_CUBE + moves, MID_PLACES]), mesh.hexes, mesh.mid_nodes)
+    shares = np.prod(np.where(UNIT_CUBE[None] == 1, MID_PLACES[:, None], 1 - MID_PLACES[:, None]), axis=2)
+    np.testing.assert_allclose(after[8:], shares @ (UNIT_CUBE + moves), atol=1e-12)
+
+
+def test_info_and_smooth_say_it(tmp_path, capsys):
+    moved = np.zeros((27, 3))
+    moved[8, 0] = 0.3
+    io.write(tmp_path / "bent.exo", one(27, moved))
+    assert main(["info", str(tmp_path / "bent.exo"), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["second_order"]
+    assert (found["hexes"], found["non_positive"]) == (1, 1)
+    main(["info", str(tmp_path / "bent.exo")])
+    assert "1 of 1 have a Jacobian that is not positive" in capsys.readouterr().out
+    main(["smooth", str(tmp_path / "bent.exo"), "-o", str(tmp_path / "out.exo"), "--json", str(tmp_path / "run.json")])
+    assert "Second order, before: 1 of 1" in capsys.readouterr().out
+    report = json.loads((tmp_path / "run.json").read_text())
+    assert report["before"]["second_order"]["non_positive"] == report["after"]["second_order"]["non_positive"] == 1
+    io.write(tmp_path / "plain.vtk", grid(1))
+    main(["info", str(tmp_path / "plain.vtk"), "--json"])
+    assert "second_order" not in json.loads(capsys.readouterr().out)
