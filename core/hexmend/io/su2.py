@@ -146,9 +146,7 @@ def _width(kind: str) -> int:
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write one zone; sets of quads and triangles are its markers, other sets and cells are left out."""
-    if mesh.mid_nodes is not None:
-        raise FileError(path, "SU2 has no elements of second order", "Write .vtu or .msh instead.")
-    content = from_mesh(mesh)
+    content = from_mesh(mesh.replace(mid_nodes=None))  # it has no elements of second order
     volumes = [block for block in content.blocks if block.kind == "hex" or _is_volume(block.kind)]
     unknown = [block.kind for block in volumes if block.kind not in NUMBERS]
     if unknown:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.errors import FileError
 from hexmend.io import FORMATS
 from hexmend.io.format import Holds
 from hexmend.mesh import Cells, Mesh
@@ -112,7 +113,11 @@ def test_a_format_holds_what_it_says_and_says_what_it_does_not(name, encoding, t
             assert any(words.startswith(thing.value) for words in left)
             continue
         assert not any(words.startswith(thing.value) for words in left)
-        io.write(path, mesh, encoding=encoding)
+        try:
+            io.write(path, mesh, encoding=encoding)
+        except FileError as error:  # of second order some have no hexes of 27 nodes: nothing is lost unsaid
+            assert "27 nodes" in str(error)
+            continue
         back = io.read(path)
         np.testing.assert_array_equal(back.points, mesh.points)
         np.testing.assert_array_equal(back.hexes, mesh.hexes)
