@@ -112,7 +112,7 @@ FORMATS.add(
         ("ascii",),
         read,
         write,
-        holds=frozenset({*HELD, Holds.SECOND_ORDER}),
+        holds=frozenset({*HELD, Holds.VERTICES, Holds.SECOND_ORDER}),
         names=frozenset({TYPE, TYPES}),
         recognised=_recognised,
     ),

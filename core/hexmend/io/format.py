@@ -22,6 +22,7 @@ class Holds(Enum):
     SIDE_SETS = "side sets"
     PINS = "fixed nodes"
     LOWER_CELLS = "cells of lower dimension"
+    VERTICES = "vertices as cells"
     OTHER_CELLS = "tetrahedra, pyramids and wedges"
     SECOND_ORDER = "nodes of second order"
     FIELD_DATA = "field data"

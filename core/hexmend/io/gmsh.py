@@ -108,7 +108,7 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset({*HELD, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
+        holds=frozenset({*HELD, Holds.VERTICES, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
         names=frozenset({PHYSICAL}),
         recognised=_recognised,
     ),

@@ -14,6 +14,7 @@ from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.nastran_bulk import Bulk
 from hexmend.io.numbering import element_numbers, node_numbers, places
+from hexmend.io.reduced import reduced
 from hexmend.io.source import shown
 from hexmend.mesh import CELL_KINDS, Mesh
 
@@ -110,11 +111,12 @@ def _width(kind: str) -> int:
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write coordinates to 16 columns, and elements of the property that a set "property N" says; else of 1."""
-    content = from_mesh(mesh)
-    if any(block.kind == "hex27" for block in content.blocks):
-        raise FileError(path, "Nastran has no hexes of 27 nodes", "Write .vtu or .msh instead.")
-    blocks = [block for block in content.blocks if block.kind in _NAMES]
+    """Write coordinates to 16 columns, and elements of the property that a set "property N" says; else of 1.
+
+    Of the nodes of second order those in faces and in the middle of hexes are left out.
+    """
+    content = reduced(from_mesh(mesh), _NAMES)
+    blocks = content.blocks
     tags, numbers = node_numbers(dict(content.node_data), len(content.points)), element_numbers(blocks)
     if max(int(tags.max()), *(int(own.max(initial=0)) for own in numbers)) > 99_999_999:
         raise FileError(path, "a number of a node or element has more than 8 digits", "Write .vtu or .msh instead.")
@@ -188,7 +190,7 @@ FORMATS.add(
         ("ascii",),
         read,
         write,
-        holds=frozenset({Holds.IDS, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
+        holds=frozenset({Holds.IDS, Holds.OTHER_CELLS}),
         names=_Properties(),
         recognised=_recognised,
         exact=False,  # a column has room for 12 to 14 digits

@@ -55,9 +55,11 @@ def test_markers_are_written(tmp_path):
     assert quads.sets["lid"].tolist() == [0, 1]
 
 
-def test_second_order_is_refused(tmp_path):
-    with pytest.raises(FileError, match="has no elements of second order"):
-        io.write(tmp_path / "a.su2", with_everything(20))
+def test_of_second_order_the_corners_are_written(tmp_path):
+    io.write(tmp_path / "a.su2", with_everything(20))
+    again, mesh = io.read(tmp_path / "a.su2"), with_everything()
+    np.testing.assert_array_equal(again.hexes, mesh.hexes)
+    np.testing.assert_array_equal(again.points, mesh.points)
 
 
 @pytest.mark.parametrize(
