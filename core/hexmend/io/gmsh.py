@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from pathlib import Path
 
+from hexmend.errors import FileError
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.gmsh_2 import read_elements as elements_2
 from hexmend.io.gmsh_2 import read_nodes as nodes_2
@@ -25,6 +26,9 @@ _SECTIONS = {
 
 def read(path: Path) -> Mesh:
     """Read a Gmsh file: physical groups become sets, tags of nodes and elements ids."""
+    with open(path, "rb") as file:
+        if not file.read(4096).lstrip().startswith(b"$"):  # said before all of a large file is read
+            raise FileError(path, "does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
     source = Source(path, path.read_bytes())
     version, order, result = 0, "", Read()
     while not source.ended:

@@ -15,7 +15,7 @@ from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.nastran_bulk import Bulk
 from hexmend.io.numbering import element_numbers, node_numbers, places
 from hexmend.io.reduced import reduced
-from hexmend.io.source import shown
+from hexmend.io.source import shown, text_of
 from hexmend.mesh import CELL_KINDS, Mesh
 
 #: What the elements of a name are, of first and second order.
@@ -42,7 +42,7 @@ _PROPERTY = re.compile(r"property (\d{1,8})\Z")
 
 def read(path: Path) -> Mesh:
     """Read grid points and elements; the elements of a property are the set "property N"."""
-    bulk = Bulk(path, path.read_bytes().decode("latin-1").replace("\r\n", "\n").replace("\r", "\n"))
+    bulk = Bulk(path, text_of(path).decode("latin-1").replace("\r\n", "\n").replace("\r", "\n"))
     ids: list[int] = []
     points: list[list[float]] = []
     rows: dict[str, list[list[int]]] = {}

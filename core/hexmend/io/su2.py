@@ -14,7 +14,7 @@ from hexmend.io.decimals import blocks as parts_of
 from hexmend.io.decimals import lines
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.reduced import reduced
-from hexmend.io.source import Source, shown
+from hexmend.io.source import Source, shown, text_of
 from hexmend.mesh import CELL_KINDS, Mesh
 
 #: What the elements of a number are; these and no others has the format.
@@ -33,7 +33,7 @@ class _Zone:
 
 def read(path: Path) -> Mesh:
     """Read all zones as one mesh; markers are sets of the boundary's cells."""
-    data = path.read_bytes()
+    data = text_of(path)
     source = Source(path, _COMMENT.sub(b"", data) if b"%" in data else data)
     keys = list(_KEY.finditer(source.data))
     zones = [_Zone()]

@@ -88,6 +88,7 @@ def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
+        ("GRID,2,,", "\0", "holds bytes that are no text"),
         ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5: expected 0"),
         ("GRID,2,,1.0", "GRID,2,,one", "GRID in line 3 holds 'one': expected a number"),
         ("GRID,2,", "GRID,1,", "node 1 is given twice"),

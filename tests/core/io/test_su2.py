@@ -65,6 +65,7 @@ def test_of_second_order_the_corners_are_written(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
+        ("NDIME= 3", "\0", "holds bytes that are no text"),
         ("NDIME= 3", "NDIME= 2", "NDIME is '2': expected 3"),
         ("NELEM= 1", "NELEM= 99999999999", "NELEM holds 10 numbers, which are not 99999999999 elements"),
         ("12 0", "29 0", "NELEM holds 10 numbers, which are not 1 elements of the types"),
