@@ -11,7 +11,7 @@ from hexmend.io.abaqus_content import to_mesh
 from hexmend.io.abaqus_deck import Card, Deck
 from hexmend.io.abaqus_elements import kind_of
 from hexmend.io.abaqus_model import Chunk, Instance, Members, Part, chunk_of, key_of, moved, title_of
-from hexmend.io.source import shown
+from hexmend.io.source import shown, text_of
 from hexmend.mesh import Mesh
 
 #: Cards that make nodes or elements out of others.
@@ -23,7 +23,7 @@ _PASSED_OVER = ("HEADING", "PREPRINT", "ASSEMBLY", "END INSTANCE", "END ASSEMBLY
 
 def read(path: Path) -> Mesh:
     """Read the mesh of an input file: its nodes, elements, sets and surfaces, of all instances of its parts."""
-    deck = Deck(path, path.read_bytes())
+    deck = Deck(path, text_of(path))
     return to_mesh(deck, *Reader(deck).model())
 
 

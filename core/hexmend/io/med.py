@@ -146,5 +146,14 @@ HELD = (Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.LOWER_CELLS, Holds.OTH
 
 FORMATS.add(
     "med",
-    Format("med", "MED", (".med",), ("binary",), read, write, holds=frozenset(HELD), recognised=_recognised),
+    Format(
+        "med",
+        "MED",
+        (".med",),
+        ("binary",),
+        read,
+        write,
+        holds=frozenset({*HELD, Holds.VERTICES}),
+        recognised=_recognised,
+    ),
 )

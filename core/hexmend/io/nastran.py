@@ -14,7 +14,8 @@ from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.nastran_bulk import Bulk
 from hexmend.io.numbering import element_numbers, node_numbers, places
-from hexmend.io.source import shown
+from hexmend.io.reduced import reduced
+from hexmend.io.source import shown, text_of
 from hexmend.mesh import CELL_KINDS, Mesh
 
 #: What the elements of a name are, of first and second order.
@@ -41,7 +42,7 @@ _PROPERTY = re.compile(r"property (\d{1,8})\Z")
 
 def read(path: Path) -> Mesh:
     """Read grid points and elements; the elements of a property are the set "property N"."""
-    bulk = Bulk(path, path.read_bytes().decode("latin-1").replace("\r\n", "\n").replace("\r", "\n"))
+    bulk = Bulk(path, text_of(path).decode("latin-1").replace("\r\n", "\n").replace("\r", "\n"))
     ids: list[int] = []
     points: list[list[float]] = []
     rows: dict[str, list[list[int]]] = {}
@@ -110,11 +111,12 @@ def _width(kind: str) -> int:
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write coordinates to 16 columns, and elements of the property that a set "property N" says; else of 1."""
-    content = from_mesh(mesh)
-    if any(block.kind == "hex27" for block in content.blocks):
-        raise FileError(path, "Nastran has no hexes of 27 nodes", "Write .vtu or .msh instead.")
-    blocks = [block for block in content.blocks if block.kind in _NAMES]
+    """Write coordinates to 16 columns, and elements of the property that a set "property N" says; else of 1.
+
+    Of the nodes of second order those in faces and in the middle of hexes are left out.
+    """
+    content = reduced(from_mesh(mesh), _NAMES)
+    blocks = content.blocks
     tags, numbers = node_numbers(dict(content.node_data), len(content.points)), element_numbers(blocks)
     if max(int(tags.max()), *(int(own.max(initial=0)) for own in numbers)) > 99_999_999:
         raise FileError(path, "a number of a node or element has more than 8 digits", "Write .vtu or .msh instead.")
@@ -188,7 +190,7 @@ FORMATS.add(
         ("ascii",),
         read,
         write,
-        holds=frozenset({Holds.IDS, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
+        holds=frozenset({Holds.IDS, Holds.OTHER_CELLS}),
         names=_Properties(),
         recognised=_recognised,
         exact=False,  # a column has room for 12 to 14 digits

@@ -13,7 +13,7 @@ import numpy as np
 from hexmend.io.content import Block, Content
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.format import FORMATS, Format
-from hexmend.io.source import Source, shown
+from hexmend.io.source import Source, shown, text_of
 from hexmend.mesh import Mesh
 
 _LETTER = re.compile(rb"[A-Za-z]")
@@ -25,7 +25,7 @@ _WHOLES = ("int", "unsigned int", "uint", "long", "unsigned long", "ulong", "sho
 
 def read(path: Path) -> Mesh:
     """Read a mesh of polyhedra; properties of its vertices and cells are data of nodes and hexes."""
-    source = Source(path, path.read_bytes())
+    source = Source(path, text_of(path))
     if source.line().upper() != "OVM ASCII":
         raise source.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
     points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)

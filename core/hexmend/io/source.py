@@ -217,6 +217,15 @@ class Source:
         return at, k
 
 
+def text_of(path: Path) -> bytes:
+    """The content of a file of text, once its beginning is known to be that."""
+    with open(path, "rb") as file:
+        if b"\0" in file.read(4096):
+            raise FileError(path, "holds bytes that are no text", "Check its suffix, or write the file again.")
+        file.seek(0)
+        return file.read()
+
+
 def shown(word: str) -> str:
     """A word of the file for a message: quoted, printable and short."""
     word = "".join(c if c.isprintable() else "?" for c in word[:25])

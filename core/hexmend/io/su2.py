@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.decimals import blocks as parts_of
 from hexmend.io.decimals import lines
 from hexmend.io.format import FORMATS, Format, Holds
-from hexmend.io.source import Source, shown
+from hexmend.io.reduced import reduced
+from hexmend.io.source import Source, shown, text_of
 from hexmend.mesh import CELL_KINDS, Mesh
 
 #: What the elements of a number are; these and no others has the format.
@@ -33,7 +33,7 @@ class _Zone:
 
 def read(path: Path) -> Mesh:
     """Read all zones as one mesh; markers are sets of the boundary's cells."""
-    data = path.read_bytes()
+    data = text_of(path)
     source = Source(path, _COMMENT.sub(b"", data) if b"%" in data else data)
     keys = list(_KEY.finditer(source.data))
     zones = [_Zone()]
@@ -145,12 +145,12 @@ def _width(kind: str) -> int:
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write one zone; sets of quads and triangles are its markers, other sets and cells are left out."""
-    content = from_mesh(mesh.replace(mid_nodes=None))  # it has no elements of second order
-    volumes = [block for block in content.blocks if block.kind == "hex" or _is_volume(block.kind)]
-    unknown = [block.kind for block in volumes if block.kind not in NUMBERS]
-    if unknown:
-        raise FileError(path, f"SU2 has no cells of the kind {unknown[0]}", "Write .vtu or .msh instead.")
+    """Write one zone; sets of quads and triangles are its markers.
+
+    Other sets, other cells and nodes of second order are left out.
+    """
+    content = reduced(from_mesh(mesh), NUMBERS)
+    volumes = [block for block in content.blocks if block.kind == "hex" or CELL_KINDS[block.kind].dimension == 3]
     markers: dict[str, list[tuple[str, np.ndarray]]] = {}
     for block in content.blocks:
         if block.kind in ("triangle", "quad"):
@@ -173,10 +173,6 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 def _write_cells(file: object, kind: str, nodes: np.ndarray) -> None:
     file.write(lines(np.column_stack([np.full(len(nodes), NUMBERS[kind]), nodes])))
-
-
-def _is_volume(kind: str) -> bool:
-    return kind in CELL_KINDS and CELL_KINDS[kind].dimension == 3
 
 
 def _recognised(head: bytes) -> bool:

@@ -191,6 +191,7 @@ def test_a_real_file_is_read_and_survives(real_mesh, tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
+        ("\0" * 5000, "holds bytes that are no text"),
         ("hello", "has no line that begins with *"),
         ("*HEADING\n", "has no *NODE"),
         ("*NODE\n1, 0, 0, x\n", "*NODE holds 'x' in row 4 of 4 (line 2)"),
@@ -228,3 +229,22 @@ def test_blanks_and_other_exponents_are_numbers_too(tmp_path):
     nodes = cube().replace("2, 1, 0, 0", "2, 1.0D+00, , ").replace("4, 0, 1, 0", "4,,1.d0")
     mesh = read(f"*NODE\n{nodes}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n", tmp_path)
     np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+
+
+def test_elements_of_other_types_and_what_names_them_are_left_out_and_said(tmp_path):
+    deck = (
+        DECK
+        + "*ELEMENT, TYPE=COH3D8, ELSET=glue\n70, 11, 12, 13, 14,\n15, 16, 17, 18\n71, 11, 12, 13, 14, 15, 16, 17, 18\n"
+    )
+    deck += (
+        "*ELEMENT, TYPE=MASS, ELSET=glue\n72, 11\n*SURFACE, NAME=mixed\nglue, S1\n5, SPOS\n*NSET, NSET=some\n11, 99\n"
+    )
+    mesh = read(deck, tmp_path)
+    assert mesh.n_hexes == 1
+    assert mesh.cells[0].kind == "vertex"
+    assert mesh.cells[0].sets["glue"].tolist() == [0]
+    assert mesh.node_sets["some"].tolist() == [0]
+    assert "mixed" not in mesh.side_sets
+    assert any("2 elements of other types (COH3D8)" in note for note in mesh.notes)
+    assert any("1 members of sets that do not exist" in note for note in mesh.notes)
+    assert any("4 entries of surfaces" in note for note in mesh.notes)

@@ -52,9 +52,12 @@ def test_what_is_written_is_read_again(nodes, tmp_path):
     assert not any("element sets" in words for words in io.left_out(tmp_path / "a.nas", mesh))
 
 
-def test_27_nodes_are_refused(tmp_path):
-    with pytest.raises(FileError, match="no hexes of 27 nodes"):
-        io.write(tmp_path / "a.bdf", with_everything(27))
+def test_of_27_nodes_20_are_written(tmp_path):
+    io.write(tmp_path / "a.bdf", with_everything(27))
+    mesh = io.read(tmp_path / "a.bdf")
+    assert ((mesh.mid_nodes >= 0).sum(axis=1) == 12).all()
+    assert mesh.n_nodes == with_everything(27).n_nodes - 7 * mesh.n_hexes
+    middles_are_in_the_middle(mesh)
 
 
 @given(value=st.floats(-1e300, 1e300))
@@ -85,6 +88,7 @@ def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
+        ("GRID,2,,", "\0", "holds bytes that are no text"),
         ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5: expected 0"),
         ("GRID,2,,1.0", "GRID,2,,one", "GRID in line 3 holds 'one': expected a number"),
         ("GRID,2,", "GRID,1,", "node 1 is given twice"),
