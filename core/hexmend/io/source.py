@@ -106,7 +106,7 @@ class Source:
             return np.empty((rows, width), dtype)
         start, end = self.pos, self._numeric_end()
         text = self.data[start:end]
-        values, found = _parsed(text, dtype), _count_words(text)
+        values, found = _parsed(text, dtype), count_words(text)
         if values is None or values.size != found or found < count:
             end = self._checked_end(section, rows, width, dtype)
             text = self.data[start:end]
@@ -210,7 +210,7 @@ class Source:
         while at < len(self.data):
             piece = self.data[at : at + _PIECE]
             end = max(piece.rfind(b" "), piece.rfind(b"\n")) + 1
-            values, found = _parsed(piece[:end], dtype), _count_words(piece[:end])
+            values, found = _parsed(piece[:end], dtype), count_words(piece[:end])
             if not end or values is None or values.size != found or k + found >= count:
                 break
             at, k = at + end, k + found
@@ -248,7 +248,7 @@ def clipped(values: np.ndarray, text: bytes) -> bool:
     return not all(ends.min <= int(word) <= ends.max for word in text.split()[: values.size])
 
 
-def _count_words(text: bytes) -> int:
+def count_words(text: bytes) -> int:
     """Number of words; a loop over 16 MB at a time keeps the memory small."""
     total, before = 0, True
     for start in range(0, len(text), 1 << 24):

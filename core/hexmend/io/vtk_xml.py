@@ -26,6 +26,7 @@ _TAG = re.compile(rb"<(?:[^>\"']|\"[^\"]*\"|'[^']*')*>")
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 #: More elements than any mesh has.
 _ELEMENTS = 1_000_000
+_LARGEST = 1 << 28
 
 
 @dataclass(eq=False)
@@ -85,7 +86,6 @@ class Document:
             self._encoding = None
             start = self.file.read(4096)
             if start[:2] in (b"\xff\xfe", b"\xfe\xff"):  # UTF-16, in which no raw bytes can lie
-                self.file.seek(0)
                 self.file, self._encoding = io.BytesIO(_recoded(path, self.file)), "utf-8"
                 start = self.file.read(4096)
             if not start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
@@ -220,7 +220,11 @@ class _Reached(Exception):
 
 
 def _recoded(path: Path, file: BinaryIO) -> bytes:
+    """A file in UTF-16 as UTF-8."""
     with file:
+        if file.seek(0, io.SEEK_END) > _LARGEST:
+            raise FileError(path, "is text in UTF-16, of more than 256 MB", "Write it in UTF-8.")
+        file.seek(0)
         try:
             return file.read().decode("utf-16").encode()
         except UnicodeError:

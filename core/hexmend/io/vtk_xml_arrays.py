@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hexmend.io.source import clipped
+from hexmend.io.source import clipped, count_words
 from hexmend.io.vtk_xml import TYPES, Document, Element, title
 
 #: How compressors are named.
@@ -71,13 +71,13 @@ def _decimals(document: Document, array: Element, dtype: np.dtype, count: int | 
     wide = np.dtype("f8") if dtype.kind == "f" else np.dtype("u8" if dtype == np.uint64 else "i8")
     try:
         values = np.fromstring(text, wide, sep=" ")
-        found = len(text.split()) if count is None or len(values) == count else len(values)
-    except (ValueError, DeprecationWarning):  # NumPy before 2.3 only warns
-        raise document.error(f"{title(array)} holds words that are no numbers of its type") from None
-    if len(values) != found or found != (found if count is None else count):
-        raise document.error(
-            f"{title(array)} holds {found} numbers: expected {len(values) if count is None else count}"
-        )
+    except (ValueError, DeprecationWarning):  # NumPy before 2.3 only warns, and gives fewer
+        values = np.empty(0, wide)
+    found = count_words(text)
+    if len(values) < found:
+        raise document.error(f"{title(array)} holds words that are no numbers of its type")
+    if count is not None and found != count:
+        raise document.error(f"{title(array)} holds {found} numbers: expected {count}")
     if wide.kind == "f":
         return values.astype(dtype.newbyteorder("="), copy=False)
     limit = np.iinfo(dtype)

@@ -105,6 +105,7 @@ def _data(document: Document, section: Element, rows: int, left: dict[str, None]
             left[name] = None
             continue
         values = values_of(document, array, rows * width)
+        name = name if name not in answer else f"{name} ({len(answer) + 1})"
         answer[name] = values if width == 1 else values.reshape(rows, width)
     return answer
 
@@ -122,7 +123,7 @@ def _field(document: Document, array: Element) -> np.ndarray | list[str]:
 
 
 def _width(document: Document, array: Element) -> int:
-    return max(1, document.count(array, "NumberOfComponents"))
+    return max(1, document.count(array, "NumberOfComponents"))  # VTK's writers leave 1 away, and old ones say 0
 
 
 FORMATS.add(

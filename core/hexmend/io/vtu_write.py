@@ -56,7 +56,10 @@ def _sections(path: Path, grid: Grid) -> Iterator[tuple[str, Mapping[str, np.nda
         yield "<FieldData>", {name: _writable(path, name, values) for name, values in grid.field_data.items()}
         yield "</FieldData>", {}
     cells = {"connectivity": grid.nodes, "offsets": grid.start[1:], "types": grid.types.astype(np.uint8)}
-    data = [{k: _writable(path, k, v) for k, v in one.items()} for one in (grid.node_data, grid.cell_data)]
+    data = [
+        {name: _writable(path, name, values) for name, values in one.items() if np.size(values)}  # else of width 0
+        for one in (grid.node_data, grid.cell_data)
+    ]
     yield f'<Piece NumberOfPoints="{n}" NumberOfCells="{m}">\n<Points>', {"Points": grid.points}
     yield "</Points>\n<Cells>", cells
     yield "</Cells>\n<PointData>", data[0]

@@ -262,3 +262,9 @@ def test_real_files_are_as_vtk_has_them(name, hexes, real_mesh):
     chosen = np.asarray(other.celltypes) == 12
     for key, values in other.cell_data.items():
         np.testing.assert_array_equal(mesh.hex_data[key], values[chosen])
+
+
+def test_arrays_of_one_name_are_all_kept(tmp_path):
+    array = '<DataArray type="Int8" Name="a">{}</DataArray>'
+    (tmp_path / "a.vtu").write_text(text_of(data=f"<CellData>{array.format(1)}{array.format(2)}</CellData>"))
+    assert [int(values[0]) for values in io.read(tmp_path / "a.vtu").hex_data.values()] == [1, 2]
