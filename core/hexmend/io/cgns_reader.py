@@ -96,8 +96,10 @@ def _merged(zones: list[Zone], points: np.ndarray, first: np.ndarray) -> tuple[n
         return np.arange(len(points)), np.arange(len(points)), 0
     pairs = np.concatenate(ends)
     used = points[np.isfinite(points).all(axis=1)]
-    near = MEETING * float(np.linalg.norm(np.ptp(used, axis=0))) if len(used) else 0.0
-    pairs = pairs[np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1) <= near]  # others are periodic
+    with np.errstate(all="ignore"):  # of coordinates that are very large
+        near = MEETING * float(np.linalg.norm(np.ptp(used, axis=0))) if len(used) else 0.0
+        apart = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
+    pairs = pairs[apart <= near]  # others are periodic
     graph = coo_array((np.ones(len(pairs), np.int8), pairs.T), (len(points),) * 2)
     label = connected_components(graph, directed=False)[1]
     kept = np.unique(label, return_index=True)[1]

@@ -136,22 +136,26 @@ def _add_condition(
     zone: Zone, name: str, condition: Node, sections: list[_Section], numbers_of: list[np.ndarray], hexes: np.ndarray
 ) -> None:
     """A boundary condition: a set of nodes, of elements, or of sides."""
-    ranges = condition.children("IndexRange_t")
-    lists = condition.children("IndexArray_t")
-    members = [one for one in ranges if one.name in ("PointRange", "ElementRange")]
-    if members:
-        span = members[0].numbers().ravel()
-        if span.size != 2 or span[1] < span[0] or span[1] > max([len(zone.points), *(one.last for one in sections)]):
-            raise FileError(condition.path, f"boundary condition {name!r} has the range {span.tolist()}", DAMAGED)
-        numbers = np.arange(span[0], span[1] + 1)
-    else:
-        members = [one for one in lists if one.name in ("PointList", "ElementList")]
-        if not members:
-            return
-        numbers = members[0].numbers().ravel()
-    if location_of(condition) == "Vertex" and not members[0].name.startswith("Element"):
-        if numbers.size and (numbers.min() < 1 or numbers.max() > len(zone.points)):
-            raise FileError(condition.path, f"boundary condition {name!r} names nodes that there are not", DAMAGED)
+    members = [
+        one
+        for one in condition.children("IndexRange_t", "IndexArray_t")
+        if one.name in ("PointRange", "ElementRange", "PointList", "ElementList")
+    ]
+    if not members:
+        return
+    numbers, of_nodes = members[0].numbers().ravel(), location_of(condition) == "Vertex"
+    of_nodes &= not members[0].name.startswith("Element")
+    if of_nodes and numbers.size and (numbers.min() < 1 or numbers.max() > len(zone.points)):
+        raise FileError(condition.path, f"boundary condition {name!r} names nodes that there are not", DAMAGED)
+    if members[0].name.endswith("Range"):
+        if numbers.size != 2 or numbers[1] < numbers[0]:
+            raise FileError(condition.path, f"boundary condition {name!r} has the range {numbers.tolist()}", DAMAGED)
+        told = [np.arange(one.first, one.last + 1) for one in sections if one.parents is not None]
+        known = (
+            np.arange(1, len(zone.points) + 1) if of_nodes else np.concatenate([np.empty(0, int), *numbers_of, *told])
+        )
+        numbers = known[(known >= numbers[0]) & (known <= numbers[1])]
+    if of_nodes:
         add(zone.node_sets, name, numbers - 1)
         return
     for block, own in zip(zone.blocks, numbers_of, strict=True):

@@ -83,13 +83,10 @@ def coordinates(node: Node, shape: tuple[int, ...]) -> np.ndarray:
             "Write it with Cartesian coordinates.",
         )
     rind = rind_of(grid, len(shape))
-    points = np.zeros((int(np.prod(shape)), 3)) if "CoordinateX" in arrays else None
-    for axis, letter in enumerate("XYZ"):
-        if f"Coordinate{letter}" not in arrays:
-            continue
-        values = inside(arrays[f"Coordinate{letter}"], shape, rind)
-        points = np.zeros((values.size, 3)) if points is None else points
-        points[:, axis] = values.ravel()
+    axes = [axis for axis, letter in enumerate("XYZ") if f"Coordinate{letter}" in arrays]
+    columns = [inside(arrays[f"Coordinate{'XYZ'[axis]}"], shape, rind).ravel() for axis in axes]
+    points = np.zeros((columns[0].size, 3))
+    points[:, axes] = np.column_stack(columns)
     return points
 
 

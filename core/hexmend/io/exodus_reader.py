@@ -57,18 +57,18 @@ class _Reader:
     # Parts of the file
 
     def points(self) -> np.ndarray:
-        points = np.zeros((self.n_nodes, 3))
         width = self.store.dimensions.get("num_dim", 3)
         if not 1 <= width <= 3:
             raise FileError(self.path, f"num_dim is {width}: expected 1 to 3", _DAMAGED)
         if "coord" in self.store:
-            points[:, :width] = self.array("coord", width, self.n_nodes).T
-            return points
-        for axis, name in enumerate("xyz"[:width]):
-            if "coord" + name in self.store:
-                points[:, axis] = self.array("coord" + name, self.n_nodes)
-            elif self.n_nodes:
-                raise FileError(self.path, f"has no coordinates coord{name}", _DAMAGED)
+            rows = self.array("coord", width, self.n_nodes)
+        else:
+            missing = [name for name in "xyz"[:width] if f"coord{name}" not in self.store]
+            if missing:
+                raise FileError(self.path, f"has no coordinates coord{missing[0]}", _DAMAGED)
+            rows = [self.array("coord" + name, self.n_nodes) for name in "xyz"[:width]]
+        points = np.zeros((self.n_nodes, 3))  # as many as have been read
+        points[:, :width] = np.column_stack(list(rows))
         return points
 
     def blocks(self) -> tuple[list[Block], list[np.ndarray]]:
@@ -79,13 +79,11 @@ class _Reader:
         blocks, numbers, of_ids, first = [], [], [], 0
         for k, number in enumerate(ids, 1):
             count = self.store.dimensions.get(f"num_el_in_blk{k}", 0)
-            cells = np.arange(first, first + count)
             first += count
-            if not count or f"connect{k}" not in self.store:
-                continue
-            block = self.block(k, number, count)
+            block = self.block(k, number, count) if count and f"connect{k}" in self.store else None
             if block is None:
                 continue
+            cells = np.arange(first - count, first)
             data = {**block.data, **self.variables("elem", f"eb{k}", count, k - 1)}
             if id_map is not None:
                 data[ID] = id_map[cells]
@@ -218,6 +216,8 @@ class _Reader:
 
     def ids(self, name: str, dimension: str) -> list[int]:
         count = self.store.dimensions.get(dimension, 0)
+        if count > len(self.store):  # each has a variable at least
+            raise FileError(self.path, f"{dimension} is {count}, of {len(self.store)} variables", _DAMAGED)
         return self.whole(name, count).tolist() if name in self.store else list(range(1, count + 1))
 
     def words(self, name: str) -> list[str]:

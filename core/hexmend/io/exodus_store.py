@@ -21,6 +21,9 @@ class Store(Protocol):
     def __contains__(self, name: str) -> bool:
         """Whether there is a variable of that name."""
 
+    def __len__(self) -> int:
+        """Number of variables."""
+
     def array(self, name: str, record: int = 0) -> np.ndarray:
         """The values of a variable; of one that has a value for each time step, those of one step."""
 
@@ -62,6 +65,9 @@ class OnHdf5:
 
     def __contains__(self, name: str) -> bool:
         return name in self._sets
+
+    def __len__(self) -> int:
+        return len(self._sets)
 
     def array(self, name: str, record: int = 0) -> np.ndarray:
         one = self._sets[name]

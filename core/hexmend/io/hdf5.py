@@ -34,16 +34,17 @@ def open_file(path: Path) -> object:
 def values_of(path: Path, dataset: object) -> np.ndarray:
     """The values of a dataset, once it is known that they are not larger than a file of this size can hold."""
     bound = max(_ALWAYS, _GROWTH * os.path.getsize(path))
-    if dataset.size is None or dataset.size * dataset.dtype.itemsize > bound:
-        raise FileError(
-            path,
-            f"{dataset.name} would have {dataset.size} values: more than a file of its size holds",
-            "Write the file again without compression, if it is true.",
-        )
     try:
-        return dataset[()]
-    except (OSError, ValueError, TypeError, RuntimeError) as error:
+        size, width = dataset.size, dataset.dtype.itemsize
+        if size is not None and size * width <= bound:
+            return dataset[()]
+    except (OSError, ValueError, TypeError, RuntimeError, IndexError) as error:
         raise damaged(path, error) from None
+    raise FileError(
+        path,
+        f"{dataset.name} would have {size} values: more than a file of its size holds",
+        "Write the file again without compression, if it is true.",
+    )
 
 
 def damaged(path: Path, error: Exception) -> FileError:

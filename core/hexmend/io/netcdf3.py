@@ -107,6 +107,9 @@ class Classic:
     def __contains__(self, name: str) -> bool:
         return name in self._variables
 
+    def __len__(self) -> int:
+        return len(self._variables)
+
     def array(self, name: str, record: int = 0) -> np.ndarray:
         """The values of a variable, of one record where there are several; in the machine's byte order."""
         one = self._variables[name]

@@ -204,6 +204,7 @@ def test_a_real_file_has_its_faces_on_the_boundary(real_mesh):
     [
         ("sizes", "has the sizes"),
         ("coordinates", "expected numbers"),
+        ("huge", r"holds float64 \(8,\): expected numbers \(2147483647,\)"),
         ("nodes", "uses the nodes 1 to 99: expected 1 to 8"),
         ("count", "has 7 elements of 8 nodes, and 8 nodes"),
         ("polar", "Write it with Cartesian coordinates"),
@@ -218,8 +219,8 @@ def test_what_is_wrong_is_named(how, words, tmp_path):
         data = zone.group[" data"]
         if how == "coordinates":
             data[0] = 8
-        elif how == "sizes":
-            data[0] = -8
+        elif how in ("sizes", "huge"):
+            data[0, 0] = -8 if how == "sizes" else 2**31 - 1
         elif how == "polar":
             zone.group["GridCoordinates"].move("CoordinateX", "CoordinateR")
     with pytest.raises(FileError, match=words):

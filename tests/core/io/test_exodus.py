@@ -267,6 +267,32 @@ def test_counts_larger_than_the_file_are_refused_before_anything_is_allocated(tm
         io.read(tmp_path / "bad.exo")
 
 
+def test_dimensions_on_hdf5_that_nothing_fills_are_refused(tmp_path):
+    """HDF5 keeps an array of any size that nobody has written to in no space at all."""
+    netCDF4 = pytest.importorskip("netCDF4")
+    for name, dimension in (
+        ("nodes.exo", "num_nodes"),
+        ("blocks.exo", "num_el_blk"),
+        ("elements.exo", "num_el_in_blk1"),
+    ):
+        with netCDF4.Dataset(tmp_path / name, "w") as file:
+            lengths = {
+                "num_nodes": 8,
+                "num_elem": 1,
+                "num_el_blk": 1,
+                "num_el_in_blk1": 1,
+                "num_nod_per_el1": 8,
+                "num_dim": 3,
+            }
+            for one, length in (lengths | {dimension: 2**40}).items():
+                file.createDimension(one, length)
+            for axis in "xyz":
+                file.createVariable(f"coord{axis}", "f8", ("num_nodes",))
+            file.createVariable("connect1", "i4", ("num_el_in_blk1", "num_nod_per_el1")).elem_type = "HEX8"
+        with pytest.raises(FileError, match=rf"{name}: .*(more than a file of its size holds|of \d+ variables)"):
+            io.read(tmp_path / name)
+
+
 def test_netcdf_that_is_no_exodus_is_not_called_damaged(tmp_path):
     from scipy.io import netcdf_file
 
