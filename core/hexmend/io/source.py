@@ -139,7 +139,7 @@ class Source:
 
     def decimals_to(self, section: str, end: int, dtype: np.dtype | type) -> np.ndarray:
         """Take all numbers written in decimals before a byte, (k,) array; see `decimals_until`."""
-        count = _count_words(self.data[self.pos : end])
+        count = count_words(self.data[self.pos : end])
         return self.decimals(section, count, 1, dtype)[:, 0]
 
     def binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
