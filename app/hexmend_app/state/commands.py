@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.doctor import AILMENTS, Finding, repair
+from hexmend.fixing import with_region_free
 from hexmend.io import left_out, write
 from hexmend.quality import summarise
 from hexmend.recipe import Recipe, Stage
@@ -103,6 +104,11 @@ class Commands:
         pinned = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()
         pinned[nodes] = on
         self._amend("pin" if on else "unpin", pinned=pinned)
+
+    def free_only(self, hexes: Sequence[int], rings: int) -> None:
+        """Pin all nodes but those of some hexes and of so many rings around them, while the mesh may be changed."""
+        mesh = with_region_free(self.document.now.mesh, np.asarray(hexes, dtype=np.int64), rings)
+        self._amend("move only a region", pinned=mesh.pinned)
 
     def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
         """Add elements to a named group of the mesh, or take them out, while the mesh may be changed.

@@ -19,6 +19,13 @@ class Smooth:
         parser.add_argument("-o", "--output", metavar="OUT", required=True, help="where to write the smoothed mesh")
         add_method(parser)
         add_surface(parser)
+        parser.add_argument(
+            "--fix", metavar="SET", action="append", default=[], help="keep the nodes of this set; may be repeated"
+        )
+        parser.add_argument("--only", metavar="SET", help="move nothing but the hexes of this set, or 'inverted' ones")
+        parser.add_argument(
+            "--rings", metavar="K", type=int, default=1, help="with --only: and K rings of hexes around"
+        )
         parser.add_argument("--save-recipe", metavar="FILE.toml", help="write what is run as a recipe")
         parser.add_argument("--json", metavar="FILE", help="write a report")
         parser.add_argument("--history", metavar="FILE.csv", help="write a row an iteration")
@@ -29,6 +36,7 @@ class Smooth:
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
         from hexmend.cli.tables import print_summaries
+        from hexmend.fixing import hexes_of, with_region_free, with_sets_fixed
         from hexmend.io import read, write_recipe, writer_for
         from hexmend.quality import summarise_second_order
         from hexmend.report import record, write_history, write_json
@@ -41,12 +49,17 @@ class Smooth:
         say_notes(mesh)
         say_diagnosis(args.mesh, mesh)
         say_left_out(args.output, mesh)
+        pins = mesh.pinned  # what the file says; options are for this run alone
+        if args.fix:
+            mesh = with_sets_fixed(mesh, *args.fix)
+        if args.only:
+            mesh = with_region_free(mesh, hexes_of(mesh, args.only), max(args.rings, 0))
         run = iterate(on_surface(args, mesh, what), what, stop)
         if args.save_recipe:
             write_recipe(args.save_recipe, run.recipe)
         follow(run)
         result = run.result()
-        write(args.output, result.mesh)
+        write(args.output, result.mesh.replace(pinned=pins))
         curved = {"before": summarise_second_order(mesh), "after": summarise_second_order(result.mesh)}
         if args.json:
             report = record(result)

@@ -95,6 +95,15 @@ class FeatureInspect(Feature):
                 in_view=True,
             ),
             Action(
+                id="free_isolated",
+                text="&Move only what is isolated",
+                menu="Hex",
+                icon="pin-off-outline",
+                help="Pin all nodes but those of the isolated hexes and of the rings around them; undo takes that back.",
+                handle=self._free_isolated,
+                enabled=lambda: session.editable and self._view.look.isolation is not None,
+            ),
+            Action(
                 id="back",
                 text="Step &back",
                 menu="Hex",
@@ -184,6 +193,10 @@ class FeatureInspect(Feature):
             self._view.isolate((h,))
         self._selection.visit(h)
         self.worst_list.set_selected(h)  # or the next step through the list would begin where the last one did
+
+    def _free_isolated(self) -> None:
+        isolation = self._view.look.isolation
+        self.session.commands.free_only(isolation.hexes, isolation.rings)
 
     def _back(self) -> None:
         """First show the rest again, then look at none."""

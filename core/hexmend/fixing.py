@@ -1,0 +1,84 @@
+"""Which nodes are to stay, told by the names of sets, or by a region that alone is to move."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.errors import MeshError
+from hexmend.hexahedron import FACES
+from hexmend.mesh import Mesh
+
+
+def with_sets_fixed(mesh: Mesh, *names: str) -> Mesh:
+    """The mesh whose nodes in some sets are pinned, besides those that are.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    names : str
+        Of node sets, or of sets of hexes or sides, all nodes of which are meant.
+
+    Raises
+    ------
+    MeshError
+        For a set that there is not.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> mesh = make("cube", size=27).replace(node_sets={"middle": np.array([21, 22])})
+    >>> int(with_sets_fixed(mesh, "middle").free.sum()), int(mesh.free.sum())
+    (6, 8)
+    """
+    pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
+    for name in names:
+        pinned[nodes_of(mesh, name)] = True
+    return mesh.replace(pinned=pinned)
+
+
+def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
+    """The mesh of which only the nodes of some hexes, and of so many rings around them, may move.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    hexes : (k,) int
+    rings : int
+        How often those that share a node with the ones before are taken in.
+
+    Raises
+    ------
+    IndexError
+        For a hex that does not exist.
+    """
+    region = np.zeros(mesh.n_nodes, dtype=bool)
+    region[mesh.hexes[mesh.topology.ring_of(hexes, rings)]] = True
+    return mesh.replace(pinned=~region if mesh.pinned is None else mesh.pinned | ~region)
+
+
+def hexes_of(mesh: Mesh, name: str) -> np.ndarray:
+    """The hexes of a set, or, by the name "inverted", those that are; `MeshError` for a set that there is not."""
+    if name in mesh.hex_sets:
+        return np.asarray(mesh.hex_sets[name])
+    if name == "inverted":
+        from hexmend.quality import measure
+
+        return np.flatnonzero(measure(mesh.points, mesh.hexes).inverted)
+    raise MeshError(f"there is no element set {name!r}: there are {_listed(mesh.hex_sets)} and 'inverted'")
+
+
+def nodes_of(mesh: Mesh, name: str) -> np.ndarray:
+    """The nodes of a set of nodes, hexes or sides; raises `MeshError` for a set that there is not."""
+    if name in mesh.node_sets:
+        return np.asarray(mesh.node_sets[name])
+    if name in mesh.hex_sets:
+        return np.unique(mesh.hexes[mesh.hex_sets[name]])
+    if name in mesh.side_sets:
+        rows = np.asarray(mesh.side_sets[name])
+        return np.unique(mesh.hexes[rows[:, :1], FACES[rows[:, 1]]])
+    known = {**mesh.node_sets, **mesh.hex_sets, **mesh.side_sets}
+    raise MeshError(f"there is no set {name!r}: there are {_listed(known)}")
+
+
+def _listed(names: object) -> str:
+    return ", ".join(map(repr, names)) or "none"

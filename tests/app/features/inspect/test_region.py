@@ -1,0 +1,18 @@
+"""Moving nothing but a region: what is isolated, and the rings around it."""
+
+import numpy as np
+
+
+def test_only_what_is_isolated_is_free_until_undo(window):
+    session = window.session
+    mesh = session.document.now.mesh
+    session.view.isolate([40], 1)
+    window.refresh()
+    assert window.actions["free_isolated"].isEnabled()
+    window.actions["free_isolated"].trigger()
+    expected = np.zeros(mesh.n_nodes, dtype=bool)
+    expected[mesh.hexes[mesh.topology.ring_of([40], 1)]] = True
+    np.testing.assert_array_equal(session.document.now.mesh.free, expected & mesh.free)
+    assert session.document.undo_title == "move only a region"
+    session.commands.undo()
+    np.testing.assert_array_equal(session.document.now.mesh.free, mesh.free)
