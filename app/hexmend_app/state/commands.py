@@ -108,7 +108,7 @@ class Commands:
     def free_only(self, hexes: Sequence[int], rings: int) -> None:
         """Pin all nodes but those of some hexes and of so many rings around them, while the mesh may be changed."""
         mesh = with_region_free(self.document.now.mesh, np.asarray(hexes, dtype=np.int64), rings)
-        self._amend("move only a region", pinned=mesh.pinned)
+        self._amend("free a region", pinned=mesh.pinned)
 
     def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
         """Add elements to a named group of the mesh, or take them out, while the mesh may be changed.

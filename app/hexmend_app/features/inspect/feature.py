@@ -99,7 +99,7 @@ class FeatureInspect(Feature):
                 text="&Move only what is isolated",
                 menu="Hex",
                 icon="pin-off-outline",
-                help="Pin all nodes but those of the isolated hexes and of the rings around them; undo takes that back.",
+                help="Pin all nodes but those of the isolated hexes and the rings around them; undo takes that back.",
                 handle=self._free_isolated,
                 enabled=lambda: session.editable and self._view.look.isolation is not None,
             ),

@@ -13,6 +13,6 @@ def test_only_what_is_isolated_is_free_until_undo(window):
     expected = np.zeros(mesh.n_nodes, dtype=bool)
     expected[mesh.hexes[mesh.topology.ring_of([40], 1)]] = True
     np.testing.assert_array_equal(session.document.now.mesh.free, expected & mesh.free)
-    assert session.document.undo_title == "move only a region"
+    assert session.document.undo_title == "free a region"
     session.commands.undo()
     np.testing.assert_array_equal(session.document.now.mesh.free, mesh.free)
