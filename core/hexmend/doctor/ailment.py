@@ -69,6 +69,14 @@ class Finding:
         return f"{plural} {', '.join(str(int(k)) for k in numbers[:most])}{', ...' if len(numbers) > most else ''}"
 
 
+def counted(count: int, one: str, several: str) -> str:
+    """
+    >>> counted(1, "hex is", "hexes are"), counted(2000, "hex is", "hexes are")
+    ('1 hex is', '2,000 hexes are')
+    """
+    return f"{count:,} {one if count == 1 else several}"
+
+
 class Ailment(ABC):
     """A kind of trouble: how it is found and, if it can be, mended."""
 

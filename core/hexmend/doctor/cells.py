@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import Ailment, Finding, ailment
+from hexmend.doctor.ailment import Ailment, Finding, ailment, counted
 from hexmend.doctor.surgery import with_hexes
 from hexmend.hexahedron import EDGES
 from hexmend.mesh import Cells, Mesh
@@ -43,8 +43,8 @@ class DuplicateHexes(Ailment):
         if not again.size:
             return None
         return Finding(
-            self.name, again.size, f"{again.size:,} hexes stand on the nodes of others.", "Remove the duplicates.",
-            True, again,
+            self.name, again.size, f"{counted(again.size, 'hex stands', 'hexes stand')} on the nodes of others.",
+            "Remove the duplicates.", True, again,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -66,7 +66,8 @@ class DegenerateHexes(Ailment):
         wedges, flat = _wedges(mesh, which)
         kinds = f"{len(wedges):,} of them are wedges, {len(flat):,} flat" if len(wedges) + len(flat) else ""
         return Finding(
-            self.name, which.size, f"{which.size:,} hexes use a node twice, so that edges are collapsed"
+            self.name, which.size,
+            f"{counted(which.size, 'hex uses', 'hexes use')} a node twice, so that edges are collapsed"
             f"{'; ' + kinds if kinds else ''}: as hexes they can never be good.",
             "Make them wedges, or mesh them anew.", bool(len(wedges) + len(flat)), which,
         )  # fmt: skip

@@ -47,7 +47,7 @@ class Parts(Ailment):
         small = np.flatnonzero(part != sizes.argmax())
         return Finding(
             self.name, more,
-            f"the mesh has {more:,} part{'s' * (more > 1)} besides the largest that hang together with no other "
+            f"The mesh has {more:,} part{'s' * (more > 1)} besides the largest that hang together with no other "
             f"({sizes.max():,} hexes, then {', '.join(f'{n:,}' for n in np.sort(sizes)[::-1][1:4])}).",
             "Merge coincident nodes if they should be joined.", hexes=small,
         )  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import Ailment, Finding, ailment
+from hexmend.doctor.ailment import Ailment, Finding, ailment, counted
 from hexmend.doctor.surgery import used_by_anything, with_nodes
 from hexmend.mesh import Mesh
 
@@ -32,7 +32,7 @@ class CoincidentNodes(Ailment):
         blocks = f" {pairs:,} pairs of boundary faces lie on each other: blocks that are not merged." if pairs else ""
         return Finding(
             self.name, again.size,
-            f"{again.size:,} nodes lie on others.{blocks}" + (
+            f"{counted(again.size, 'node lies', 'nodes lie')} on others.{blocks}" + (
                 "" if blocks else " Hexes that should be joined may be apart there."
             ),
             "Merge them, unless parts are meant to slide on each other.", True, nodes=again,
@@ -56,7 +56,8 @@ class UnusedNodes(Ailment):
         if not which.size:
             return None
         return Finding(
-            self.name, which.size, f"{which.size:,} nodes belong to no cell; they are kept and never moved.",
+            self.name, which.size,
+            f"{counted(which.size, 'node belongs', 'nodes belong')} to no cell: kept, and never moved.",
             "Remove them.", True, nodes=which,
         )  # fmt: skip
 
