@@ -74,6 +74,8 @@ class Experiments:
         Of the methods in experiments.
     move, tolerance : str, float
         Of `Stop`.
+    tolerance_of : mapping
+        Tolerances of methods for which it is another.
     """
 
     experiments: tuple[Experiment, ...]
@@ -84,6 +86,7 @@ class Experiments:
     settings: Settings = field(default_factory=Settings)
     move: str = Stop().move
     tolerance: float = Stop().tolerance
+    tolerance_of: Mapping[str, float] = field(default_factory=dict)
 
     def smoother(self, experiment: Experiment, name: str) -> Smoother:
         """A method with the study's settings and the experiment's delta, as far as it has these parameters."""
@@ -96,7 +99,8 @@ class Experiments:
 
     def stop(self, method: str, quick: bool) -> Stop:
         """The limits of a run; what the thesis tells of a method is its last iterate."""
-        return replace(self.outlook_stop(method, quick), move=self.move, tolerance=self.tolerance)
+        tolerance = self.tolerance_of.get(method, self.tolerance)
+        return replace(self.outlook_stop(method, quick), move=self.move, tolerance=tolerance)
 
     def outlook_stop(self, method: str, quick: bool) -> Stop:
         """The same of an outlook, which converges as runs do by default."""
@@ -126,6 +130,7 @@ def load(source: Path | Traversable | None = None) -> Experiments:
         Settings(data.get("settings", {})),
         data.get("move", Stop().move),
         data.get("tolerance", Stop().tolerance),
+        data.get("tolerance_of", {}),
     )
 
 
