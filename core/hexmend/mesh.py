@@ -287,7 +287,10 @@ class Mesh:
 
     def rebuilt(self, **changes: object) -> Mesh:
         """A mesh of its own with other points, hexes, or whatever else; what is not named is taken over."""
-        return Mesh(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init} | changes)
+        mesh = Mesh(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init} | changes)
+        if self.target is not None:
+            mesh._set(_target=self.target)
+        return mesh
 
     def _copy(self, *known: str) -> Mesh:
         """A copy that shares everything, and what is known or was told under some names; nothing is checked."""

@@ -44,7 +44,7 @@ class Smooth:
 
         what, stop = chosen(args)
         write = writer_for(args.output)  # what cannot be written is said before the work, not after
-        check_targets(args.mesh, args.json, args.history, args.save_recipe)
+        check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
         mesh = read(args.mesh, as_is=args.as_is)
         say_notes(mesh)
         say_diagnosis(args.mesh, mesh)

@@ -58,8 +58,14 @@ def repair(mesh: Mesh, only: Sequence[str] = ()) -> tuple[Mesh, tuple[Finding, .
     mended = []
     for name in only:
         AILMENTS[name]
-    for one in _ordered():
-        if (not only or one.name in only) and (found := one.find(mesh)) is not None and found.mendable:
-            mesh = one.mend(mesh)
-            mended.append(found)
+    asked = [one for one in _ordered() if not only or one.name in only]
+    changed = True
+    while changed:  # merging nodes may make duplicates, and so on
+        changed = False
+        for one in asked:
+            found = one.find(mesh)
+            after = one.mend(mesh) if found is not None and found.mendable else mesh
+            if after is not mesh:
+                mesh, changed = after, True
+                mended.append(found)
     return mesh, tuple(mended)

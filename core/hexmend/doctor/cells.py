@@ -48,7 +48,10 @@ class DuplicateHexes(Ailment):
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        return with_hexes(mesh, ~_repeated(np.sort(mesh.hexes, axis=1)))
+        rows = np.sort(mesh.hexes, axis=1)
+        again = _repeated(rows)
+        _, first, which = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        return with_hexes(mesh, ~again, stands_for=first[which.reshape(-1)])
 
 
 @ailment
@@ -57,7 +60,9 @@ class DegenerateHexes(Ailment):
 
     name, title = "degenerate-hexes", "Collapsed hexes"
     rank = 5
-    action = "keep those that are wedges as wedges, whose nodes are fixed, and remove flat ones"
+    action = (
+        "keep wedges as wedges, whose nodes are fixed, and remove flat ones; faces of side sets on them are left out"
+    )
 
     def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
         which = np.flatnonzero(_collapsed(mesh))
@@ -69,7 +74,7 @@ class DegenerateHexes(Ailment):
             self.name, which.size,
             f"{counted(which.size, 'hex uses', 'hexes use')} a node twice, so that edges are collapsed"
             f"{'; ' + kinds if kinds else ''}: as hexes they can never be good.",
-            "Make them wedges, or mesh them anew.", bool(len(wedges) + len(flat)), which,
+            "Make them wedges, or mesh them anew.", 0 < len(wedges) + len(flat) < mesh.n_hexes, which,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -85,7 +90,10 @@ class DegenerateHexes(Ailment):
         if wedges:
             nodes = np.array(list(wedges.values()), dtype=np.int32)
             pinned[nodes] = True
-            cells = (*cells, Cells("wedge", nodes))
+            which = np.array(list(wedges))
+            data = {name: np.asarray(values)[which] for name, values in mesh.hex_data.items()}
+            sets = {name: np.flatnonzero(np.isin(which, members)) for name, members in mesh.hex_sets.items()}
+            cells = (*cells, Cells("wedge", nodes, data, {name: rows for name, rows in sets.items() if rows.size}))
         return with_hexes(mesh, kept).replace(cells=cells, pinned=pinned)
 
 

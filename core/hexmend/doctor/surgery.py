@@ -7,17 +7,30 @@ import numpy as np
 from hexmend.mesh import Cells, Mesh
 
 
-def with_hexes(mesh: Mesh, kept: np.ndarray) -> Mesh:
-    """The mesh of some of its hexes, (m,) bool or numbers; all nodes stay."""
-    rows = np.flatnonzero(kept) if np.asarray(kept).dtype == bool else np.asarray(kept)
+def with_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = None) -> Mesh:
+    """The mesh of some of its hexes; all nodes stay.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    kept : (m,) bool
+    stands_for : (m,) int, optional
+        The hex whose place in sets each one takes, where that is another: of a duplicate the one that is kept.
+    """
+    rows = np.flatnonzero(kept)
     place = np.full(mesh.n_hexes, -1)
     place[rows] = np.arange(len(rows))
-    sides = {name: np.column_stack([place[rows[:, 0]], rows[:, 1]]) for name, rows in mesh.side_sets.items()}
+    if stands_for is not None:
+        place = place[stands_for]
+    sides = {
+        name: np.column_stack([place[np.asarray(faces)[:, 0]], np.asarray(faces)[:, 1]])
+        for name, faces in mesh.side_sets.items()
+    }
     return mesh.rebuilt(
         hexes=mesh.hexes[rows],
         hex_data={name: np.asarray(values)[rows] for name, values in mesh.hex_data.items()},
         hex_sets=_kept_sets(mesh.hex_sets, place),
-        side_sets={name: rows[rows[:, 0] >= 0] for name, rows in sides.items() if (rows[:, 0] >= 0).any()},
+        side_sets={name: faces[faces[:, 0] >= 0] for name, faces in sides.items() if (faces[:, 0] >= 0).any()},
         mid_nodes=None if mesh.mid_nodes is None else mesh.mid_nodes[rows],
     )
 
@@ -47,12 +60,14 @@ def with_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
 
 
 def used_by_anything(mesh: Mesh) -> np.ndarray:
-    """True for each node that a hex, of whatever order, or another cell uses, (n,) bool."""
+    """True for each node that a hex, of whatever order, another cell or a named set uses, (n,) bool."""
     used = mesh.topology.used.copy()
     if mesh.mid_nodes is not None:
         used[mesh.mid_nodes[mesh.mid_nodes >= 0]] = True
     for cells in mesh.cells:
         used[cells.nodes] = True
+    for members in mesh.node_sets.values():  # a reference point, say
+        used[np.asarray(members, dtype=np.int64)] = True
     return used
 
 

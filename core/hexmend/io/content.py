@@ -12,6 +12,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.hexahedron import EDGES
 from hexmend.mesh import CELL_KINDS, Cells, Mesh, check_node_numbers
+from hexmend.second_order import SHARES
 
 #: Kinds of hexes, and how many nodes they have; in the order of VTK's types 12, 25 and 29.
 HEX_KINDS = {"hex": 8, "hex20": 20, "hex27": 27}
@@ -101,7 +102,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     volumes = [block for block in others if CELL_KINDS[block.kind].dimension == 3]
     notes, points = list(content.notes), content.points
     if PLACING.get() and not np.isfinite(points).all():
-        points, note = _placed(points, np.concatenate([block.nodes[:, :8] for block in hexes]))
+        points, note = _placed(points, hexes)
         notes.append(note)
     if volumes:
         notes.append(f"{_inventory(volumes)} beside the hexes are kept as they are, and their nodes fixed.")
@@ -179,12 +180,19 @@ def joined_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> di
     }
 
 
-def _placed(points: np.ndarray, hexes: np.ndarray) -> tuple[np.ndarray, str]:
+def _neighbours(kind: str) -> list[tuple[int, int]]:
+    """Pairs of a hex's nodes beside each other: along edges; each node of second order with the corners around."""
+    pairs = [(int(a), int(b)) for a, b in EDGES]
+    middles = range(8, HEX_KINDS[kind])
+    return pairs + [(k, int(corner)) for k in middles for corner in np.flatnonzero(SHARES[k - 8])]
+
+
+def _placed(points: np.ndarray, blocks: list[Block]) -> tuple[np.ndarray, str]:
     """Points with those that are no numbers put between their neighbours, and a note that says so."""
     points = np.array(points, dtype=np.float64)
     lost = ~np.isfinite(points).all(axis=1)
     count = int(lost.sum())
-    ends = np.concatenate([hexes[:, edge] for edge in EDGES])
+    ends = np.concatenate([block.nodes[:, edge] for block in blocks for edge in _neighbours(block.kind)])
     ends = np.concatenate([ends, ends[:, ::-1]])
     points[lost] = points[~lost].mean(axis=0) if (~lost).any() else 0.0
     known = ~lost

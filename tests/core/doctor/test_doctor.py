@@ -124,8 +124,8 @@ def test_data_sets_and_pins_follow():
     np.testing.assert_array_equal(after.hex_sets["right"], np.arange(27, 54))
     np.testing.assert_array_equal(after.cells[0].nodes[0], after.hexes[53][FACES[1]])
     fewer, _ = repair(rich.rebuilt(hexes=np.vstack([mesh.hexes[:-1], mesh.hexes[:1]])), ["duplicate-hexes"])
-    np.testing.assert_array_equal(fewer.hex_sets["right"], np.arange(27, 53))
-    assert "end" not in fewer.side_sets
+    np.testing.assert_array_equal(fewer.hex_sets["right"], [0, *range(27, 53)])
+    assert fewer.side_sets["end"].tolist() == [[0, 1]]
 
 
 def test_nodes_of_second_order_are_no_unused_ones_and_turn_with_their_hex():
@@ -237,3 +237,49 @@ def test_smooth_gives_the_diagnosis_and_the_command(mesh, tmp_path, capsys):
     io.write(tmp_path / "bad.vtu", mesh)
     main(["smooth", str(tmp_path / "bad.vtu"), "-o", str(tmp_path / "out.vtu"), "--max-iterations", "1"])
     assert f"Run: hexmend repair {tmp_path / 'bad.vtu'} -o OUT --only" in capsys.readouterr().err
+
+
+def test_a_duplicate_leaves_its_sets_and_sides_to_the_hex_that_is_kept():
+    hexes = np.vstack([SOUND.hexes, SOUND.hexes[:1]])
+    sets, sides = {"a": np.array([0]), "b": np.array([27])}, {"s": np.array([[27, 2]])}
+    after, _ = repair(Mesh(SOUND.points, hexes, hex_sets=sets, side_sets=sides))
+    assert {name: rows.tolist() for name, rows in after.hex_sets.items()} == {"a": [0], "b": [0]}
+    assert after.side_sets["s"].tolist() == [[0, 2]]
+
+
+def test_a_wedge_keeps_what_the_hex_had():
+    mesh = collapsed().replace(hex_data={"id": np.arange(27) + 7}, hex_sets={"a": np.array([0, 1])})
+    after, _ = repair(mesh, ["degenerate-hexes"])
+    (wedges,) = after.cells
+    assert wedges.data["id"].tolist() == [7]
+    assert wedges.sets["a"].tolist() == [0]
+    assert after.hex_sets["a"].tolist() == [0]
+
+
+def test_a_node_of_a_named_set_is_used():
+    mesh = Mesh(np.vstack([SOUND.points, [[9, 9, 9]]]), SOUND.hexes, node_sets={"reference point": np.array([64])})
+    assert examine(mesh) == ()
+
+
+def test_what_cannot_be_mended_is_not_said_to_be():
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1.0]])
+    mesh = Mesh(points, [[0, 1, 2, 2, 3, 4, 5, 5]])
+    assert not found_in(mesh)["degenerate-hexes"].mendable
+    after, mended = repair(mesh)
+    assert mended == ()
+    assert after is mesh
+
+
+def test_a_mesh_written_twice_is_one_mesh_again():
+    mesh = Mesh(np.vstack([SOUND.points] * 2), np.vstack([SOUND.hexes, SOUND.hexes + SOUND.n_nodes]))
+    after, mended = repair(mesh)
+    assert {finding.kind for finding in mended} == {"coincident-nodes", "duplicate-hexes"}
+    assert examine(after) == ()
+    assert after.n_hexes == SOUND.n_hexes
+
+
+def test_a_report_does_not_replace_the_result(tmp_path, capsys):
+    io.write(tmp_path / "in.vtk", SOUND)
+    out = str(tmp_path / "out.vtk")
+    assert main(["smooth", str(tmp_path / "in.vtk"), "-o", out, "--json", out]) == 3
+    assert "another file to be written" in capsys.readouterr().err

@@ -19,6 +19,7 @@ class FeatureDoctor(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._seen = Seen()
+        self._listed: tuple[Finding, ...] = ()
         self.panel = DoctorPanel()
         self.panel.show_requested.connect(self._show)
         self.panel.mend_requested.connect(self._mend)
@@ -70,14 +71,12 @@ class FeatureDoctor(Feature):
         session.examiner.ask(mesh)
         findings, error = session.examiner.of(mesh), session.examiner.error
         if self._seen.another("findings", findings, error, mesh):
+            self._listed = findings or ()
             self.panel.show_findings(findings, f"It could not be examined: {error}" if error else "")
             self.panel.set_busy(not session.editable)
 
-    def _findings(self) -> tuple[Finding, ...]:
-        return self.session.examiner.of(self.session.document.now.mesh) or ()
-
     def _show(self, row: int) -> None:
-        finding, mesh = self._findings()[row], self.session.document.now.mesh
+        finding, mesh = self._listed[row], self.session.document.now.mesh
         hexes = finding.hexes
         if not len(hexes):
             at = np.zeros(mesh.n_nodes, dtype=bool)

@@ -32,13 +32,13 @@ def say_left_out(path: str, mesh: Mesh) -> None:
         print(f"hexmend: warning: {path} cannot hold {what}, which is left out", file=sys.stderr)
 
 
-def check_targets(source: str, *targets: str | None) -> None:
+def check_targets(source: str, output: str, *targets: str | None) -> None:
     """Raise `FileError` before any work is done where a report cannot be written, or would replace the mesh itself.
 
     Parameters
     ----------
-    source : str
-        The mesh that is read.
+    source, output : str
+        The mesh that is read, and the one to be written; they may be the same.
     targets : str or None
         Files to be written besides the mesh.
     """
@@ -47,7 +47,7 @@ def check_targets(source: str, *targets: str | None) -> None:
     from hexmend.errors import FileError
     from hexmend.io.atomic import check_writable
 
-    taken: set[Path] = {Path(source).resolve()}
+    taken: set[Path] = {Path(source).resolve(), Path(output).resolve()}
     for target in targets:
         if target is None:
             continue

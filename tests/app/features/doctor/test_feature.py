@@ -10,6 +10,7 @@ from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.state.document import State
+from hexmend_app.state.run import Phase
 from tests.app.driving import press
 from tests.patience import PATIENCE
 
@@ -78,3 +79,12 @@ def test_all_is_mended_at_once_and_methods_run_on_the_mended_mesh(window, panel,
         session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
     session.commands.reset()
     assert session.document.now.mesh.n_nodes == 112
+
+
+def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
+    session = window.session
+    session.commands.step(Stage(METHODS["laplacian"](), Stop(max_iterations=30, tolerance=0)), 1)
+    qtbot.waitUntil(lambda: session.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
+    press(buttons(panel, "Show")[0])
+    assert set(range(27, 54)) == set(session.view.look.isolation.hexes)
+    session.smoothing.end_now()
