@@ -60,9 +60,7 @@ class DegenerateHexes(Ailment):
 
     name, title = "degenerate-hexes", "Collapsed hexes"
     rank = 5
-    action = (
-        "keep wedges as wedges, whose nodes are fixed, and remove flat ones; faces of side sets on them are left out"
-    )
+    action = "keep wedges as wedges, whose nodes stay, and remove flat ones, with the sides on them"
 
     def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
         which = np.flatnonzero(_collapsed(mesh))
