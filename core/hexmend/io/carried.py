@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 
-from hexmend.io.content import ID, held_by_pins
+from hexmend.io.content import ID
 from hexmend.io.format import Holds
+from hexmend.io.pins import held_by_pins
 from hexmend.mesh import Mesh
 
 

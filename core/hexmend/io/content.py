@@ -12,14 +12,12 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.hexahedron import EDGES
+from hexmend.io.pins import marks_in
 from hexmend.mesh import CELL_KINDS, Cells, Mesh, check_node_numbers
 from hexmend.second_order import SHARES
 
 #: Kinds of hexes, and how many nodes they have; in the order of VTK's types 12, 25 and 29.
 HEX_KINDS = {"hex": 8, "hex20": 20, "hex27": 27}
-
-#: Name of point data that mark fixed nodes.
-FIXED = "fixed"
 
 #: Names of data that hold the file's own numbers of nodes and cells.
 ID = "id"
@@ -250,36 +248,6 @@ def _mid_nodes(hexes: list[Block]) -> np.ndarray | None:
 def _pinned(content: Content) -> np.ndarray | None:
     """Pins of the file, or those that data named "fixed" make."""
     return content.pinned if content.pinned is not None else marks_in(content.node_data)[1]
-
-
-def marks_in(node_data: Mapping[str, np.ndarray]) -> tuple[str | None, np.ndarray | None]:
-    """Name of the data that mark fixed nodes, and which those are, (n,) bool; None where no data do.
-
-    They are the first called "fixed", in whatever capitals, with one number a node. One of 0, or NaN, is not fixed.
-    """
-    for name, values in node_data.items():
-        marks = np.asarray(values)
-        if name.lower() == FIXED and marks.ndim == 1 and marks.dtype.kind in "biuf":
-            return name, (marks != 0) & ~np.isnan(marks)
-    return None, None
-
-
-def held_by_pins(mesh: Mesh) -> str | None:
-    """Name of the data that say no more than the pins do, and need not be written beside them; None for none."""
-    name, marks = marks_in(mesh.node_data) if mesh.pinned is not None else (None, None)
-    return name if name is not None and (np.asarray(mesh.node_data[name])[marks] == 1).all() else None
-
-
-def with_marks(mesh: Mesh) -> dict[str, np.ndarray]:
-    """Data of the nodes, the pins among them as data named "fixed" unless the file said just that."""
-    data = dict(mesh.node_data)
-    if mesh.pinned is not None:
-        name, marks = marks_in(data)
-        if name is None:  # which other data may be called
-            name = next((one for one in (FIXED, FIXED.title()) if one not in data), FIXED.upper())
-        if marks is None or not np.array_equal(marks, mesh.pinned):
-            data[name] = mesh.pinned.astype(np.int32)  # what the file said, unless the pins have changed since
-    return data
 
 
 def _inventory(blocks: list[Block]) -> str:

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.content import FIXED, HEX_KINDS, ID, Block, Content, joined, joined_sets
+from hexmend.io.content import HEX_KINDS, ID, Block, Content, joined, joined_sets
 from hexmend.io.exodus_elements import FACE_OF_SIDE, FAMILIES, ORDER, PINS
 from hexmend.io.exodus_store import Store, opened
+from hexmend.io.pins import FIXED
 from hexmend.mesh import CELL_KINDS
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."

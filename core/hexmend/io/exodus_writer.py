@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.content import FIXED, ID, Block, held_by_pins, hex_blocks, unused
+from hexmend.io.content import ID, Block, hex_blocks, unused
 from hexmend.io.exodus_elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.netcdf3 import Writer
+from hexmend.io.pins import FIXED, held_by_pins
 from hexmend.mesh import Mesh
 
 #: In `int64_status`: that ids are kept in 64 bits.

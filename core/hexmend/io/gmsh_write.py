@@ -8,10 +8,11 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.io.content import Block, from_mesh, unused, with_marks
+from hexmend.io.content import Block, from_mesh, unused
 from hexmend.io.gmsh_content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
 from hexmend.io.gmsh_data import Writer, write_data
 from hexmend.io.numbering import combinations, element_numbers, node_numbers, runs
+from hexmend.io.pins import with_marks
 from hexmend.mesh import Mesh
 
 
