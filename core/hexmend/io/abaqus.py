@@ -33,7 +33,7 @@ def _recognised(head: bytes) -> bool:
     )
 
 
-HELD = (Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.SIDE_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS)
+HELD = (Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.SIDE_SETS, Holds.CELL_SETS)
 
 FORMATS.add(
     "abaqus",
@@ -44,7 +44,7 @@ FORMATS.add(
         ("ascii",),
         read,
         write,
-        holds=frozenset({*HELD, Holds.VERTICES, Holds.SECOND_ORDER}),
+        holds=frozenset({*HELD, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.VERTICES, Holds.SECOND_ORDER}),
         names=frozenset({"abaqus:type", "abaqus:types"}),
         recognised=_recognised,
     ),

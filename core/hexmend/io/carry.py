@@ -10,9 +10,10 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.hexahedron import VOXEL_ORDER
-from hexmend.io.content import FIXED, HEX_KINDS, Block, Content, joined
+from hexmend.io.content import HEX_KINDS, Block, Content, joined
 from hexmend.io.content import from_mesh as content_of
 from hexmend.io.content import to_mesh as mesh_of
+from hexmend.io.pins import with_marks
 from hexmend.mesh import CELL_KINDS, Mesh
 
 HEXAHEDRON, VOXEL, QUAD, PIXEL = 12, 11, 9, 8
@@ -117,11 +118,7 @@ def from_mesh(mesh: Mesh) -> Grid:
     """The grid that holds a mesh, hexahedra first; sets are arrays named "set:...", pins one named "fixed"."""
     content = content_of(mesh)
     lengths = [len(block) for block in content.blocks]
-    node_data = dict(content.node_data)
-    if mesh.pinned is not None:
-        name = next((name for name in node_data if name.lower() == FIXED), FIXED)
-        if name not in node_data or not np.array_equal(np.asarray(node_data[name]) != 0, mesh.pinned):
-            node_data[name] = mesh.pinned.astype(np.int32)  # what the file said, unless the pins have changed since
+    node_data = with_marks(mesh)
     for name, members in content.node_sets.items():
         node_data[_SET + name] = _mask(members, mesh.n_nodes)
     widths = np.concatenate([np.full(len(block), block.nodes.shape[1], np.int64) for block in content.blocks])

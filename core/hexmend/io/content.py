@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.hexahedron import EDGES
+from hexmend.io.pins import marks_in
 from hexmend.mesh import CELL_KINDS, Cells, Mesh, check_node_numbers
 from hexmend.second_order import SHARES
 
 #: Kinds of hexes, and how many nodes they have; in the order of VTK's types 12, 25 and 29.
 HEX_KINDS = {"hex": 8, "hex20": 20, "hex27": 27}
-
-#: Name of point data that mark fixed nodes.
-FIXED = "fixed"
 
 #: Names of data that hold the file's own numbers of nodes and cells.
 ID = "id"
@@ -129,12 +128,15 @@ def to_mesh(path: Path, content: Content) -> Mesh:
 
 def from_mesh(mesh: Mesh) -> Content:
     """The content that a file of the mesh holds: blocks of hexes first, by the number of their nodes."""
+    blocks, chosen = zip(*hex_blocks(mesh), strict=True)
+    place = np.argsort(np.concatenate(chosen))  # of each hex of the mesh, counted through the blocks
+    side_sets = {name: np.asarray(rows, np.int64).reshape(-1, 2) for name, rows in mesh.side_sets.items()}
     return Content(
         mesh.points,
-        (*(block for block, _ in hex_blocks(mesh)), *(Block(c.kind, c.nodes, c.data, c.sets) for c in mesh.cells)),
+        (*blocks, *(Block(c.kind, c.nodes, c.data, c.sets) for c in mesh.cells)),
         mesh.node_data,
         mesh.node_sets,
-        mesh.side_sets,
+        {name: np.column_stack([place[rows[:, 0]], rows[:, 1]]) for name, rows in side_sets.items()},
         mesh.pinned,
         mesh.field_data,
     )
@@ -158,17 +160,40 @@ def hex_blocks(mesh: Mesh) -> Iterator[tuple[Block, np.ndarray]]:
 
 
 def joined(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
-    """One array over all cells for each name; zeros where a block has none of that name."""
-    answer = {}
-    for name in dict.fromkeys(name for part in parts for name in part):
-        sample = next(np.asarray(part[name]) for part in parts if name in part)
-        arrays = [
-            np.asarray(part[name]) if name in part else np.zeros((length, *sample.shape[1:]), sample.dtype)
-            for part, length in zip(parts, lengths, strict=True)
-        ]
-        if all(array.shape[1:] == sample.shape[1:] for array in arrays):
-            answer[name] = np.concatenate(arrays)
+    """One array over all cells for each name; where a block has none of it, reals are NaN and all else is zero.
+
+    Arrays of one name that have other widths, or are no numbers as the first are, go by that name and a number:
+    "stress", "stress_2".
+    """
+    named = [{name: np.asarray(values) for name, values in part.items()} for part in parts]
+    answer: dict[str, np.ndarray] = {}
+    taken = {name for part in named for name in part}
+    for name in dict.fromkeys(name for part in named for name in part):
+        sorts = dict.fromkeys(_sort(part[name]) for part in named if name in part)
+        for k, sort in enumerate(sorts):
+            alike = [part.get(name) if name in part and _sort(part[name]) == sort else None for part in named]
+            title = unused(name, taken) if k else name
+            answer[title] = np.concatenate(
+                [_missing(alike, length) if one is None else one for one, length in zip(alike, lengths, strict=True)]
+            )
+            taken.add(title)
     return answer
+
+
+def unused(name: str, taken: Collection[str]) -> str:
+    """A name that is none of those taken: with a number behind it, from 2."""
+    return next(title for k in count(2) if (title := f"{name}_{k}") not in taken)
+
+
+def _sort(values: np.ndarray) -> tuple[tuple[int, ...], bool]:
+    """What arrays must have in common to be one: the shape of a row, and whether it holds numbers."""
+    return values.shape[1:], values.dtype.kind in "biufc"
+
+
+def _missing(arrays: list[np.ndarray | None], length: int) -> np.ndarray:
+    """Values for cells that have none, like those of other cells."""
+    one = next(one for one in arrays if one is not None)
+    return np.full((length, *one.shape[1:]), np.nan if one.dtype.kind in "fc" else np.zeros(1, one.dtype)[0], one.dtype)
 
 
 def joined_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
@@ -222,10 +247,7 @@ def _mid_nodes(hexes: list[Block]) -> np.ndarray | None:
 
 def _pinned(content: Content) -> np.ndarray | None:
     """Pins of the file, or those that data named "fixed" make."""
-    if content.pinned is not None:
-        return content.pinned
-    marks = [np.asarray(v) for k, v in content.node_data.items() if k.lower() == FIXED and np.ndim(v) == 1]
-    return marks[0] != 0 if marks and marks[0].dtype.kind in "biuf" else None
+    return content.pinned if content.pinned is not None else marks_in(content.node_data)[1]
 
 
 def _inventory(blocks: list[Block]) -> str:

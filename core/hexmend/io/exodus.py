@@ -49,7 +49,7 @@ FORMATS.add(
         frozenset(
             {
                 Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.SIDE_SETS,
-                Holds.PINS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER,
+                Holds.PINS, Holds.CELL_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER,
             }
         ),
         recognised=recognised,

@@ -46,3 +46,6 @@ TYPES = {
     "wedge15": "WEDGE15", "pyramid": "PYRAMID5", "pyramid13": "PYRAMID13", "quad": "SHELL4", "quad8": "SHELL8",
     "quad9": "SHELL9", "triangle": "TRI3", "triangle6": "TRI6", "line": "BAR2", "line3": "BAR3", "vertex": "SPHERE",
 }  # fmt: skip
+
+#: Name of the property that is 1 of the set of nodes that holds the pins, and 0 of others.
+PINS = "hexmend_pins"

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.content import FIXED, HEX_KINDS, ID, Block, Content, joined, joined_sets
-from hexmend.io.exodus_elements import FACE_OF_SIDE, FAMILIES, ORDER
+from hexmend.io.content import HEX_KINDS, ID, Block, Content, joined, joined_sets
+from hexmend.io.exodus_elements import FACE_OF_SIDE, FAMILIES, ORDER, PINS
 from hexmend.io.exodus_store import Store, opened
+from hexmend.io.pins import FIXED
 from hexmend.mesh import CELL_KINDS
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
@@ -39,11 +40,7 @@ class _Reader:
     def content(self) -> Content:
         points = self.points()
         blocks, numbers = self.blocks()
-        node_sets = self.node_sets()
-        pinned = None
-        for name in [name for name in node_sets if name.lower() == FIXED]:
-            pinned = np.zeros(self.n_nodes, bool)
-            pinned[node_sets.pop(name)] = True
+        node_sets, pinned = self.node_sets()
         node_data = self.variables("nod", "", self.n_nodes)
         if "node_num_map" in self.store:
             node_data[ID] = self.whole("node_num_map", self.n_nodes)
@@ -135,13 +132,22 @@ class _Reader:
             for j in range(width)
         }
 
-    def node_sets(self) -> dict[str, np.ndarray]:
+    def node_sets(self) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
+        """Sets of nodes by name, and pins: the set that is marked as such, else what sets called "fixed" hold."""
         ids = self.ids("ns_prop1", "num_node_sets")
-        answer = {}
+        marked = "ns_prop2" in self.store and self.store.attribute("ns_prop2", "name") == PINS
+        marks = self.whole("ns_prop2", len(ids)) if marked else None
+        answer, pinned = {}, None
         for k, name in enumerate(self.names("ns_names", ids, "node set"), 1):
-            if f"node_ns{k}" in self.store:
-                answer[name] = self.members(f"node_ns{k}", f"num_nod_ns{k}", self.n_nodes, "nodes")
-        return answer
+            if f"node_ns{k}" not in self.store:
+                continue
+            members = self.members(f"node_ns{k}", f"num_nod_ns{k}", self.n_nodes, "nodes")
+            if name.lower() == FIXED if marks is None else marks[k - 1]:
+                pinned = np.zeros(self.n_nodes, bool) if pinned is None else pinned
+                pinned[members] = True
+            if marks is None or not marks[k - 1]:
+                answer[name] = members
+        return answer, pinned
 
     def element_sets(self, blocks: list[Block], numbers: list[np.ndarray]) -> None:
         """Add the sets of elements to the blocks that their members are in."""

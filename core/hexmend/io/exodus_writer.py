@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.content import FIXED, ID, Block, hex_blocks
-from hexmend.io.exodus_elements import ORDER, SIDE_OF_FACE, TYPES
+from hexmend.io.content import ID, Block, hex_blocks, unused
+from hexmend.io.exodus_elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.netcdf3 import Writer
+from hexmend.io.pins import FIXED, held_by_pins
 from hexmend.mesh import Mesh
 
 #: In `int64_status`: that ids are kept in 64 bits.
@@ -22,7 +23,7 @@ def write(path: Path, mesh: Mesh) -> None:
     """Write a mesh.
 
     Elements keep their order. A named set of consecutive ones becomes a block of elements, another one an element
-    set; pins become a node set called "fixed".
+    set; pins become a node set called "fixed", which its property `PINS` tells from other sets.
     """
     parts, numbers = [], np.empty(mesh.n_hexes, np.int64)
     for block, chosen in hex_blocks(mesh):
@@ -48,7 +49,7 @@ def write(path: Path, mesh: Mesh) -> None:
     _add_node_sets(file, mesh)
     _add_element_sets(file, parts, blocks)
     _add_side_sets(file, mesh, numbers)
-    nodes = _columns({name: values for name, values in mesh.node_data.items() if name.lower() != FIXED})
+    nodes = _columns({name: values for name, values in mesh.node_data.items() if name != held_by_pins(mesh)})
     cells = [_columns(block.data) for block in blocks]
     file.add("time_whole", {"time_step": 0}, np.zeros(int(bool(nodes) or any(cells))))
     _add_results(file, nodes, cells)
@@ -109,10 +110,13 @@ def _add_ids(file: Writer, mesh: Mesh, parts: list[Block]) -> None:
 
 
 def _add_node_sets(file: Writer, mesh: Mesh) -> None:
-    sets = {name: np.asarray(members) for name, members in mesh.node_sets.items() if len(members)}
+    pins, sets = "", {name: np.asarray(members) for name, members in mesh.node_sets.items() if len(members)}
     if mesh.pinned is not None and mesh.pinned.any():
-        sets[FIXED] = np.union1d(sets.get(FIXED, np.empty(0, np.int64)), np.flatnonzero(mesh.pinned))
+        pins = unused(FIXED, sets) if FIXED in sets else FIXED
+        sets[pins] = np.flatnonzero(mesh.pinned)
     _add_list(file, "ns", "num_node_sets", list(sets))
+    if sets:  # so that no set is taken for the pins by its name
+        file.add("ns_prop2", {"num_node_sets": len(sets)}, np.array([one == pins for one in sets], np.int32), name=PINS)
     for k, members in enumerate(sets.values(), 1):
         file.add(f"node_ns{k}", {f"num_nod_ns{k}": len(members)}, members + 1)
 

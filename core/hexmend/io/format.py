@@ -19,6 +19,7 @@ class Holds(Enum):
     IDS = "ids of nodes and elements"
     NODE_SETS = "node sets"
     HEX_SETS = "element sets"
+    CELL_SETS = "sets of cells of lower dimension"
     SIDE_SETS = "side sets"
     PINS = "fixed nodes"
     LOWER_CELLS = "cells of lower dimension"

@@ -37,7 +37,7 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset({*HELD, Holds.VERTICES, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
+        holds=frozenset({*HELD, Holds.VERTICES, Holds.CELL_SETS, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
         names=frozenset({"gmsh:physical"}),
         recognised=_recognised,
     ),

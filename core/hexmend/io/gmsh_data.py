@@ -6,12 +6,11 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.io.content import FIXED, ID
+from hexmend.io.content import ID
 from hexmend.io.decimals import blocks as parts_of
 from hexmend.io.decimals import lines
 from hexmend.io.gmsh_content import Data, Read
 from hexmend.io.source import Source
-from hexmend.mesh import Mesh
 
 #: The sections, and what their rows belong to.
 DATA = {"$NodeData": "nodes", "$ElementData": "elements"}
@@ -75,16 +74,6 @@ class Writer:
 
     def end(self, name: bytes) -> None:
         self.file.write((b"\n" if self.binary else b"") + b"$End%s\n" % name)
-
-
-def pinned_data(mesh: Mesh) -> dict[str, np.ndarray]:
-    """Data of the nodes; pins, unless the file said just that, as data named "fixed"."""
-    data = {name: np.asarray(values) for name, values in mesh.node_data.items()}
-    if mesh.pinned is not None:
-        name = next((name for name in data if name.lower() == FIXED), FIXED)
-        if name not in data or not np.array_equal(data[name] != 0, mesh.pinned):
-            data[name] = mesh.pinned.astype(np.int32)
-    return data
 
 
 def write_data(out: Writer, key: str, name: str, tags: list[np.ndarray], data: list[np.ndarray]) -> None:

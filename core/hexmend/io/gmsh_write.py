@@ -8,10 +8,11 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.io.content import Block, from_mesh
+from hexmend.io.content import Block, from_mesh, unused
 from hexmend.io.gmsh_content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
-from hexmend.io.gmsh_data import Writer, pinned_data, write_data
+from hexmend.io.gmsh_data import Writer, write_data
 from hexmend.io.numbering import combinations, element_numbers, node_numbers, runs
+from hexmend.io.pins import with_marks
 from hexmend.mesh import Mesh
 
 
@@ -31,12 +32,25 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         _write_nodes(out, content.points, tags, next(tag for dimension, tag in entities if dimension == 3))
         numbers = element_numbers(content.blocks)
         _write_elements(out, content.blocks, of_block, numbers, tags)
-        for name, values in pinned_data(mesh).items():
-            write_data(out, "$NodeData", name, [tags], [values])
-        for name in dict.fromkeys(name for block in content.blocks for name in block.data):
-            having = [k for k, block in enumerate(content.blocks) if name in block.data]
-            data = [np.asarray(content.blocks[k].data[name]) for k in having]
-            write_data(out, "$ElementData", name, [numbers[k] for k in having], data)
+        for name, values in with_marks(mesh).items():
+            write_data(out, "$NodeData", name, [tags], [np.asarray(values)])
+        for name, parts in _alike(content.blocks).items():
+            write_data(out, "$ElementData", name, [numbers[k] for k in parts], list(parts.values()))
+
+
+def _alike(blocks: tuple[Block, ...]) -> dict[str, dict[int, np.ndarray]]:
+    """Arrays by name and block; those of one name but other widths go by that name and a number."""
+    answer: dict[str, dict[int, np.ndarray]] = {}
+    names = dict.fromkeys(name for block in blocks for name in block.data)
+    for name in names:
+        titles: dict[tuple[int, ...], str] = {}
+        for k, block in enumerate(blocks):
+            if name in block.data:
+                values = np.asarray(block.data[name])
+                if values.shape[1:] not in titles:
+                    titles[values.shape[1:]] = unused(name, {*names, *answer}) if titles else name
+                answer.setdefault(titles[values.shape[1:]], {})[k] = values
+    return answer
 
 
 def _entities(

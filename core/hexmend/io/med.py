@@ -153,7 +153,7 @@ FORMATS.add(
         ("binary",),
         read,
         write,
-        holds=frozenset({*HELD, Holds.VERTICES}),
+        holds=frozenset({*HELD, Holds.CELL_SETS, Holds.VERTICES}),
         recognised=_recognised,
     ),
 )

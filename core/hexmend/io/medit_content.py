@@ -60,7 +60,7 @@ _FLAGS = (
 )
 #: What the format holds, and which names of data and sets.
 HELD = frozenset({Holds.PINS, Holds.LOWER_CELLS, Holds.OTHER_CELLS})
-NAMES_HELD = frozenset({REF, "corners", "required"})
+NAMES_HELD = frozenset({REF, "corners", "required", *(flag for _, _, flag in _FLAGS)})
 _NODE_SETS = {"Corners": "corners", "RequiredVertices": "required"}
 
 

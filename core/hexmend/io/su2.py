@@ -187,6 +187,13 @@ def _recognised(head: bytes) -> bool:
 FORMATS.add(
     "su2",
     Format(
-        "su2", "SU2", (".su2",), ("ascii",), read, write, holds=frozenset({Holds.OTHER_CELLS}), recognised=_recognised
+        "su2",
+        "SU2",
+        (".su2",),
+        ("ascii",),
+        read,
+        write,
+        holds=frozenset({Holds.OTHER_CELLS, Holds.CELL_SETS}),
+        recognised=_recognised,
     ),
 )

@@ -248,3 +248,21 @@ def test_elements_of_other_types_and_what_names_them_are_left_out_and_said(tmp_p
     assert any("2 elements of other types (COH3D8)" in note for note in mesh.notes)
     assert any("1 members of sets that do not exist" in note for note in mesh.notes)
     assert any("4 entries of surfaces" in note for note in mesh.notes)
+
+
+def test_surfaces_stay_on_their_elements_where_those_of_second_order_come_first(tmp_path):
+    """Hexes are written by the number of their nodes."""
+    far = "".join(f"{k}, {x + 5:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 21))
+    middles = "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(MID_PLACES[:12], 9))
+    deck = (
+        f"*NODE\n{cube()}{middles}{far}*ELEMENT, TYPE=C3D20\n100, {', '.join(map(str, range(1, 16)))},\n"
+        "16, 17, 18, 19, 20\n*ELEMENT, TYPE=C3D8\n200, 21, 22, 23, 24, 25, 26, 27, 28\n"
+        "*SURFACE, NAME=S\n100, S1\n"
+    )
+    mesh = read(deck, tmp_path)
+    io.write(tmp_path / "b.inp", mesh)
+    back = io.read(tmp_path / "b.inp")
+    for one in (mesh, back):
+        ((hexa, face),) = one.side_sets["S"]
+        assert one.hex_data["id"][hexa] == 100
+        assert {tuple(p) for p in one.points[one.hexes[hexa][FACES[face]]]} == {tuple(p) for p in UNIT_CUBE[:4]}

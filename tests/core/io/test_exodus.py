@@ -137,7 +137,7 @@ def test_blocks_sets_ids_attributes_and_the_last_step_are_read(tmp_path):
     assert set(lid.sets) == {"lid", "element set 4"}
     np.testing.assert_array_equal(mesh.node_data["v"], np.arange(27)[:, None] * [1.0, 2, 3])
     np.testing.assert_array_equal(mesh.node_data["T"], np.arange(27) * 4.0)
-    assert mesh.hex_data["p"].tolist() == [0, 0, 0, 0, 0, 3, 4, 5]
+    np.testing.assert_array_equal(mesh.hex_data["p"], [*[np.nan] * 5, 3, 4, 5])  # the first block has no such variable
 
 
 def rich() -> Mesh:
@@ -309,3 +309,24 @@ def test_cells_of_unknown_types_are_left_out_and_that_is_said(tmp_path):
     mesh = io.read(written(tmp_path / "u.exo", UNIT_CUBE, blocks))
     assert mesh.n_hexes == 1
     assert any("RICH" in note for note in mesh.notes)
+
+
+def test_a_set_of_nodes_called_fixed_makes_pins_and_stays_a_set(tmp_path):
+    more = [
+        ("ns_names", ("num_node_sets", "len_name"), letters(["Fixed", "FIXED"])),
+        ("node_ns1", ("num_nod_ns1",), np.array([1, 3], np.int32)),
+        ("node_ns2", ("num_nod_ns2",), np.array([8], np.int32)),
+    ]
+    mesh = io.read(written(tmp_path / "f.exo", UNIT_CUBE, [("HEX", "", [range(1, 9)])], more))
+    assert np.flatnonzero(mesh.pinned).tolist() == [0, 2, 7]
+    assert {name: one.tolist() for name, one in mesh.node_sets.items()} == {"Fixed": [0, 2], "FIXED": [7]}
+
+
+@pytest.mark.parametrize("pins", [[], [1, 4]])
+@pytest.mark.parametrize("name", ["fixed", "Fixed"])
+def test_pins_and_sets_called_fixed_are_kept_apart(name, pins, tmp_path):
+    mesh = grid(2).replace(node_sets={name: np.array([0, 9])}, pinned=np.isin(np.arange(27), pins))
+    io.write(tmp_path / "f.exo", mesh)
+    back = io.read(tmp_path / "f.exo")
+    assert np.flatnonzero(back.pinned if back.pinned is not None else []).tolist() == pins
+    assert {key: one.tolist() for key, one in back.node_sets.items()} == {name: [0, 9]}

@@ -168,3 +168,14 @@ def test_data_of_some_nodes_is_no_number_for_the_others(tmp_path):
     mesh = io.read(tmp_path / "a.msh")
     np.testing.assert_array_equal(mesh.node_data["heat"], [2.5, np.nan, 1.5] + [np.nan] * 5)
     assert mesh.hex_data["flow"].tolist() == [[1, 2, 3]]
+
+
+def test_data_called_fixed_of_some_nodes_fix_these_alone(tmp_path):
+    io.write(tmp_path / "a.msh", grid(2), encoding="ascii")
+    data = '$NodeData\n1\n"fixed"\n1\n0\n3\n0\n1\n2\n14 1\n3 0\n$EndNodeData\n'
+    with open(tmp_path / "a.msh", "a") as file:
+        file.write(data)
+    mesh = io.read(tmp_path / "a.msh")
+    assert np.flatnonzero(mesh.pinned).tolist() == [13]
+    io.write(tmp_path / "b.vtu", mesh)
+    assert np.flatnonzero(io.read(tmp_path / "b.vtu").pinned).tolist() == [13]

@@ -26,11 +26,11 @@ def quadratic(width):
     return Mesh(points, rows[:, :8], mid_nodes=np.pad(rows[:, 8:], ((0, 0), (0, 27 - width)), constant_values=-1))
 
 
-def beside(kind, nodes, more=()):
+def beside(kind, nodes, more=(), **said):
     """The grid and cells of another kind."""
     mesh = grid(2)
     points = np.vstack([mesh.points, np.reshape(np.array(more, float), (-1, 3))])
-    return Mesh(points, mesh.hexes, cells=(Cells(kind, np.array(nodes, np.int32)),))
+    return Mesh(points, mesh.hexes, cells=(Cells(kind, np.array(nodes, np.int32), **said),))
 
 
 #: Meshes that each have one thing; the numbers are such as every decimal and binary form holds.
@@ -47,6 +47,7 @@ MESHES = {
     Holds.NODE_SETS: [grid(2).replace(node_sets={"inlet": np.array([0, 3, 26]), "all": np.arange(27)})],
     Holds.HEX_SETS: [grid(2).replace(hex_sets={"steel": np.array([1, 4]), "air": np.array([0, 2, 3, 5, 6, 7])})],
     Holds.SIDE_SETS: [grid(2).replace(side_sets={"wall": np.array([[0, 0], [0, 2], [7, 5]]), "top": np.array([[5, 1]])})],
+    Holds.CELL_SETS: [beside("quad", grid(2).topology.boundary_faces[:3], sets={"inlet": [0, 2], "wall": [1]})],
     Holds.PINS: [grid(3).replace(pinned=np.isin(np.arange(64), [21, 22]))],
     Holds.LOWER_CELLS: [
         beside("line", [[0, 1], [1, 2]]),
@@ -78,6 +79,13 @@ def same_sets(a, b):
         np.testing.assert_array_equal(np.unique(b[name], axis=0), np.unique(members, axis=0))
 
 
+def same_members(a, b):
+    """The cells of each set are the same, in whatever order they stand."""
+    assert set(a.sets) <= set(b.sets)
+    for name, members in a.sets.items():
+        np.testing.assert_array_equal(np.unique(b.nodes[b.sets[name]], axis=0), np.unique(a.nodes[members], axis=0))
+
+
 def same_cells(a, b):
     assert [(one.kind, one.nodes.tolist()) for one in a.cells] == [(one.kind, one.nodes.tolist()) for one in b.cells]
 
@@ -89,6 +97,7 @@ COMPARED = {
     Holds.NODE_SETS: lambda a, b: same_sets(a.node_sets, b.node_sets),
     Holds.HEX_SETS: lambda a, b: same_sets(a.hex_sets, b.hex_sets),
     Holds.SIDE_SETS: lambda a, b: same_sets(a.side_sets, b.side_sets),
+    Holds.CELL_SETS: lambda a, b: [same_members(*pair) for pair in zip(a.cells, b.cells, strict=True)],
     Holds.PINS: lambda a, b: np.testing.assert_array_equal(a.fixed, b.fixed),
     Holds.LOWER_CELLS: same_cells,
     Holds.VERTICES: same_cells,
@@ -132,3 +141,46 @@ def test_what_a_format_does_not_hold_does_not_keep_the_mesh_from_being_written(n
             path = tmp_path / f"a{format.suffixes[0]}"
             io.write(path, mesh, encoding=encoding)
             assert io.read(path).n_hexes == mesh.n_hexes
+
+
+@pytest.mark.parametrize(("name", "format"), FORMATS.items())
+def test_what_is_said_of_other_cells_is_held_or_named(name, format):
+    if format.write is None:
+        return
+    faces = grid(2).topology.boundary_faces[:2]
+    left = io.left_out(f"a{format.suffixes[0]}", beside("quad", faces, data={"h": [1.0, 2.0]}, sets={"inlet": [0]}))
+    assert ("cell data (h)" in left) == (Holds.HEX_DATA not in format.holds)
+    assert ("sets of cells of lower dimension (inlet)" in left) == (Holds.CELL_SETS not in format.holds)
+    tetra = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]], sets={"solid": [0]})
+    assert ("element sets (solid)" in io.left_out(f"a{format.suffixes[0]}", tetra)) == (
+        Holds.HEX_SETS not in format.holds
+    )
+
+
+@pytest.mark.parametrize("values", [np.ones((27, 3)), np.full(27, 2)], ids=["of three columns", "of no mask"])
+@pytest.mark.parametrize(("name", "encoding"), WAYS)
+def test_data_called_fixed_that_say_more_than_pins_are_held_or_named(name, encoding, values, tmp_path):
+    path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
+    pinned = np.arange(27) == 13 if values.ndim > 1 else np.ones(27, bool)
+    mesh = grid(2).replace(node_data={"fixed": values}, pinned=pinned)
+    if Holds.NODE_DATA not in FORMATS[name].holds:
+        assert "point data (fixed)" in io.left_out(path, mesh)
+        return
+    io.write(path, mesh, encoding=encoding)
+    back = io.read(path)
+    np.testing.assert_array_equal(back.node_data["fixed"], values)
+    np.testing.assert_array_equal(back.pinned, pinned)
+
+
+@pytest.mark.parametrize(("name", "encoding"), WAYS)
+def test_data_of_one_name_and_other_widths_are_all_kept(name, encoding, tmp_path):
+    if Holds.HEX_DATA not in FORMATS[name].holds:
+        return
+    path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
+    mesh = beside("quad", grid(2).topology.boundary_faces[:2], data={"h": np.arange(6.0).reshape(2, 3)})
+    io.write(path, mesh.replace(hex_data={"h": np.arange(8.0)}), encoding=encoding)
+    back = io.read(path)
+    np.testing.assert_array_equal(back.hex_data["h"], np.arange(8.0))
+    (quads,) = back.cells
+    kept = [values for values in quads.data.values() if np.shape(values) == (2, 3)]
+    np.testing.assert_array_equal(kept, [np.arange(6.0).reshape(2, 3)])

@@ -1,0 +1,42 @@
+"""Pins as data of the nodes named "fixed", for formats that have nothing else to mark fixed nodes with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+
+#: Name of point data that mark fixed nodes.
+FIXED = "fixed"
+
+
+def marks_in(node_data: Mapping[str, np.ndarray]) -> tuple[str | None, np.ndarray | None]:
+    """Name of the data that mark fixed nodes, and which those are, (n,) bool; None where no data do.
+
+    They are the first called "fixed", in whatever capitals, with one number a node. One of 0, or NaN, is not fixed.
+    """
+    for name, values in node_data.items():
+        marks = np.asarray(values)
+        if name.lower() == FIXED and marks.ndim == 1 and marks.dtype.kind in "biuf":
+            return name, (marks != 0) & ~np.isnan(marks)
+    return None, None
+
+
+def held_by_pins(mesh: Mesh) -> str | None:
+    """Name of the data that say no more than the pins do, and need not be written beside them; None for none."""
+    name, marks = marks_in(mesh.node_data) if mesh.pinned is not None else (None, None)
+    return name if name is not None and (np.asarray(mesh.node_data[name])[marks] == 1).all() else None
+
+
+def with_marks(mesh: Mesh) -> dict[str, np.ndarray]:
+    """Data of the nodes, the pins among them as data named "fixed" unless the file said just that."""
+    data = dict(mesh.node_data)
+    if mesh.pinned is not None:
+        name, marks = marks_in(data)
+        if name is None:  # which other data may be called
+            name = next((one for one in (FIXED, FIXED.title()) if one not in data), FIXED.upper())
+        if marks is None or not np.array_equal(marks, mesh.pinned):
+            data[name] = mesh.pinned.astype(np.int32)  # what the file said, unless the pins have changed since
+    return data
