@@ -11,6 +11,7 @@ import numpy as np
 
 from hexmend.io.content import FIXED, ID, Block, hex_blocks
 from hexmend.io.exodus_elements import ORDER, SIDE_OF_FACE, TYPES
+from hexmend.io.exodus_ids import IDS, ids_of
 from hexmend.io.netcdf3 import Writer
 from hexmend.mesh import Mesh
 
@@ -43,10 +44,10 @@ def write(path: Path, mesh: Mesh) -> None:
         }
     )
     _add_points(file, mesh)
-    _add_blocks(file, blocks)
+    _add_blocks(file, mesh, blocks)
     _add_ids(file, mesh, parts)
     _add_node_sets(file, mesh)
-    _add_element_sets(file, parts, blocks)
+    _add_element_sets(file, mesh, parts, blocks)
     _add_side_sets(file, mesh, numbers)
     nodes = _columns({name: values for name, values in mesh.node_data.items() if name.lower() != FIXED})
     cells = [_columns(block.data) for block in blocks]
@@ -84,9 +85,9 @@ def _add_points(file: Writer, mesh: Mesh) -> None:
     file.add_text("coor_names", "num_dim", ["x", "y", "z"])
 
 
-def _add_blocks(file: Writer, blocks: list[_Piece]) -> None:
+def _add_blocks(file: Writer, mesh: Mesh, blocks: list[_Piece]) -> None:
     file.dimensions["num_elem"] = sum(len(block) for block in blocks)
-    _add_list(file, "eb", "num_el_blk", [block.name for block in blocks])
+    _add_list(file, mesh, "eb", "num_el_blk", [block.name for block in blocks])
     for k, block in enumerate(blocks, 1):
         nodes = block.nodes
         if block.kind in ORDER:
@@ -112,12 +113,12 @@ def _add_node_sets(file: Writer, mesh: Mesh) -> None:
     sets = {name: np.asarray(members) for name, members in mesh.node_sets.items() if len(members)}
     if mesh.pinned is not None and mesh.pinned.any():
         sets[FIXED] = np.union1d(sets.get(FIXED, np.empty(0, np.int64)), np.flatnonzero(mesh.pinned))
-    _add_list(file, "ns", "num_node_sets", list(sets))
+    _add_list(file, mesh, "ns", "num_node_sets", list(sets))
     for k, members in enumerate(sets.values(), 1):
         file.add(f"node_ns{k}", {f"num_nod_ns{k}": len(members)}, members + 1)
 
 
-def _add_element_sets(file: Writer, parts: list[Block], blocks: list[_Piece]) -> None:
+def _add_element_sets(file: Writer, mesh: Mesh, parts: list[Block], blocks: list[_Piece]) -> None:
     sets: dict[str, list[np.ndarray]] = {}
     named, first = {block.name for block in blocks}, 0
     for part in parts:
@@ -125,7 +126,7 @@ def _add_element_sets(file: Writer, parts: list[Block], blocks: list[_Piece]) ->
             if name not in named and len(members):
                 sets.setdefault(name, []).append(np.asarray(members) + first)
         first += len(part)
-    _add_list(file, "els", "num_elem_sets", list(sets))
+    _add_list(file, mesh, "els", "num_elem_sets", list(sets))
     for k, members in enumerate(sets.values(), 1):
         members = np.concatenate(members)
         file.add(f"elem_els{k}", {f"num_ele_els{k}": len(members)}, members + 1)
@@ -133,7 +134,7 @@ def _add_element_sets(file: Writer, parts: list[Block], blocks: list[_Piece]) ->
 
 def _add_side_sets(file: Writer, mesh: Mesh, numbers: np.ndarray) -> None:
     sets = {name: np.asarray(rows) for name, rows in mesh.side_sets.items() if len(rows)}
-    _add_list(file, "ss", "num_side_sets", list(sets))
+    _add_list(file, mesh, "ss", "num_side_sets", list(sets))
     for k, rows in enumerate(sets.values(), 1):
         shape = {f"num_side_ss{k}": len(rows)}
         file.add(f"elem_ss{k}", shape, numbers[rows[:, 0]] + 1)
@@ -172,12 +173,12 @@ def _columns(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     return answer
 
 
-def _add_list(file: Writer, start: str, dimension: str, names: list[str]) -> None:
+def _add_list(file: Writer, mesh: Mesh, start: str, dimension: str, names: list[str]) -> None:
     """Ids, states and names of the blocks or sets of one sort."""
     if names:
         shape = {dimension: len(names)}
         file.add(f"{start}_status", shape, np.ones(len(names), np.int32))
-        file.add(f"{start}_prop1", shape, np.arange(1, len(names) + 1), name="ID")
+        file.add(f"{start}_prop1", shape, np.array(ids_of(mesh.field_data.get(IDS), start, names)), name="ID")
         file.add_text(f"{start}_names", dimension, names)
 
 
