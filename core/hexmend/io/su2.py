@@ -13,7 +13,7 @@ from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.decimals import blocks as parts_of
 from hexmend.io.decimals import lines
 from hexmend.io.format import FORMATS, Format, Holds
-from hexmend.io.reduced import reduced
+from hexmend.io.reduced import middles_lost, reduced
 from hexmend.io.source import Source, shown, text_of
 from hexmend.mesh import CELL_KINDS, Mesh
 
@@ -187,6 +187,14 @@ def _recognised(head: bytes) -> bool:
 FORMATS.add(
     "su2",
     Format(
-        "su2", "SU2", (".su2",), ("ascii",), read, write, holds=frozenset({Holds.OTHER_CELLS}), recognised=_recognised
+        "su2",
+        "SU2",
+        (".su2",),
+        ("ascii",),
+        read,
+        write,
+        holds=frozenset({Holds.OTHER_CELLS}),
+        recognised=_recognised,
+        cannot=lambda mesh: middles_lost(mesh, NUMBERS),
     ),
 )
