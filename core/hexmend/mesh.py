@@ -217,7 +217,9 @@ class Mesh:
         points : (n, 3) float64
             Taken as it is, not copied, and made read-only.
         """
-        points = np.ascontiguousarray(points, dtype=np.float64)
+        points = np.asanyarray(points)
+        if points.dtype != np.float64 or not points.flags.c_contiguous:  # else NumPy may make another view of it
+            points = np.ascontiguousarray(points, dtype=np.float64)
         if points.shape != self.points.shape:
             raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
         check_finite(points)

@@ -33,6 +33,12 @@ def _recognised(head: bytes) -> bool:
     )
 
 
+def _cannot(mesh: Mesh) -> list[str]:
+    from hexmend.io import abaqus_write
+
+    return abaqus_write.cannot(mesh)
+
+
 HELD = (Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.SIDE_SETS, Holds.CELL_SETS)
 
 FORMATS.add(
@@ -47,5 +53,6 @@ FORMATS.add(
         holds=frozenset({*HELD, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.VERTICES, Holds.SECOND_ORDER}),
         names=frozenset({"abaqus:type", "abaqus:types"}),
         recognised=_recognised,
+        cannot=_cannot,
     ),
 )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,8 @@ from hexmend.io.abaqus_content import TYPE, TYPES
 from hexmend.io.abaqus_elements import ORDER, SIDE_OF_FACE, kind_of
 from hexmend.io.abaqus_elements import TYPES as DEFAULT_TYPES
 from hexmend.io.content import HEX_KINDS, Block, from_mesh
-from hexmend.io.numbering import element_numbers, node_numbers, runs
+from hexmend.io.names import distinct, renamed
+from hexmend.io.numbering import element_numbers, ids_lost, node_numbers, runs
 from hexmend.mesh import Mesh
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_\-]*\Z")
@@ -67,15 +70,26 @@ def _type_named(kind: str, types: list[str], place: int) -> str:
     return types[place] if place >= 0 else DEFAULT_TYPES[kind]
 
 
-def _titles(sets: dict[str, object]) -> dict[str, str]:
+def cannot(mesh: Mesh) -> list[str]:
+    """Ids that are none here, and names with quotation marks, in words."""
+    cells = [name for one in mesh.cells for name in one.sets]
+    kinds = (mesh.node_sets, [*mesh.hex_sets, *cells], mesh.side_sets)
+    titles = {name: title for names in kinds for name, title in distinct(names, _clean).items()}
+    return ids_lost(mesh) + renamed(titles)
+
+
+def _titles(sets: Iterable[str]) -> dict[str, str]:
     """Names as they are written: quoted unless they are plain words that differ in more than capitals."""
-    upper = [name.upper() for name in sets]
-    answer = {}
-    for name in sets:
-        plain = _PLAIN.match(name) and upper.count(name.upper()) == 1
-        clean = " ".join(name.replace('"', "'").split())
-        answer[name] = name if plain else f'"{clean}"'
-    return answer
+    titles = distinct(sets, _clean)
+    upper = Counter(title.upper() for title in titles.values())
+    return {
+        name: title if _PLAIN.match(title) and upper[title.upper()] == 1 else f'"{title}"'
+        for name, title in titles.items()
+    }
+
+
+def _clean(name: str, end: str) -> str:
+    return " ".join(name.replace('"', "'").split()) + end
 
 
 def _wrapped(row: list[int]) -> str:

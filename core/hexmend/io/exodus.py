@@ -6,6 +6,7 @@ from pathlib import Path
 
 from hexmend.io import hdf5, netcdf3
 from hexmend.io.content import to_mesh
+from hexmend.io.exodus_ids import IDS
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.mesh import Mesh
 
@@ -52,6 +53,7 @@ FORMATS.add(
                 Holds.PINS, Holds.CELL_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER,
             }
         ),
+        names=frozenset({IDS}),
         recognised=recognised,
     )
 )  # fmt: skip

@@ -11,6 +11,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, ID, Block, Content, joined, joined_sets
 from hexmend.io.exodus_elements import FACE_OF_SIDE, FAMILIES, ORDER, PINS
+from hexmend.io.exodus_ids import kept
 from hexmend.io.exodus_store import Store, opened
 from hexmend.io.pins import FIXED
 from hexmend.mesh import CELL_KINDS
@@ -31,11 +32,15 @@ class _Reader:
     def __init__(self, path: Path, store: Store):
         self.path, self.store = path, store
         self.notes: list[str] = []
+        self.named: list[tuple[str, int, str]] = []  # the sort, id and name of every block and set
         if "num_nodes" not in store.dimensions:
             raise FileError(path, "is NetCDF, but has no dimension num_nodes, as ExodusII has", "Name an Exodus file.")
         self.n_nodes = store.dimensions["num_nodes"]
         self.n_elements = store.dimensions.get("num_elem", 0)
-        self.last = max(0, store.dimensions.get("time_step", 0) - 1)
+        steps = store.dimensions.get("time_step", 0)
+        self.last = max(0, steps - 1)
+        if steps > 1 and any(f"name_{what}_var" in store for what in ("nod", "elem")):
+            self.notes.append(f"Of {steps:,} time steps the last is read.")
 
     def content(self) -> Content:
         points = self.points()
@@ -48,7 +53,14 @@ class _Reader:
         hexes = [part for block, part in zip(blocks, numbers, strict=True) if block.kind in HEX_KINDS]
         side_sets = self.side_sets(np.concatenate(hexes) if hexes else np.empty(0, np.int64))
         return Content(
-            points, tuple(_by_kind(blocks)), node_data, node_sets, side_sets, pinned=pinned, notes=tuple(self.notes)
+            points,
+            tuple(_by_kind(blocks)),
+            node_data,
+            node_sets,
+            side_sets,
+            pinned=pinned,
+            field_data=kept(self.named),
+            notes=tuple(self.notes),
         )
 
     # Parts of the file
@@ -73,7 +85,7 @@ class _Reader:
         ids = self.ids("eb_prop1", "num_el_blk")
         names = self.words("eb_names") if "eb_names" in self.store else []
         id_map = self.whole("elem_num_map", self.n_elements) if "elem_num_map" in self.store else None
-        blocks, numbers, of_ids, first = [], [], [], 0
+        blocks, numbers, of_ids, called, first = [], [], [], [], 0
         for k, number in enumerate(ids, 1):
             count = self.store.dimensions.get(f"num_el_in_blk{k}", 0)
             first += count
@@ -86,6 +98,7 @@ class _Reader:
                 data[ID] = id_map[cells]
             sets = {names[k - 1]: np.arange(count)} if k <= len(names) and names[k - 1] else {}
             blocks.append(Block(block.kind, block.nodes, data, sets))
+            called.append(next(iter(sets), ""))
             numbers.append(cells)
             of_ids.append(number)
         if first != self.n_elements:  # which all numbers of elements rest on
@@ -94,6 +107,8 @@ class _Reader:
         if not any(names) and any(kinds.count(kind) > 1 for kind in HEX_KINDS):  # which tell materials apart
             for block, number in zip(blocks, of_ids, strict=True):
                 block.sets[f"block {number}"] = np.arange(len(block))
+            called = [f"block {number}" for number in of_ids]
+        self.named += [("eb", number, name) for number, name in zip(of_ids, called, strict=True)]
         return blocks, numbers
 
     def block(self, k: int, number: int, count: int) -> Block | None:
@@ -138,7 +153,7 @@ class _Reader:
         marked = "ns_prop2" in self.store and self.store.attribute("ns_prop2", "name") == PINS
         marks = self.whole("ns_prop2", len(ids)) if marked else None
         answer, pinned = {}, None
-        for k, name in enumerate(self.names("ns_names", ids, "node set"), 1):
+        for k, name in enumerate(self.names("ns", ids, "node set"), 1):
             if f"node_ns{k}" not in self.store:
                 continue
             members = self.members(f"node_ns{k}", f"num_nod_ns{k}", self.n_nodes, "nodes")
@@ -152,7 +167,7 @@ class _Reader:
     def element_sets(self, blocks: list[Block], numbers: list[np.ndarray]) -> None:
         """Add the sets of elements to the blocks that their members are in."""
         ids = self.ids("els_prop1", "num_elem_sets")
-        for k, name in enumerate(self.names("els_names", ids, "element set"), 1):
+        for k, name in enumerate(self.names("els", ids, "element set"), 1):
             if f"elem_els{k}" not in self.store:
                 continue
             members = self.members(f"elem_els{k}", f"num_ele_els{k}", self.n_elements, "elements")
@@ -165,7 +180,7 @@ class _Reader:
         """Sides of hexes by name; `hexes` are the elements that are hexes, ascending."""
         ids = self.ids("ss_prop1", "num_side_sets")
         answer = {}
-        for k, name in enumerate(self.names("ss_names", ids, "side set"), 1):
+        for k, name in enumerate(self.names("ss", ids, "side set"), 1):
             if f"elem_ss{k}" not in self.store or f"side_ss{k}" not in self.store:
                 continue
             elements = self.members(f"elem_ss{k}", f"num_side_ss{k}", self.n_elements, "elements")
@@ -233,11 +248,15 @@ class _Reader:
         rows = [bytes(row.tobytes()).split(b"\0")[0] for row in values]
         return [row.decode("utf-8", errors="replace").strip() for row in rows]
 
-    def names(self, variable: str, ids: list[int], what: str) -> list[str]:
-        """A name for each id: that of the file, or one made of the id."""
-        words = self.words(variable) if variable in self.store else []
+    def names(self, sort: str, ids: list[int], what: str) -> list[str]:
+        """A name for each id of a sort of sets ("ns"): that of the file, or one made of the id."""
+        words = self.words(f"{sort}_names") if f"{sort}_names" in self.store else []
         words = [words[k] if k < len(words) and words[k] else f"{what} {number}" for k, number in enumerate(ids)]
-        return [word if words.count(word) == 1 else f"{word} {number}" for word, number in zip(words, ids, strict=True)]
+        names = [
+            word if words.count(word) == 1 else f"{word} {number}" for word, number in zip(words, ids, strict=True)
+        ]
+        self.named += [(sort, number, name) for number, name in zip(ids, names, strict=True)]
+        return names
 
 
 def _by_kind(blocks: list[Block]) -> list[Block]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from hexmend.io.content import ID, Block, hex_blocks, unused
 from hexmend.io.exodus_elements import ORDER, PINS, SIDE_OF_FACE, TYPES
+from hexmend.io.exodus_ids import IDS, ids_of
 from hexmend.io.netcdf3 import Writer
 from hexmend.io.pins import FIXED, held_by_pins
 from hexmend.mesh import Mesh
@@ -44,10 +45,10 @@ def write(path: Path, mesh: Mesh) -> None:
         }
     )
     _add_points(file, mesh)
-    _add_blocks(file, blocks)
+    _add_blocks(file, mesh, blocks)
     _add_ids(file, mesh, parts)
     _add_node_sets(file, mesh)
-    _add_element_sets(file, parts, blocks)
+    _add_element_sets(file, mesh, parts, blocks)
     _add_side_sets(file, mesh, numbers)
     nodes = _columns({name: values for name, values in mesh.node_data.items() if name != held_by_pins(mesh)})
     cells = [_columns(block.data) for block in blocks]
@@ -85,9 +86,9 @@ def _add_points(file: Writer, mesh: Mesh) -> None:
     file.add_text("coor_names", "num_dim", ["x", "y", "z"])
 
 
-def _add_blocks(file: Writer, blocks: list[_Piece]) -> None:
+def _add_blocks(file: Writer, mesh: Mesh, blocks: list[_Piece]) -> None:
     file.dimensions["num_elem"] = sum(len(block) for block in blocks)
-    _add_list(file, "eb", "num_el_blk", [block.name for block in blocks])
+    _add_list(file, mesh, "eb", "num_el_blk", [block.name for block in blocks])
     for k, block in enumerate(blocks, 1):
         nodes = block.nodes
         if block.kind in ORDER:
@@ -114,14 +115,14 @@ def _add_node_sets(file: Writer, mesh: Mesh) -> None:
     if mesh.pinned is not None and mesh.pinned.any():
         pins = unused(FIXED, sets) if FIXED in sets else FIXED
         sets[pins] = np.flatnonzero(mesh.pinned)
-    _add_list(file, "ns", "num_node_sets", list(sets))
+    _add_list(file, mesh, "ns", "num_node_sets", list(sets))
     if sets:  # so that no set is taken for the pins by its name
         file.add("ns_prop2", {"num_node_sets": len(sets)}, np.array([one == pins for one in sets], np.int32), name=PINS)
     for k, members in enumerate(sets.values(), 1):
         file.add(f"node_ns{k}", {f"num_nod_ns{k}": len(members)}, members + 1)
 
 
-def _add_element_sets(file: Writer, parts: list[Block], blocks: list[_Piece]) -> None:
+def _add_element_sets(file: Writer, mesh: Mesh, parts: list[Block], blocks: list[_Piece]) -> None:
     sets: dict[str, list[np.ndarray]] = {}
     named, first = {block.name for block in blocks}, 0
     for part in parts:
@@ -129,7 +130,7 @@ def _add_element_sets(file: Writer, parts: list[Block], blocks: list[_Piece]) ->
             if name not in named and len(members):
                 sets.setdefault(name, []).append(np.asarray(members) + first)
         first += len(part)
-    _add_list(file, "els", "num_elem_sets", list(sets))
+    _add_list(file, mesh, "els", "num_elem_sets", list(sets))
     for k, members in enumerate(sets.values(), 1):
         members = np.concatenate(members)
         file.add(f"elem_els{k}", {f"num_ele_els{k}": len(members)}, members + 1)
@@ -137,7 +138,7 @@ def _add_element_sets(file: Writer, parts: list[Block], blocks: list[_Piece]) ->
 
 def _add_side_sets(file: Writer, mesh: Mesh, numbers: np.ndarray) -> None:
     sets = {name: np.asarray(rows) for name, rows in mesh.side_sets.items() if len(rows)}
-    _add_list(file, "ss", "num_side_sets", list(sets))
+    _add_list(file, mesh, "ss", "num_side_sets", list(sets))
     for k, rows in enumerate(sets.values(), 1):
         shape = {f"num_side_ss{k}": len(rows)}
         file.add(f"elem_ss{k}", shape, numbers[rows[:, 0]] + 1)
@@ -176,12 +177,12 @@ def _columns(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     return answer
 
 
-def _add_list(file: Writer, start: str, dimension: str, names: list[str]) -> None:
+def _add_list(file: Writer, mesh: Mesh, start: str, dimension: str, names: list[str]) -> None:
     """Ids, states and names of the blocks or sets of one sort."""
     if names:
         shape = {dimension: len(names)}
         file.add(f"{start}_status", shape, np.ones(len(names), np.int32))
-        file.add(f"{start}_prop1", shape, np.arange(1, len(names) + 1), name="ID")
+        file.add(f"{start}_prop1", shape, np.array(ids_of(mesh.field_data.get(IDS), start, names)), name="ID")
         file.add_text(f"{start}_names", dimension, names)
 
 

@@ -108,7 +108,8 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
 def left_out(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
     """What comes with a mesh that a file with this suffix cannot hold, in words."""
     format = _writer(Path(path))
-    return [words for kind, words in found_in(mesh, format.names).items() if kind not in format.holds]
+    left = [words for kind, words in found_in(mesh, format.names).items() if kind not in format.holds]
+    return left + (format.cannot(mesh) if format.cannot else [])
 
 
 def readable_suffixes() -> tuple[str, ...]:

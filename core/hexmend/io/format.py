@@ -51,6 +51,8 @@ class Format:
         What is written, and read again as it was; all else is left out, which `left_out` says.
     names : frozenset of str
         Data and sets that are held by their names, though others are not.
+    cannot : callable, optional
+        From mesh to what the format cannot hold of what it holds as a rule, in words; `left_out` adds them.
     exact : bool
         Whether coordinates are written with all their digits.
     recognised : callable, optional
@@ -67,6 +69,7 @@ class Format:
     names: frozenset[str] = frozenset()
     recognised: Callable[[bytes], bool] | None = None
     exact: bool = True
+    cannot: Callable[[Mesh], list[str]] | None = None
 
 
 #: Every format by name.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.io.format import FORMATS, Format, Holds
+from hexmend.io.numbering import ids_lost
 from hexmend.mesh import Mesh
 
 
@@ -40,5 +41,6 @@ FORMATS.add(
         holds=frozenset({*HELD, Holds.VERTICES, Holds.CELL_SETS, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
         names=frozenset({"gmsh:physical"}),
         recognised=_recognised,
+        cannot=ids_lost,
     ),
 )

@@ -13,7 +13,7 @@ from hexmend.io.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.med_content import KINDS, ORDER, names_of
-from hexmend.io.med_write import write
+from hexmend.io.med_write import cannot, write
 from hexmend.mesh import CELL_KINDS, Mesh
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
@@ -155,5 +155,6 @@ FORMATS.add(
         write,
         holds=frozenset({*HELD, Holds.CELL_SETS, Holds.VERTICES}),
         recognised=_recognised,
+        cannot=cannot,
     ),
 )

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
+
+from hexmend.io.names import distinct
 
 #: MED's names of the kinds of cells that are read.
 KINDS = {
@@ -46,10 +50,21 @@ def names_of(values: np.ndarray) -> list[str]:
     return [row.tobytes().split(b"\0", 1)[0].decode("utf-8", errors="replace").strip() for row in rows]
 
 
+def titles_of(names: Iterable[str]) -> dict[str, str]:
+    """Names of groups as they are written, no two alike: without spaces around, and cut to 80 bytes."""
+
+    def form(name: str, end: str) -> str:
+        room = _WIDTH - len(end)
+        cut = name.strip().split("\0", 1)[0].encode()[:room].decode(errors="ignore")
+        return (cut + end).strip()
+
+    return distinct(names, form)
+
+
 def bytes_of(names: list[str]) -> np.ndarray:
-    """Names of groups as rows of bytes, (k, 80) int8; longer ones are cut."""
+    """Names of groups as rows of bytes, (k, 80) int8, as `titles_of` gives them."""
     rows = np.zeros((len(names), _WIDTH), np.int8)
     for row, name in zip(rows, names, strict=True):
-        letters = np.frombuffer(name.encode()[:_WIDTH], np.int8)
+        letters = np.frombuffer(name.encode(), np.int8)
         row[: len(letters)] = letters
     return rows

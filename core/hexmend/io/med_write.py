@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.content import ID, from_mesh
-from hexmend.io.med_content import GEOMETRIES, NAMES, ORDER, bytes_of
+from hexmend.io.content import ID, Block, Content, from_mesh
+from hexmend.io.med_content import GEOMETRIES, NAMES, ORDER, bytes_of, titles_of
+from hexmend.io.names import renamed
 from hexmend.io.numbering import combinations
 from hexmend.mesh import Mesh
 
@@ -21,7 +23,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write the mesh under its name."""
     import h5py
 
-    content = from_mesh(mesh)
+    content = _titled(from_mesh(mesh))
     title = "".join(c if c.isalnum() or c in "_-" else "_" for c in mesh.name)[:64] or "mesh"
     with h5py.File(path, "w", track_order=True) as file:
         _group(file, "INFOS_GENERALES", MAJ=4, MIN=1, REL=0)
@@ -54,7 +56,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             rows = np.concatenate([block.nodes for block in blocks]).astype(np.int64) + 1
             rows = rows[:, np.argsort(ORDER[kind])] if kind in ORDER else rows
             _dataset(group, "NOD", rows.T.ravel(), len(rows))
-            if all(ID in block.data for block in blocks):
+            if all(_has_ids(block.data, len(block)) for block in blocks):
                 ids = np.concatenate([np.asarray(block.data[ID]) for block in blocks])
                 _write_ids(group, {ID: ids}, len(rows))
             first, sets = 0, {}
@@ -65,6 +67,37 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             if own is not None:  # kinds without sets too: MED's library takes the families of all or of none
                 joined = {name: np.concatenate(members) for name, members in sets.items()}
                 _dataset(group, "FAM", _write_families(own, known, joined, len(rows), -1), len(rows))
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """Ids that are no whole numbers, and names too long, in words."""
+    content = from_mesh(mesh)
+    left = []
+    if ID in content.node_data and not _has_ids(content.node_data, len(content.points)):
+        left.append("ids of nodes (no whole numbers)")
+    if any(ID in block.data and not _has_ids(block.data, len(block)) for block in content.blocks):
+        left.append("ids of elements (no whole numbers)")
+    return left + renamed(titles_of(_names(content)))
+
+
+def _titled(content: Content) -> Content:
+    """The content with names of sets as the file has them."""
+    titles = titles_of(_names(content))
+
+    def named(sets: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        return {titles[name]: members for name, members in sets.items()}
+
+    blocks = tuple(Block(block.kind, block.nodes, block.data, named(block.sets)) for block in content.blocks)
+    return replace(content, blocks=blocks, node_sets=named(content.node_sets))
+
+
+def _names(content: Content) -> list[str]:
+    return [*content.node_sets, *(name for block in content.blocks for name in block.sets)]
+
+
+def _has_ids(data: Mapping[str, np.ndarray], count: int) -> bool:
+    ids = np.asarray(data.get(ID, ()))
+    return ID in data and ids.shape == (count,) and ids.dtype.kind in "iu"
 
 
 def _write_families(
@@ -84,9 +117,8 @@ def _write_families(
 
 
 def _write_ids(group: object, data: Mapping[str, np.ndarray], count: int) -> None:
-    ids = np.asarray(data.get(ID, ()))
-    if ids.shape == (count,) and ids.dtype.kind in "iu":
-        _dataset(group, "NUM", ids.astype(np.int64), count)
+    if _has_ids(data, count):
+        _dataset(group, "NUM", np.asarray(data[ID]).astype(np.int64), count)
 
 
 def _dataset(group: object, name: str, values: np.ndarray, count: int) -> None:

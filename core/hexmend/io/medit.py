@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.io.decimals import blocks, lines
 from hexmend.io.format import FORMATS, Format
-from hexmend.io.medit_content import HELD, NAMES_HELD, SECTIONS, from_mesh, to_mesh
+from hexmend.io.medit_content import HELD, NAMES_HELD, SECTIONS, cannot, from_mesh, to_mesh
 from hexmend.io.source import Source, shown
 from hexmend.mesh import Mesh
 
@@ -78,11 +78,11 @@ def _without_comments(data: bytes) -> bytes:
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 2; decimals are the shortest that give the same number back."""
-    refs, sections = from_mesh(mesh)
+    points, refs, sections = from_mesh(mesh)
     with open(path, "wb") as file:
-        file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{mesh.n_nodes}\n".encode())
-        for part in blocks(mesh.n_nodes):
-            file.write(lines(mesh.points[part], refs[part]))
+        file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n".encode())
+        for part in blocks(len(points)):
+            file.write(lines(points[part], refs[part]))
         for name, rows in sections.items():
             file.write(f"{name}\n{len(rows)}\n".encode())
             for part in blocks(len(rows)):
@@ -90,4 +90,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(b"End\n")
 
 
-FORMATS.add("medit", Format("medit", "Medit", (".mesh",), ("ascii",), read, write, holds=HELD, names=NAMES_HELD))
+FORMATS.add(
+    "medit",
+    Format("medit", "Medit", (".mesh",), ("ascii",), read, write, holds=HELD, names=NAMES_HELD, cannot=cannot),
+)

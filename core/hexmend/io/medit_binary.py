@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.format import FORMATS, Format
-from hexmend.io.medit_content import HELD, NAMES_HELD, SECTIONS, from_mesh, to_mesh
+from hexmend.io.medit_content import HELD, NAMES_HELD, SECTIONS, cannot, from_mesh, to_mesh
 from hexmend.io.source import Source
 from hexmend.mesh import Mesh
 
@@ -67,15 +67,15 @@ def read(path: Path) -> Mesh:
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 2, or 3 where the file grows beyond what version 2 can address."""
-    refs, sections = from_mesh(mesh)
-    large = mesh.n_nodes * 28 + sum(rows.size * 4 + 12 for rows in sections.values()) > 2**31 - 1024
+    points, refs, sections = from_mesh(mesh)
+    large = len(points) * 28 + sum(rows.size * 4 + 12 for rows in sections.values()) > 2**31 - 1024
     version, offset = (3, "<q") if large else (2, "<i")
     limit = np.iinfo(np.int32)
     for name, rows in (("Vertices", refs), *sections.items()):
         if rows.size and (rows.min() < limit.min or rows.max() > limit.max):
             raise FileError(path, f"a reference of {name} needs more than 32 bits", "Write .mesh or .vtu instead.")
-    vertices = np.empty(mesh.n_nodes, [("x", "<f8", 3), ("ref", "<i4")])
-    vertices["x"], vertices["ref"] = mesh.points, refs
+    vertices = np.empty(len(points), [("x", "<f8", 3), ("ref", "<i4")])
+    vertices["x"], vertices["ref"] = points, refs
     with open(path, "wb") as file:
 
         def head(code: int, size: int) -> None:
@@ -95,5 +95,15 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 FORMATS.add(
     "medit-binary",
-    Format("medit-binary", "binary Medit", (".meshb",), ("binary",), read, write, holds=HELD, names=NAMES_HELD),
+    Format(
+        "medit-binary",
+        "binary Medit",
+        (".meshb",),
+        ("binary",),
+        read,
+        write,
+        holds=HELD,
+        names=NAMES_HELD,
+        cannot=cannot,
+    ),
 )

@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.content import Block, Content
+from hexmend.io.content import Block, Content, hex_blocks
+from hexmend.io.content import from_mesh as content_of
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.format import Holds
+from hexmend.io.reduced import middles_lost, reduced
 from hexmend.mesh import Mesh
 
 
@@ -51,6 +53,7 @@ _CELLS = {
     "Edges": "line", "Triangles": "triangle", "Quadrilaterals": "quad",
     "Tetrahedra": "tetra", "Prisms": "wedge", "Pyramids": "pyramid",
 }  # fmt: skip
+_KINDS = frozenset({"hex", *_CELLS.values()})
 #: Lists of cells, as flags on these cells: section, kind of cell, name of the flag.
 _FLAGS = (
     ("Ridges", "line", "medit:ridge"),
@@ -100,29 +103,39 @@ def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str
     return mesh_of(path, content)
 
 
-def from_mesh(mesh: Mesh) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """References of the nodes (n,), and the sections by keyword, numbers from 1."""
-    sections: dict[str, np.ndarray] = {}
-    for name, kind in _CELLS.items():
-        blocks = [cells for cells in mesh.cells if cells.kind == kind]
-        if blocks:
-            sections[name] = np.concatenate([_with_refs(cells.nodes, cells.data.get(REF)) for cells in blocks])
-    sections["Hexahedra"] = _with_refs(mesh.hexes, mesh.hex_data.get(REF))
+def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    """Points (n, 3), their references (n,), and the sections by keyword, numbers from 1.
+
+    Cells of second order are written with their corners, and nodes that no cell has any longer are left out.
+    """
+    content = reduced(content_of(mesh), _KINDS)
+    order = np.argsort(np.concatenate([numbers for _, numbers in hex_blocks(mesh)]))  # which is that of the mesh
+    rows: dict[str, list[np.ndarray]] = {}
+    for block in content.blocks:
+        rows.setdefault(block.kind, []).append(_with_refs(block.nodes, block.data.get(REF)))
+    sections = {name: np.concatenate(rows[kind]) for name, kind in _CELLS.items() if kind in rows}
+    sections["Hexahedra"] = np.concatenate(rows["hex"])[order]
     for name, title in _NODE_SETS.items():
-        if title in mesh.node_sets:
-            sections[name] = np.asarray(mesh.node_sets[title]).reshape(-1, 1) + 1
-    if mesh.pinned is not None:
-        required = np.zeros(mesh.n_nodes, bool)
-        required[mesh.node_sets.get("required", [])] = True
-        if not np.array_equal(required, mesh.pinned):  # changed since it was read, or read elsewhere
-            sections["RequiredVertices"] = np.flatnonzero(mesh.pinned).reshape(-1, 1) + 1
+        if title in content.node_sets:
+            sections[name] = np.asarray(content.node_sets[title]).reshape(-1, 1) + 1
+    if content.pinned is not None:
+        required = np.zeros(len(content.points), bool)
+        required[content.node_sets.get("required", [])] = True
+        if not np.array_equal(required, content.pinned):  # changed since it was read, or read elsewhere
+            sections["RequiredVertices"] = np.flatnonzero(content.pinned).reshape(-1, 1) + 1
     for name, kind, flag in _FLAGS:
-        blocks = [cells for cells in mesh.cells if cells.kind == kind]
-        marks = [np.asarray(cells.data.get(flag, np.zeros(len(cells.nodes)))) for cells in blocks]
-        if any(flag in cells.data for cells in blocks):
+        blocks = [block for block in content.blocks if block.kind == kind]
+        marks = [np.asarray(block.data.get(flag, np.zeros(len(block)))) for block in blocks]
+        if any(flag in block.data for block in blocks):
             sections[name] = np.flatnonzero(np.concatenate(marks)).reshape(-1, 1) + 1
-    refs = np.asarray(mesh.node_data.get(REF, np.zeros(mesh.n_nodes)))
-    return refs.astype(np.int64), {name: rows for name, rows in sections.items() if len(rows) or name == "Hexahedra"}
+    refs = np.asarray(content.node_data.get(REF, np.zeros(len(content.points))))
+    kept = {name: rows for name, rows in sections.items() if len(rows) or name == "Hexahedra"}
+    return content.points, refs.astype(np.int64), kept
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """Nodes of second order of cells beside hexes of first order, in words."""
+    return middles_lost(mesh, _KINDS)
 
 
 def _with_refs(nodes: np.ndarray, refs: np.ndarray | None) -> np.ndarray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +14,8 @@ from hexmend.io.content import HEX_KINDS, ID, Block, Content, from_mesh
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.nastran_bulk import Bulk
-from hexmend.io.numbering import element_numbers, node_numbers, places
-from hexmend.io.reduced import reduced
+from hexmend.io.numbering import element_numbers, ids_lost, node_numbers, places
+from hexmend.io.reduced import middles_lost, reduced
 from hexmend.io.source import shown, text_of
 from hexmend.mesh import CELL_KINDS, Mesh
 
@@ -37,7 +38,7 @@ ORDER = {
     "hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15],
     "wedge15": [*range(9), 12, 13, 14, 9, 10, 11],
 }
-_PROPERTY = re.compile(r"property (\d{1,8})\Z")
+_PROPERTY = re.compile(r"property ([1-9][0-9]{0,7})\Z")
 
 
 def read(path: Path) -> Mesh:
@@ -111,7 +112,7 @@ def _width(kind: str) -> int:
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write coordinates to 16 columns, and elements of the property that a set "property N" says; else of 1.
+    """Write coordinates to 16 columns, and elements of the property that a set "property N" says, or of an unused one.
 
     Of the nodes of second order those in faces and in the middle of hexes are left out.
     """
@@ -120,15 +121,16 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     tags, numbers = node_numbers(dict(content.node_data), len(content.points)), element_numbers(blocks)
     if max(int(tags.max()), *(int(own.max(initial=0)) for own in numbers)) > 99_999_999:
         raise FileError(path, "a number of a node or element has more than 8 digits", "Write .vtu or .msh instead.")
+    used = {number for block in blocks for number in _properties(block)}
+    none = next(number for number in count(1) if number not in used)
     with open(path, "w", encoding="ascii") as file:
         file.write("$ Written by Hexmend\nBEGIN BULK\n")
         for tag, (x, y, z) in zip(tags.tolist(), content.points.tolist(), strict=True):
             file.write(f"GRID*   {tag:<16}{'':16}{column(x):<16}{column(y):<16}\n*       {column(z)}\n")
         for block, own in zip(blocks, numbers, strict=True):
-            property = np.ones(len(block), np.int64)
-            for name, members in block.sets.items():
-                if found := _PROPERTY.match(name):
-                    property[members] = int(found[1])
+            property = np.full(len(block), none)
+            for number, members in _properties(block).items():
+                property[members] = number
             nodes = tags[block.nodes]
             if block.kind in ORDER:
                 nodes = nodes[:, np.argsort(ORDER[block.kind])]
@@ -138,6 +140,25 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
                 lines = [words[k : k + 64] for k in range(0, len(words), 64)]
                 file.write(name + "\n+       ".join(lines) + "\n")
         file.write("ENDDATA\n")
+
+
+def _properties(block: Block) -> dict[int, np.ndarray]:
+    """Members of the sets that name properties, by their numbers."""
+    found = [(_PROPERTY.match(name), members) for name, members in block.sets.items()]
+    return {int(match[1]): np.asarray(members, np.int64) for match, members in found if match}
+
+
+def _cannot(mesh: Mesh) -> list[str]:
+    """Ids that are none here, properties that share elements with later ones, and mid-nodes, in words."""
+    losing = set()
+    for block in from_mesh(mesh).blocks:
+        later = np.zeros(len(block), bool)
+        for number, members in reversed(_properties(block).items()):
+            if later[members].any():
+                losing.add(number)
+            later[members] = True
+    words = ", ".join(f"property {number}" for number in sorted(losing))
+    return ids_lost(mesh) + ([f"element sets that overlap ({words})"] if words else []) + middles_lost(mesh, _NAMES)
 
 
 def column(value: float) -> str:
@@ -194,5 +215,6 @@ FORMATS.add(
         names=_Properties(),
         recognised=_recognised,
         exact=False,  # a column has room for 12 to 14 digits
+        cannot=_cannot,
     ),
 )

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.content import ID, Block
+from hexmend.io.content import ID, Block, from_mesh
+from hexmend.mesh import Mesh
 
 
 def places(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.ndarray:
@@ -130,9 +131,34 @@ def combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[
     return found, which
 
 
+def ids_lost(mesh: Mesh) -> list[str]:
+    """Ids of a mesh that a file numbered from 1 cannot have, in words; its nodes or elements are numbered anew."""
+    content, answer = from_mesh(mesh), []
+    ids = content.node_data.get(ID)
+    if ids is not None and (why := _unfit(ids, len(content.points)) or _repeated([ids])):
+        answer.append(f"ids of nodes ({why})")
+    known = [(block.data[ID], len(block)) for block in content.blocks if ID in block.data and len(block)]
+    reasons = [why for ids, count in known if (why := _unfit(ids, count))]
+    if reasons or (reasons := [why for why in [_repeated([ids for ids, _ in known])] if why]):
+        answer.append(f"ids of elements ({', '.join(dict.fromkeys(reasons))})")
+    return answer
+
+
 def _usable(ids: np.ndarray | None, count: int) -> np.ndarray | None:
-    """Ids that a file can have: whole numbers from 1 that fit 31 bits."""
-    if ids is None or np.shape(ids) != (count,) or np.asarray(ids).dtype.kind not in "iu" or count == 0:
-        return None
-    ids = np.asarray(ids).astype(np.int64)
-    return ids if ids.min() > 0 and ids.max() < 2**31 else None
+    """Ids that a file can have, (count,) int64, else None."""
+    return None if ids is None or count == 0 or _unfit(ids, count) else np.asarray(ids).astype(np.int64)
+
+
+def _unfit(ids: np.ndarray, count: int) -> str:
+    """Why ids are none that a file can have, which are whole numbers from 1 that fit 31 bits; empty where they are."""
+    ids = np.asarray(ids)
+    if ids.shape != (count,) or ids.dtype.kind not in "iu":
+        return "no whole numbers"
+    if count and ids.min() < 1:
+        return "some below 1"
+    return "some of 2^31 and above" if count and ids.max() >= 2**31 else ""
+
+
+def _repeated(ids: Sequence[np.ndarray]) -> str:
+    every = np.concatenate([np.zeros(0, np.int64), *ids])
+    return "some given twice" if len(np.unique(every)) < every.size else ""

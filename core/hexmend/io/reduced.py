@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from hexmend.io.content import HEX_KINDS, Content
-from hexmend.mesh import CELL_KINDS
+from hexmend.io.format import Holds
+from hexmend.mesh import CELL_KINDS, Mesh
 
 #: What is left of a kind of cell without its last nodes.
 _LESS = {
@@ -51,3 +52,9 @@ def reduced(content: Content, kinds: Collection[str]) -> Content:
         node_sets={name: place[np.asarray(one)[kept[one]]] for name, one in content.node_sets.items()},
         pinned=None if content.pinned is None else content.pinned[kept],
     )
+
+
+def middles_lost(mesh: Mesh, kinds: Collection[str]) -> list[str]:
+    """That `reduced` takes nodes of second order from cells beside hexes of first order, in words; else nothing."""
+    cut = any(cells.kind in _LESS and cells.kind not in kinds for cells in mesh.cells)
+    return [Holds.SECOND_ORDER.value] if cut and mesh.mid_nodes is None else []

@@ -13,7 +13,7 @@ from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.decimals import blocks as parts_of
 from hexmend.io.decimals import lines
 from hexmend.io.format import FORMATS, Format, Holds
-from hexmend.io.reduced import reduced
+from hexmend.io.reduced import middles_lost, reduced
 from hexmend.io.source import Source, shown, text_of
 from hexmend.mesh import CELL_KINDS, Mesh
 
@@ -195,5 +195,6 @@ FORMATS.add(
         write,
         holds=frozenset({Holds.OTHER_CELLS, Holds.CELL_SETS}),
         recognised=_recognised,
+        cannot=lambda mesh: middles_lost(mesh, NUMBERS),
     ),
 )

@@ -92,6 +92,7 @@ FRONTS = [
     ("show", "quality", "movement"),
     ("recipe", "quality", "node"),
     ("inside", "histogram", "outcome"),
+    ("run", "quality", "doctor"),
     ("run", "quality", "tags"),
     ("run", "quality", "compare"),
 ]

@@ -330,3 +330,36 @@ def test_pins_and_sets_called_fixed_are_kept_apart(name, pins, tmp_path):
     back = io.read(tmp_path / "f.exo")
     assert np.flatnonzero(back.pinned if back.pinned is not None else []).tolist() == pins
     assert {key: one.tolist() for key, one in back.node_sets.items()} == {name: [0, 9]}
+
+
+def test_ids_of_blocks_and_sets_are_kept(tmp_path):
+    bare = grid(2)
+    more = [
+        ("eb_prop1", ("num_el_blk",), np.array([300, 20], np.int32)),
+        ("ns_prop1", ("num_node_sets",), np.array([100], np.int32)),
+        ("ns_names", ("num_node_sets", "len_name"), letters(["inlet"])),
+        ("node_ns1", ("num_nod_ns1",), np.array([1, 27], np.int32)),
+        ("ss_prop1", ("num_side_sets",), np.array([200], np.int32)),
+        ("elem_ss1", ("num_side_ss1",), np.array([8], np.int32)),
+        ("side_ss1", ("num_side_ss1",), np.array([6], np.int32)),
+    ]
+    blocks = [("HEX8", "", bare.hexes + 1), ("SHELL4", "", bare.hexes[:1, 4:] + 1)]
+    mesh = io.read(written(tmp_path / "m.exo", bare.points, blocks, more))
+    assert io.left_out(tmp_path / "again.exo", mesh) == []
+    io.write(tmp_path / "again.exo", mesh.replace(node_sets={"new": np.array([3]), **mesh.node_sets}))
+    from scipy.io import netcdf_file
+
+    with netcdf_file(tmp_path / "again.exo", mmap=False) as file:
+        ids = {name: file.variables[name + "_prop1"][:].tolist() for name in ("eb", "ns", "ss")}
+    assert ids == {"eb": [300, 20], "ns": [101, 100], "ss": [200]}
+
+
+@pytest.mark.parametrize("steps", [1, 3])
+def test_that_one_of_several_time_steps_is_read_is_said(steps, tmp_path):
+    more = [
+        ("name_nod_var", ("num_nod_var", "len_name"), letters(["T"])),
+        ("vals_nod_var1", ("time_step", "num_nodes"), np.arange(steps * 8.0).reshape(steps, 8)),
+    ]
+    mesh = io.read(written(tmp_path / "t.exo", UNIT_CUBE, [("HEX8", "", [range(1, 9)])], more))
+    assert mesh.node_data["T"][0] == 8 * (steps - 1)
+    assert mesh.notes == (("Of 3 time steps the last is read.",) if steps == 3 else ())

@@ -12,6 +12,7 @@ from hexmend.errors import FileError
 from hexmend.hexahedron import UNIT_CUBE
 from hexmend.io.nastran import column
 from hexmend.quality import summarise
+from tests.core.grids import grid
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
 
 FILES = Path(__file__).parent / "files"
@@ -105,3 +106,27 @@ def test_what_is_wrong_is_named(old, new, words, tmp_path):
     with pytest.raises(FileError) as error:
         read(CUBE.replace(old, new), tmp_path)
     assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("sets", "members", "said"),
+    [
+        ({"property 1": [0]}, {"property 1": [0], "property 2": [1]}, []),
+        ({"property 2": [1]}, {"property 1": [0], "property 2": [1]}, []),
+        (
+            {"property 2": [0, 1], "property 3": [0]},
+            {"property 2": [1], "property 3": [0]},
+            ["element sets that overlap (property 2)"],
+        ),
+        (
+            {"property 0": [0], "property 007": [1]},
+            {"property 1": [0, 1]},
+            ["element sets (property 0, property 007)"],
+        ),
+    ],
+)
+def test_elements_are_in_the_properties_they_were_in_or_it_is_said(sets, members, said, tmp_path):
+    mesh = grid(2, 1, 1).replace(hex_sets={name: np.array(rows) for name, rows in sets.items()})
+    assert io.left_out(tmp_path / "a.bdf", mesh) == said
+    io.write(tmp_path / "a.bdf", mesh)
+    assert {name: rows.tolist() for name, rows in io.read(tmp_path / "a.bdf").hex_sets.items()} == members

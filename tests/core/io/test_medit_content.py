@@ -1,0 +1,45 @@
+"""Medit has cells of first order: those of second order come with their corners, and nothing else."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.mesh import Cells, Mesh
+from hexmend.second_order import MID_PLACES
+from tests.core.grids import grid
+
+
+@pytest.mark.parametrize("suffix", [".mesh", ".meshb"])
+def test_cells_of_second_order_are_written_with_their_corners(suffix, tmp_path):
+    bare = grid(2, 1, 1)
+    mids = np.full((2, 19), -1)
+    mids[0, :12] = np.arange(12, 24)
+    points = np.vstack([bare.points, bare.points[bare.hexes[0]].mean(axis=0) + MID_PLACES[:12] - 0.5])
+    face = np.array([[*bare.hexes[0, [0, 1, 2, 3]], 12, 13, 14, 15]])
+    mesh = Mesh(
+        points,
+        bare.hexes,
+        mid_nodes=mids,
+        cells=(Cells("quad8", face, {"medit:ref": np.array([5])}),),
+        node_data={"medit:ref": np.arange(24)},
+        hex_data={"medit:ref": np.array([7, 8])},
+        node_sets={"corners": np.array([11, 23])},
+    )
+    assert io.left_out(tmp_path / f"a{suffix}", mesh) == ["nodes of second order"]
+    io.write(tmp_path / f"a{suffix}", mesh)
+    back = io.read(tmp_path / f"a{suffix}")
+    np.testing.assert_array_equal(back.points, bare.points)
+    np.testing.assert_array_equal(back.hexes, bare.hexes)
+    assert back.hex_data["medit:ref"].tolist() == [7, 8]
+    assert back.node_data["medit:ref"].tolist() == list(range(12))
+    assert back.node_sets["corners"].tolist() == [11]
+    (quads,) = back.cells
+    assert (quads.kind, quads.nodes.tolist()) == ("quad", face[:, :4].tolist())
+    assert quads.data["medit:ref"].tolist() == [5]
+
+
+@pytest.mark.parametrize("suffix", [".mesh", ".meshb", ".su2"])
+def test_that_cells_beside_the_hexes_lose_nodes_is_said(suffix, tmp_path):
+    bare = grid(2)
+    mesh = bare.replace(cells=(Cells("triangle6", np.array([[0, 2, 6, 1, 4, 3]])),))
+    assert "nodes of second order" in io.left_out(tmp_path / f"a{suffix}", mesh)
