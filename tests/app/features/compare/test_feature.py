@@ -367,7 +367,7 @@ def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared,
     QApplication.processEvents()  # the wipe's choices take room from the view
     pixels(compared)
     x, y, z = compared.session.view.look.clip.planes[0].origin
-    place = seen_at(compared, (x + 0.3, y - 0.3, z))  # on the plane, beside its arrow
+    place = seen_at(compared, (x + 4, y - 4, z))  # on the plane, beside its arrow
     before = compared.canvas.panes.all[1].shown
     drag(compared.canvas.interactor, place, place + QPoint(0, -30))
     assert compared.session.view.look.clip.planes[0].origin[2] > z

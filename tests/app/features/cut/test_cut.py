@@ -65,7 +65,7 @@ def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window
     choose(window, "X")
     window.canvas.draw_still()
     view, straight = window.canvas.interactor, window.session.view.look.clip
-    arrow = seen_at(window, np.array(straight.planes[0].origin) + (0.1, 0, 0))
+    arrow = seen_at(window, np.array(straight.planes[0].origin) + (1.35, 0, 0))
     drag(view, arrow, arrow + QPoint(10, 2))
     assert window.session.view.look.clip == straight
     drag(view, arrow, arrow + QPoint(60, 30))

@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel
 
+from hexmend import gallery, io
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.scene.export.film import pictures
@@ -148,7 +149,14 @@ def test_the_movement_is_told_in_figures(window, record, panel):
     assert said(panel, "Distance") == "–"
 
 
-def test_the_newly_inverted_are_isolated(window, record, panel, qtbot):
+@pytest.fixture
+def inverts(window, qtbot, tmp_path):
+    """A mesh of which Laplacian smoothing inverts hexes that were sound."""
+    io.write(tmp_path / "inverts.vtu", gallery.make("bridge-sharp", size=4000, scramble=0.4, seed=2))
+    open_and_wait(qtbot, window, tmp_path / "inverts.vtu")
+
+
+def test_the_newly_inverted_are_isolated(window, inverts, record, panel, qtbot):
     inverted = [record.rows[k]["inverted"] for k in range(len(record.rows))]
     for number in range(1, len(inverted)):
         go(window, record, number)
