@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 SNAP = 8.0
 
 _AXES = np.eye(3)
+_ROUNDING = 1e-15
 _HAIR = 1e-9  # of a box's diagonal
 
 
@@ -30,9 +32,11 @@ class ClipPlane:
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        length = float(np.linalg.norm(self.normal))
-        if not length > 0 or not np.isfinite(length):
+        length = math.hypot(*self.normal)
+        if not length > 0 or not math.isfinite(length):
             raise ValueError(f"the plane's normal is {self.normal}: expected a direction")
+        if abs(length - 1) < _ROUNDING:
+            length = 1.0  # a plane that is copied is the same to the bit
         object.__setattr__(self, "normal", tuple(float(c) / length for c in self.normal))
         object.__setattr__(self, "origin", tuple(float(c) for c in self.origin))
 

@@ -1,0 +1,252 @@
+"""Sessions: saved from the window and opened again, the same picture, the same tables, the same moment."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
+
+from hexmend.io.archive import read_archive, write_archive
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.run.breakpoints import Breakpoints
+from hexmend.smoothers import METHODS
+from hexmend_app.shell.starting import Starting
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.look import Arrows, ColourScale, Structure, Traces, ValueRange
+from hexmend_app.state.run import Phase
+from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
+from tests.patience import PATIENCE
+
+
+def run(window, qtbot, method, iterations=4):
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        window.session.commands.run(Stage(METHODS[method](), Stop(max_iterations=iterations, tolerance=0)))
+    window.refresh()
+
+
+def work(window, qtbot):
+    """Do some of everything that a session keeps."""
+    session = window.session
+    run(window, qtbot, "laplacian")
+    session.commands.tag("bad corner", [3, 5, 8])
+    session.commands.pin(17, True)
+    run(window, qtbot, "local-sd", 3)
+    session.kept.keep("a kept moment", session.document.now)
+    with qtbot.waitSignal(session.comparison.changed, timeout=PATIENCE):
+        session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], Stop(max_iterations=2))
+    qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
+    session.timeline.go(session.history.records[0], 2)
+    session.order.choose(Stage(METHODS["getme"](relaxation=0.6), Stop(max_iterations=77)), "a reason")
+    session.chain.add(Stage(METHODS["laplacian"](), Stop(max_iterations=5)))
+    session.chain.rename("two of them")
+    window.features["smooth"].panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True, node=12, move=0.25))
+    session.view.change(
+        clip=PlaneClip.at((1, 0, 0.2), session.document.now.mesh.points.mean(axis=0)),
+        scale=ColourScale("scaled-jacobian", "plasma"),
+        quality_range=ValueRange("scaled-jacobian", -1.0, 0.9, inverted=True),
+        dug=frozenset({40, 41}),
+        structure=Structure(sharp=True, fixed=True),
+        traces=Traces(arrows=Arrows.SIGHT, factor=2.0),
+    )
+    session.view.counted = "volume"
+    session.selection.choose(9, int(session.document.now.mesh.hexes[9, 3]))
+    window.refresh()
+    window.canvas.look_along("-x")
+    window.canvas.roll(20)
+
+
+def seen(window, qtbot):
+    """The picture of the view when all that is looked for is found and nothing moves."""
+    session = window.session
+    window.refresh()
+    qtbot.waitUntil(lambda: session.finder.structure is not None and not session.classer.busy, timeout=PATIENCE)
+    window.refresh()
+    window.canvas.draw_still()
+    pixels(window)
+    body, lighting = window.canvas.viewport.body, window.canvas.lighting
+    qtbot.waitUntil(lambda: body.light is not None and not lighting.under_way, timeout=PATIENCE)
+    return pixels(window)
+
+
+def tables(window):
+    """What tables and charts are made from."""
+    session = window.session
+    history = session.history
+    moment = session.timeline.moment
+    return {
+        "summary": session.document.now.summary,
+        "start": session.document.start.summary,
+        "undo": session.document.undo_title,
+        "redo": session.document.redo_title,
+        "runs": [(r.name, r.title, r.rows, r.result, r.message, r.pauses) for r in history.records],
+        "advice": [
+            (r.advice.why, [(one.title, one.smoother, one.stop) for one in r.advice.suggestions])
+            for r in history.records
+        ],
+        "parents": [(r.parent.record.name, r.parent.number) if r.parent else None for r in history.records],
+        "kept iterations": [history.kept(r).tolist() for r in history.records],
+        "gone through": session.timeline.record.name,
+        "moment": (moment.record.name, moment.number),
+        "compared": [(one.row.method, one.row.message, one.row.after) for one in session.comparison.results],
+        "look": session.view.look,
+        "counted": window.features["histogram"].metric,
+        "kept": [(one.slot, one.name) for one in session.kept.all],
+        "chosen": (session.selection.hex, session.selection.node),
+        "order": (session.order.stage, session.order.why),
+        "chain": session.chain.given(),
+        "breakpoints": session.smoothing.breakpoints,
+        "form": window.features["smooth"].panel.breakpoint_form.breakpoints(),
+        "tags": {name: members.tolist() for name, members in session.document.now.mesh.hex_sets.items()},
+        "pins": np.flatnonzero(session.document.now.mesh.pinned).tolist(),
+    }
+
+
+def test_a_session_is_as_it_was(window, qtbot, tmp_path, mesh_file):
+    work(window, qtbot)
+    path = tmp_path / "work.hexmend"
+    session = window.session
+    picture, before = seen(window, qtbot), tables(window)
+    points = session.document.now.mesh.points
+    positions = [[r.points(n) for n in session.history.kept(r)] for r in session.history.records]
+    assert window.features["session"].save(path)
+    open_and_wait(qtbot, window, mesh_file)
+    window.refresh()
+    assert not session.history.records
+    open_and_wait(qtbot, window, path)
+    np.testing.assert_array_equal(seen(window, qtbot), picture)
+    assert tables(window) == before
+    np.testing.assert_array_equal(session.document.now.mesh.points, points)
+    for record, places in zip(session.history.records, positions, strict=True):
+        for number, place in zip(session.history.kept(record), places, strict=True):
+            np.testing.assert_array_equal(record.points(number), place)
+
+
+def test_what_is_restored_goes_on(window, qtbot, tmp_path):
+    """Undo, the timeline, branches, breakpoints and further runs work as if the session had never been closed."""
+    work(window, qtbot)
+    session = window.session
+    window.features["session"].save(tmp_path / "work.hexmend")
+    undone = []
+    for _ in range(4):
+        session.commands.undo()
+        undone.append((session.document.now.mesh.points, session.document.redo_title))
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    for points, title in undone:
+        session.commands.undo()
+        np.testing.assert_array_equal(session.document.now.mesh.points, points)
+        assert session.document.redo_title == title
+    assert session.document.now is session.document.start
+    while session.document.redo_title is not None:
+        session.commands.redo()
+    first = session.history.records[0]
+    session.timeline.choose(first)
+    assert (session.timeline.moment.record, session.timeline.moment.number) == (first, first.result)
+    session.view.change(peel=0)
+    session.smoothing.break_at(Breakpoints())
+    run(window, qtbot, "laplacian", 2)
+    assert [record.name for record in session.history.records][-1] == "Laplacian (2)"
+    assert session.history.records[-1].parent.record is first
+
+
+def test_the_title_names_the_session_and_marks_what_is_not_saved(window, qtbot, tmp_path):
+    run(window, qtbot, "laplacian")
+    assert window.isWindowModified()
+    window.features["session"].save(tmp_path / "work.hexmend")
+    window.refresh()
+    assert window.windowTitle().startswith("work.hexmend")
+    assert not window.isWindowModified()
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    window.refresh()
+    assert window.windowTitle().startswith("work.hexmend")
+    assert not window.isWindowModified()
+    window.session.commands.undo()
+    window.refresh()
+    assert window.isWindowModified()
+
+
+def test_an_iteration_that_was_gone_back_to_is_no_change(window, qtbot, tmp_path):
+    run(window, qtbot, "laplacian")
+    session = window.session
+    session.timeline.go(session.history.records[0], 1)
+    window.features["session"].save(tmp_path / "work.hexmend")
+    assert session.document.previews
+    assert not session.document.modified
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    assert session.document.previews
+    assert session.timeline.moment.number == 1
+    session.timeline.go_to_newest()
+    assert session.document.now.summary == session.history.records[0].end.summary
+
+
+def test_a_question_about_unsaved_work_saves_the_session_that_was_opened(window, qtbot, tmp_path, monkeypatch):
+    window.features["session"].save(tmp_path / "work.hexmend")
+    run(window, qtbot, "laplacian")
+    asked = []
+    monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Save)
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *given: asked.append(given[2:4]) or (str(tmp_path / "new"), given[3])
+    )
+    assert window.may_leave()
+    ((proposed, kind),) = asked
+    assert proposed.endswith("work.hexmend")
+    assert kind == "Hexmend session (*.hexmend)"
+    open_and_wait(qtbot, window, tmp_path / "new.hexmend")
+    assert [record.name for record in window.session.history.records] == ["Laplacian"]
+
+
+def test_a_paused_run_is_saved_as_far_as_it_is(window, qtbot, tmp_path):
+    key(window, Qt.Key.Key_F10)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    window.refresh()
+    assert window.action("save_session").isEnabled()
+    points = window.session.document.now.mesh.points
+    window.features["session"].save(tmp_path / "work.hexmend")
+    window.session.smoothing.end_now()
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, points)
+    assert window.session.timeline.moment.number == 1
+    window.refresh()
+
+
+def test_a_session_is_dropped_on_the_window(window, qtbot, tmp_path):
+    window.features["session"].save(tmp_path / "work.hexmend")
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "work.hexmend"))])
+    how = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
+    QApplication.sendEvent(window, QDragEnterEvent(QPoint(50, 50), *how))
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
+        QApplication.sendEvent(window, QDropEvent(QPointF(50, 50), *how))
+    assert window.session.document.name == "work.hexmend"
+
+
+def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window):
+    work(window, qtbot)
+    window.features["session"].save(tmp_path / "work.hexmend")
+    before = tables(window)
+    stand = window.canvas.stand
+    with qtbot.waitSignal(bare_window.furnished, timeout=PATIENCE):
+        Starting(bare_window, tmp_path / "work.hexmend")
+    bare_window.refresh()
+    assert tables(bare_window) == before
+    assert bare_window.canvas.stand == stand
+
+
+def test_a_session_that_is_damaged_is_refused_and_what_is_open_stays(window, qtbot, tmp_path):
+    path = tmp_path / "work.hexmend"
+    window.features["session"].save(path)
+    description = read_archive(path, "Hexmend session", 1)
+    description["window"]["view"]["look"]["colour"] = "red"
+    write_archive(path, "Hexmend session", 1, description)
+    now = window.session.document.now
+    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
+        window.features["open"].open(path)
+    assert window.session.document.now is now
+    (text,) = (text for kind, _, text in window.messages.messages() if kind == "error")
+    assert "the window.view.look has an unknown field 'colour'" in text
+
+
+def test_where_it_cannot_be_written_the_old_one_stays(window, tmp_path):
+    assert not window.features["session"].save(tmp_path / "missing" / "work.hexmend")
+    assert window.messages.messages()[-1][1] == "The session was not saved"
