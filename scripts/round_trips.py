@@ -56,9 +56,8 @@ def main() -> int:
             cells += row
             print(f"| {path.name} | {mesh.n_hexes:,} | {' | '.join(row)} |", flush=True)
     bad = cells.count("DIFFERS")
-    print(
-        f"\n{len(cells)} round trips: {bad} differ, {cells.count('refused')} are refused, {cells.count('=')} lose nothing."
-    )
+    refused, whole = cells.count("refused"), cells.count("=")
+    print(f"\n{len(cells)} round trips: {bad} differ, {refused} are refused, {whole} lose nothing.")
     return int(bad > 0)
 
 
