@@ -13,8 +13,10 @@ from PySide6.QtWidgets import QWidget
 from hexmend_app.canvas.render_widget import RenderWidget
 from hexmend_app.canvas.travel import Travel
 from hexmend_app.canvas.view_keys import move_of
+from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.panes import Panes
 from hexmend_app.state.clip import ClipPlane
+from hexmend_app.state.eye import Stand
 from hexmend_app.widgets.style import explain
 
 #: Milliseconds of rest after which the fine still frame is drawn.
@@ -74,6 +76,18 @@ class CameraView(QWidget):
     def look_along(self, direction: str) -> None:
         """Look along an axis: +x, -x, ..., iso."""
         self._lead(partial(self.panes.eye.look_along, direction))
+
+    @property
+    def stand(self) -> Stand:
+        """Where the camera stands."""
+        pose = Pose.of(self.viewport.camera)
+        return Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, self.up)
+
+    def stand_at(self, stand: Stand) -> None:
+        """Have the camera stand somewhere."""
+        self.panes.eye.up = stand.axis
+        pose = Pose(stand.position, stand.focal, stand.up, stand.parallel, stand.scale)
+        self._lead(partial(pose.give, self.viewport.camera))
 
     @property
     def up(self) -> str:

@@ -12,14 +12,14 @@ from hexmend.movement import MOVEMENTS, NOTHING, named
 from hexmend_app.resources import resource
 from hexmend_app.scene.palette import INVERTED as MAGENTA
 from hexmend_app.scene.values import better, declared_range
-from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.state.look import COLOUR_MAPS, ColourScale, RangeMode
 
 #: The maps on offer, each perceptually uniform; the first is the default. None diverges: that would need a value in the
 #: middle that means something, and the one there might be, zero, parts off the inverted, which have their own colour.
-MAPS = ("viridis", "cividis", "plasma", "inferno")
+MAPS = COLOUR_MAPS[:-1]
 
 #: The map of changes, in whose middle is none: from brown for worse to teal for better.
-DIVERGING = "BrBG"
+DIVERGING = COLOUR_MAPS[-1]
 
 #: Colours of what shows no value: the outside of the mesh, and what is opened by a cut or a filter.
 OUTSIDE, OPENED = (0xF2, 0xF2, 0xEF), (0xF6, 0xC9, 0x4C)

@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.recipe import Recipe, Stage
+
+
+@dataclass(frozen=True)
+class ChainData:
+    """What a session keeps of the recipe."""
+
+    title: str
+    stages: tuple[Stage, ...]
 
 
 class Chain(QObject):
@@ -32,6 +42,14 @@ class Chain(QObject):
     def recipe(self) -> Recipe | None:
         """What can be run and saved; None while there is no stage."""
         return Recipe.of(*self.stages, title=self.title) if self.stages else None
+
+    def given(self) -> ChainData:
+        """What a session keeps."""
+        return ChainData(self.title, self.stages)
+
+    def restore(self, data: ChainData) -> None:
+        """Go on with what a session has kept."""
+        self._set(data.stages, data.title)
 
     def take(self, recipe: Recipe) -> None:
         """Go on with this recipe."""

@@ -11,6 +11,7 @@ import numpy as np
 SNAP = 8.0
 
 _AXES = np.eye(3)
+_ROUNDING = 1e-15
 _HAIR = 1e-9  # of a box's diagonal
 
 
@@ -33,6 +34,8 @@ class ClipPlane:
         length = float(np.linalg.norm(self.normal))
         if not length > 0 or not np.isfinite(length):
             raise ValueError(f"the plane's normal is {self.normal}: expected a direction")
+        if abs(length - 1) < _ROUNDING:
+            length = 1.0  # a plane that is copied is the same to the bit
         object.__setattr__(self, "normal", tuple(float(c) / length for c in self.normal))
         object.__setattr__(self, "origin", tuple(float(c) for c in self.origin))
 

@@ -12,8 +12,10 @@ import numpy as np
 from hexmend.doctor import AILMENTS, Finding, repair
 from hexmend.fixing import with_region_free
 from hexmend.io import left_out, write
+from hexmend.io.session import SUFFIX
 from hexmend.quality import summarise
 from hexmend.recipe import Recipe, Stage
+from hexmend_app.state import session_data
 from hexmend_app.state.document import State
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ class Commands:
         self._session.opener.open(path)
 
     def save(self, path: str | Path) -> list[str]:
-        """Write the mesh as it is now; the tags that the file's format cannot hold.
+        """Write the mesh as it is now, or under a session's suffix all there is; what the file's format cannot hold.
 
         Raises
         ------
@@ -47,6 +49,10 @@ class Commands:
             Where it cannot be written; the file that was there stays.
         """
         self._session.stepping.leave()
+        if Path(path).suffix.lower() == SUFFIX:
+            session_data.write(Path(path), self._session.given())
+            self.document.saved(Path(path), changes=True)
+            return []
         moment = self._session.timeline.moment
         if self.document.previews and self._session.editable:
             self.document.commit("go back" if moment is None else f"go to {moment.name}", self.document.now)

@@ -36,6 +36,20 @@ class Compared:
     state: State | None
 
 
+@dataclass(frozen=True, eq=False)
+class ComparisonData:
+    """What a session keeps: what the comparison began with, its limits, how many methods were asked, the results."""
+
+    initial: State | None
+    stop: Stop
+    asked: int
+    results: tuple[Compared, ...]
+
+    def __post_init__(self) -> None:
+        if self.results and self.initial is None:
+            raise ValueError("there are results of a comparison that began with nothing")
+
+
 @dataclass(frozen=True)
 class Progress:
     """How far a comparison is: the method at work, its place among how many, iterations made, seconds they took."""
@@ -147,6 +161,16 @@ class Comparison(QObject):
     def of(self, method: str) -> Compared | None:
         """The result of a method; None where there is none yet."""
         return next((one for one in self.results if one.row.method == method), None)
+
+    def given(self) -> ComparisonData:
+        """What a session keeps: what is done."""
+        return ComparisonData(self.initial, self._stop, self._asked, self.results)
+
+    def take(self, data: ComparisonData) -> None:
+        """Take what a session has kept for what was compared last."""
+        self.shut_down()
+        self.initial, self._stop, self._asked, self.results = data.initial, data.stop, data.asked, data.results
+        self.changed.emit()
 
     def record(self) -> dict[str, Any]:
         """The table of what is done, for `hexmend.report`, as `hexmend compare` writes it."""

@@ -42,6 +42,37 @@ class Change:
     state: State
 
 
+@dataclass(frozen=True, eq=False)
+class DocumentData:
+    """What a session keeps of a document.
+
+    Parameters
+    ----------
+    path : str or None
+        Of the file that was opened or saved last.
+    changes : tuple of Change
+    at : int
+        Which of them is recorded as the mesh as it is.
+    saved : State or None
+        What is on disk.
+    now : State
+        What is shown.
+    """
+
+    path: str | None
+    changes: tuple[Change, ...]
+    at: int
+    saved: State | None
+    now: State
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.at < len(self.changes):
+            raise ValueError(f"there is no change {self.at} among {len(self.changes)}")
+        hexes = self.changes[self.at].state.mesh.hexes
+        if self.now.mesh.hexes is not hexes:
+            raise ValueError("what is shown is another mesh than that of its changes")
+
+
 class Document(QObject):
     """The open mesh and its changes.
 
@@ -158,10 +189,33 @@ class Document(QObject):
             mesh = self.now.mesh.with_points(start.mesh.points)
             self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
 
-    def saved(self, path: Path) -> None:
-        """Remember that the mesh as it is shown is on disk."""
+    def saved(self, path: Path, changes: bool = False) -> None:
+        """Remember that the mesh as it is shown is on disk, or with `changes` all that undo can come back to."""
         self.path = path
-        self._saved = self.now
+        self._saved = self._changes[self._at].state if changes else self.now
+        self.changes_changed.emit()
+
+    def given(self) -> DocumentData:
+        """What a session keeps; a mesh is open."""
+        path = None if self.path is None else str(self.path)
+        return DocumentData(path, tuple(self._changes), self._at, self._saved, self.now)
+
+    def take(self, data: DocumentData, path: Path | None = None) -> None:
+        """Open what a session has kept, with the way back.
+
+        Parameters
+        ----------
+        data : DocumentData
+        path : Path, optional
+            The session's, in which all is saved; None where it was kept while the window was open: then what was saved
+            is what was saved then.
+        """
+        self.now, self._changes, self._at = data.now, list(data.changes), data.at
+        if path is None:
+            self.path, self._saved = None if data.path is None else Path(data.path), data.saved
+        else:
+            self.path, self._saved = path, self._changes[self._at].state
+        self.mesh_replaced.emit()
         self.changes_changed.emit()
 
     def _show(self) -> None:

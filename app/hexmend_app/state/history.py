@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterable
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -12,117 +11,12 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration
 from hexmend_app.state.document import State
+from hexmend_app.state.history_data import HistoryData, given
+from hexmend_app.state.record import Moment, Record
 from hexmend_app.state.settings import HISTORY_MEGABYTES
 
 #: Bytes that positions may take unless the user says otherwise: 400 iterations of 110,000 hexes.
 LIMIT = HISTORY_MEGABYTES.default << 20
-
-
-@dataclass(frozen=True, eq=False)
-class Offsets:
-    """How far nodes are from where a run started.
-
-    Parameters
-    ----------
-    nodes : (k,) int32
-        All others are where they were.
-    ways : (k, 3) float32
-    """
-
-    nodes: np.ndarray
-    ways: np.ndarray
-
-    @property
-    def nbytes(self) -> int:
-        """What it takes; the nodes, which many share, are not counted."""
-        return self.ways.nbytes
-
-
-class Record:
-    """What is kept of one run.
-
-    Attributes
-    ----------
-    name : str
-        Its own: the method's title, with a number where it ran before.
-    title : str
-        The method's title.
-    start : State
-        Where it began, as it was.
-    parent : Moment or None
-        The iteration of another run that it went on from.
-    rows : list of dict
-        Of every iteration, `Iteration.row` and what numbers its notes hold; number 0 first.
-    result : int or None
-        Number of the iteration that is the run's result; None until it has ended.
-    end : State or None
-        The result, as it was.
-    message : str
-        What came out, in sentences; "" until it has ended.
-    pauses : dict
-        The break-points that it paused at, in words, by the number of the iteration.
-    """
-
-    def __init__(self, name: str, title: str, start: State, parent: Moment | None):
-        self.name, self.title, self.start, self.parent = name, title, start, parent
-        self.rows: list[dict[str, Any]] = []
-        self.result: int | None = None
-        self.end: State | None = None
-        self.message = ""
-        self.pauses: dict[int, str] = {}
-        self._moved = start.mesh.free  # so far: where the boundary slides, there are others than the free ones
-        self._nodes = np.flatnonzero(self._moved).astype(np.int32)
-        self._offsets: dict[int, Offsets] = {}  # from the start, by number
-
-    @property
-    def newest(self) -> int:
-        """Number of the last iteration."""
-        return len(self.rows) - 1
-
-    def numbers(self) -> np.ndarray:
-        """Numbers of the iterations whose positions are there, ascending, (k,) int."""
-        numbers = np.array([0, *self._offsets])  # a dict keeps the order of adding
-        return numbers if self.end is None or self.result in self._offsets else np.union1d(numbers, self.result)
-
-    def compact(self, points: np.ndarray) -> Offsets:
-        """How far the nodes that have moved by now are from where they started."""
-        way = points - self.start.mesh.points
-        moved = self._moved | way.any(axis=1)
-        if np.count_nonzero(moved) > self._nodes.size:
-            self._moved, self._nodes = moved, np.flatnonzero(moved).astype(np.int32)
-        return Offsets(self._nodes, way[self._nodes].astype(np.float32))
-
-    def points(self, number: int) -> np.ndarray:
-        """Where the nodes were, (n, 3) float64: as they were at the start and the result, else within rounding.
-
-        A way from the start is kept as float32, so that a node is off by 6e-8 of its way at most.
-
-        Raises
-        ------
-        KeyError
-            For an iteration that was thinned out.
-        """
-        if number == 0:
-            return self.start.mesh.points
-        if number == self.result and self.end is not None:
-            return self.end.mesh.points
-        points = self.start.mesh.points.copy()
-        offsets = self._offsets[number]
-        points[offsets.nodes] += offsets.ways
-        return points
-
-
-@dataclass(frozen=True)
-class Moment:
-    """An iteration of a run."""
-
-    record: Record
-    number: int
-
-    @property
-    def name(self) -> str:
-        """What to call it."""
-        return f"{self.record.name} {self.number}" if self.number else f"before {self.record.name}"
 
 
 class History:
@@ -221,6 +115,39 @@ class History:
         for record in list(self.records):
             self.remove(record)
 
+    def given(self, states: Iterable[State]) -> HistoryData:
+        """What a session keeps, with the iterations that some states show; no run goes on."""
+        with self._lock:
+            begun = [record for record in self.records if record.rows]
+            at = {record: number for number, record in enumerate(begun)}
+            records = tuple(given(record, at, record._offsets) for record in begun)
+        moments = ((state, self.moment_of(state)) for state in dict.fromkeys(states))
+        shown = [(state, at[one.record], one.number) for state, one in moments if one and one.record in at]
+        return HistoryData(records, tuple(shown))
+
+    def take(self, data: HistoryData) -> None:
+        """Have the runs that a session has kept, and no others; more positions than fit are thinned."""
+        self.clear()
+        for kept in data.records:
+            parent = None if kept.parent is None else Moment(self.records[kept.parent[0]], kept.parent[1])
+            record = Record(kept.name, kept.title, kept.start, parent)
+            record.rows, record.result, record.end = [dict(row) for row in kept.rows], kept.result, kept.end
+            record.message, record.pauses, record.advice = kept.message, dict(kept.pauses), kept.advice
+            self.records.append(record)
+            self._moments[kept.start] = Moment(record, 0)
+            if kept.end is not None:
+                self._moments[kept.end] = Moment(record, kept.result)
+            with self._lock:
+                for number, offsets in kept.offsets:
+                    record._offsets[number] = offsets
+                    self._stamp += 1
+                    self._kept.append((record, number, self._stamp))
+                    self._bytes += offsets.nbytes
+        for state, run, number in data.moments:
+            self._moments[state] = Moment(self.records[run], number)
+        with self._lock:
+            self._thin()
+
     def note(self, state: State, moment: Moment) -> None:
         """Remember which iteration a state shows."""
         self._moments[state] = moment
@@ -282,3 +209,6 @@ class History:
 
 def _carries(one: Mesh, other: Mesh) -> bool:
     return one.pinned is other.pinned and one.hex_sets is other.hex_sets
+
+
+__all__ = ["LIMIT", "History", "Moment", "Record"]

@@ -35,6 +35,12 @@ class Kept:
     points: np.ndarray
     inverted: np.ndarray
 
+    def check(self, hexes: int, nodes: int) -> None:
+        """Raise `ValueError` unless it is a moment of a mesh of so many hexes and nodes."""
+        fits = self.points.shape == (nodes, 3) and self.points.dtype == np.float64
+        if not fits or self.inverted.shape != (hexes,) or self.inverted.dtype != bool or not 0 <= self.slot < MOST:
+            raise ValueError(f"what is kept as {self.name!r} is of another mesh")
+
 
 class KeptMoments(QObject):
     """What is kept of the open mesh, in the order of keeping.
@@ -78,6 +84,10 @@ class KeptMoments(QObject):
     def clear(self) -> None:
         """Keep none: another mesh is open."""
         self._take()
+
+    def take(self, kept: tuple[Kept, ...]) -> None:
+        """Keep what a session has kept."""
+        self._take(*kept)
 
     def _take(self, *all: Kept) -> None:
         if all != self.all:

@@ -10,6 +10,9 @@ import numpy as np
 
 from hexmend_app.state.clip import Clip
 
+#: Maps of colours that can be chosen, the first of them the default, and last that of changes.
+COLOUR_MAPS = ("viridis", "cividis", "plasma", "inferno", "BrBG")
+
 
 class RangeMode(StrEnum):
     """Which values the two ends of the colours stand for."""

@@ -11,7 +11,9 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.errors import HexmendError
 from hexmend.io import read
+from hexmend_app.state import session_data
 from hexmend_app.state.document import Document, State
+from hexmend_app.state.session_data import SessionData
 from hexmend_app.state.task import Task
 
 
@@ -32,30 +34,37 @@ class Progress:
     hexes: int = 0
 
 
-def _read(path: Path, task: Task) -> State:
+def _read(path: Path, task: Task) -> State | SessionData:
     """Read, measure and prepare one mesh, and tell which of them has begun; what goes wrong is a `HexmendError`."""
     try:
         task.tell(Progress(Doing.READING, path))
-        mesh = read(path)
-        task.tell(Progress(Doing.MEASURING, path, mesh.n_hexes))
-        state = State.of(mesh)
+        if session_data.is_session_file(path):
+            opened = session_data.read(path)
+            mesh = opened.document.now.mesh
+        else:
+            mesh = read(path)
+            task.tell(Progress(Doing.MEASURING, path, mesh.n_hexes))
+            opened = State.of(mesh)
         task.tell(Progress(Doing.PREPARING, path, mesh.n_hexes))
-        _ = state.mesh.topology.face_neighbours, state.mesh.topology.layers  # what the view draws from
+        _ = mesh.topology.face_neighbours, mesh.topology.layers  # what the view draws from
     except HexmendError:
         raise
     except Exception as error:  # a reader that fails in a way of its own must not take the window down
         raise HexmendError(f"{path.name}: cannot be read ({type(error).__name__}: {error}).") from error
-    return state
+    return opened
 
 
 class Opener(QObject):
-    """Opens meshes into the document.
+    """Opens meshes into the document, and sessions.
 
     Signals
     -------
     began(Path)
     told(Progress)
         What is being done now.
+    loaded(SessionData, Path or None)
+        A session was read: whoever has all its parts takes it, before `ended`. The path is None where it is taken up
+        after a window's unexpected end.
     ended(Path)
         The mesh is the document's.
     cancelled(Path)
@@ -66,6 +75,7 @@ class Opener(QObject):
 
     began = Signal(object)
     told = Signal(object)
+    loaded = Signal(object, object)
     ended = Signal(object)
     cancelled = Signal(object)
     failed = Signal(object, object)
@@ -75,7 +85,8 @@ class Opener(QObject):
         self._document = document
         self._path: Path | None = None  # what is being read
         self._task: Task | None = None
-        self._next: Path | None = None
+        self._next: tuple[Path, bool] | None = None
+        self._recovers = False
         self._dropped: list[Task] = []
 
     @property
@@ -83,13 +94,21 @@ class Opener(QObject):
         """Whether a mesh is being read."""
         return self._task is not None
 
-    def open(self, path: str | Path) -> None:
-        """Begin to read; of several asked for while one is read, the last is opened next."""
+    def open(self, path: str | Path, *, recovers: bool = False) -> None:
+        """Begin to read; of several asked for while one is read, the last is opened next.
+
+        Parameters
+        ----------
+        path : path-like
+        recovers : bool
+            It is a session that was written beside an open window: the mesh keeps the path of its own file, and is as
+            little saved as it was.
+        """
         path = Path(path)
         if self.busy:
-            self._next = path
+            self._next = path, recovers
             return
-        self._path = path
+        self._path, self._recovers = path, recovers
         self._task = Task(f"reading {path.name}", partial(_read, path))
         self._task.told.connect(self.told)
         self._task.ended.connect(self._finish)
@@ -115,10 +134,13 @@ class Opener(QObject):
     def _finish(self) -> None:
         task, self._task = self._task, None
         if self._next is not None:
-            path, self._next = self._next, None
-            self.open(path)
+            (path, recovers), self._next = self._next, None
+            self.open(path, recovers=recovers)
         elif task.error is not None:
             self.failed.emit(self._path, task.error)
         else:
-            self._document.replace(task.result, self._path)
-            self.ended.emit(self._path)
+            if isinstance(task.result, State):
+                self._document.replace(task.result, self._path)
+            else:
+                self.loaded.emit(task.result, None if self._recovers else self._path)
+            self.ended.emit(self._document.path if self._recovers and self._document.path else self._path)

@@ -3,13 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.parameters import from_values
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
+
+
+@dataclass(frozen=True)
+class OrderData:
+    """What a session keeps of the order: the stage, why it was chosen, and what was last set for each method."""
+
+    stage: Stage
+    why: str
+    values: dict[str, dict[str, Any]]
+
+    def __post_init__(self) -> None:
+        for method, values in self.values.items():
+            from_values(METHODS[method], values, owner=method)
 
 
 class Order(QObject):
@@ -72,6 +87,17 @@ class Order(QObject):
         """Set what the run under way is doing."""
         self.begun = stage
         self.choose(stage)
+
+    def given(self) -> OrderData:
+        """What a session keeps; where a value is wrong, what was admitted last, with the usual limits."""
+        stage = self.stage or Stage(self.smoother_of(self.method), Stop())
+        return OrderData(stage, self.why, {method: dict(values) for method, values in self._values.items()})
+
+    def take(self, data: OrderData) -> None:
+        """Set what a session has kept."""
+        self._values = {method: dict(values) for method, values in data.values.items()}
+        self.begun = None
+        self.choose(data.stage, data.why)
 
     def values_of(self, method: str) -> dict[str, Any]:
         """What was last set for a method; empty where nothing was."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from enum import Enum
 from functools import partial
 
@@ -119,6 +120,11 @@ class Smoothing(QObject):
         if self._worker is not None:
             self._worker.breakpoints = breakpoints
 
+    @property
+    def breakpoints(self) -> Breakpoints:
+        """What runs pause at."""
+        return self._breakpoints
+
     def follow(self, on: bool) -> None:
         """Show iterations as they come, beginning with the newest, or stay where the user looks."""
         self.following = on
@@ -171,6 +177,7 @@ class Smoothing(QObject):
         """Forget the run on the mesh that was open, and what was begun while the other was read."""
         self.shut_down()
         self.work = self.record = self.advice = None
+        self._breakpoints = replace(self._breakpoints, hex=None, node=None)  # others would be meant
         self._set_phase(Phase.IDLE)
 
     def shut_down(self) -> None:
@@ -231,7 +238,7 @@ class Smoothing(QObject):
         if last is not None:
             self._document.commit(self._title, last.state, show=self.following)
             self.iterated.emit(last)
-        self.advice = worker.advice
+        self.advice = self.record.advice = worker.advice
         self._set_phase(Phase.FINISHED)
         self.ended.emit(worker.task.result)
 

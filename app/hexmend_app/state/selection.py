@@ -3,9 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
+
+
+@dataclass(frozen=True)
+class SelectionData:
+    """What a session keeps of what is looked at."""
+
+    hex: int | None
+    node: int | None
+
+    def check(self, hexes: int, nodes: int) -> None:
+        """Raise `ValueError` unless a mesh of so many hexes and nodes has them."""
+        if not (0 <= (self.hex or 0) < hexes and 0 <= (self.node or 0) < nodes):
+            raise ValueError(f"hex {self.hex} or node {self.node} is chosen, which the mesh has not")
 
 
 class Selection(QObject):
@@ -38,6 +52,14 @@ class Selection(QObject):
         if (hex, node) != (self.hex, self.node):
             self.hex, self.node = hex, node
             self.changed.emit()
+
+    def given(self) -> SelectionData:
+        """What a session keeps."""
+        return SelectionData(self.hex, self.node)
+
+    def take(self, data: SelectionData) -> None:
+        """Look at what a session has kept."""
+        self.choose(data.hex, data.node)
 
     def visit(self, *hexes: int) -> None:
         """Bring a hex, or several together, before the camera; one alone is looked at too."""

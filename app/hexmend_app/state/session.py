@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.chain import Chain
@@ -11,6 +14,7 @@ from hexmend_app.state.comparison import Comparison
 from hexmend_app.state.document import Document
 from hexmend_app.state.examiner import Examiner
 from hexmend_app.state.explainer import Explainer
+from hexmend_app.state.eye import Eye
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.history import History
 from hexmend_app.state.kept import KeptMoments
@@ -23,6 +27,9 @@ from hexmend_app.state.stepping import Stepping
 from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
+
+if TYPE_CHECKING:
+    from hexmend_app.state.session_data import SessionData
 
 
 class Session(QObject):
@@ -52,6 +59,7 @@ class Session(QObject):
     comparison : Comparison
     views : Views
     kept : KeptMoments
+    eye : Eye
     commands : Commands
     """
 
@@ -77,7 +85,9 @@ class Session(QObject):
         self.comparison = Comparison(self.document, self)
         self.kept = KeptMoments(self)
         self.views = Views(self.document, self.kept, self)
+        self.eye = Eye(self)
         self.commands = Commands(self)
+        self.opener.loaded.connect(self.take)
         self.document.mesh_replaced.connect(self._on_another)
         for part in self.children():
             for told in _signals(part):
@@ -87,6 +97,49 @@ class Session(QObject):
     def editable(self) -> bool:
         """Whether the mesh may be changed: not by hand while a method runs on it, nor while another is being read."""
         return self.document.is_open and not self.smoothing.busy and not self.opener.busy
+
+    def given(self) -> SessionData:
+        """All that a session's file keeps; a mesh is open, no run goes on, and no sweep is under way."""
+        from hexmend_app.state.session_data import SessionData
+
+        document = self.document.given()
+        states = [document.now, *(change.state for change in document.changes)]
+        return SessionData(
+            document=document,
+            history=self.history.given(states),
+            timeline=self.timeline.given(),
+            view=self.view.given(),
+            selection=self.selection.given(),
+            kept=self.kept.all,
+            views=self.views.given(),
+            comparison=self.comparison.given(),
+            order=self.order.given(),
+            chain=self.chain.given(),
+            breakpoints=self.smoothing.breakpoints,
+            eye=self.eye.given(),
+        )
+
+    def take(self, data: SessionData, path: Path | None = None) -> None:
+        """Be as a session's file has it.
+
+        Parameters
+        ----------
+        data : SessionData
+        path : Path, optional
+            The file's; None where it was written beside the open window, as a way back after its end.
+        """
+        self.document.take(data.document, path)  # first: all forget what was of another mesh
+        self.history.take(data.history)
+        self.timeline.take(data.timeline)
+        self.view.take(data.view)
+        self.selection.take(data.selection)
+        self.kept.take(data.kept)  # before the views, which keep what is not kept yet
+        self.views.take(data.views)
+        self.comparison.take(data.comparison)
+        self.order.take(data.order)
+        self.chain.restore(data.chain)
+        self.smoothing.break_at(data.breakpoints)
+        self.eye.take(data.eye)
 
     def shut_down(self) -> None:
         """End the threads, and wait for them."""

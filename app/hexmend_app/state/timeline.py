@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend_app.state.document import Document
@@ -11,6 +13,13 @@ from hexmend_app.state.settings import ITERATIONS_PLAYED
 
 #: Iterations a second at which a run is played.
 SPEED = ITERATIONS_PLAYED.default
+
+
+@dataclass(frozen=True)
+class TimelineData:
+    """What a session keeps of the timeline: which of the runs is gone through."""
+
+    record: int | None
 
 
 class Timeline(QObject):
@@ -131,6 +140,18 @@ class Timeline(QObject):
         self.record = record
         self.grown.emit()
         self.go(record, record.newest if record.result is None else record.result)
+
+    def given(self) -> TimelineData:
+        """What a session keeps."""
+        records = self.history.records
+        return TimelineData(records.index(self.record) if self.record in records else None)
+
+    def take(self, data: TimelineData) -> None:
+        """Go through what a session has kept, once the history has its runs."""
+        self._take_newest()
+        if data.record is not None:
+            self.record = self.history.records[data.record]
+            self.grown.emit()
 
     def forget(self, record: Record) -> None:
         """Keep a run no longer; not one that goes on."""

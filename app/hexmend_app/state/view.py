@@ -4,11 +4,45 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.movement import MOVEMENTS
+from hexmend.quality import METRICS
 from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, PlaneClip
-from hexmend_app.state.look import Isolation, Look
+from hexmend_app.state.look import COLOUR_MAPS, Isolation, Look
+
+
+@dataclass(frozen=True)
+class ViewData:
+    """What a session keeps of the view: the look, what was dug in which order, and how cuts and isolation are set."""
+
+    look: Look
+    dug: tuple[int, ...]
+    handles: bool
+    plane_at: int
+    snap: bool
+    rings: int
+
+    def __post_init__(self) -> None:
+        scale, shown = self.look.scale, self.look.quality_range
+        if scale.metric not in METRICS and scale.metric not in MOVEMENTS:
+            raise ValueError(f"there is no metric {scale.metric!r}")
+        if shown is not None and shown.metric not in METRICS:
+            raise ValueError(f"there is no metric {shown.metric!r}")
+        if scale.map not in COLOUR_MAPS:
+            raise ValueError(f"there is no colour map {scale.map!r}")
+        clip = self.look.clip
+        if not 0 <= self.plane_at < (len(clip.planes) if isinstance(clip, PlaneClip) else 1 + self.plane_at):
+            raise ValueError(f"there is no plane {self.plane_at}")
+
+    def check(self, hexes: int) -> None:
+        """Raise `ValueError` unless a mesh of so many hexes has those that are shown or hidden one by one."""
+        isolated = () if self.look.isolation is None else self.look.isolation.hexes
+        named = (*isolated, *self.look.dug, *self.dug)
+        if named and not 0 <= min(named) <= max(named) < hexes:
+            raise ValueError("hexes are isolated or dug which the mesh has not")
 
 
 class View(QObject):
@@ -41,6 +75,16 @@ class View(QObject):
             if not look.dug:
                 self._dug.clear()
             self.look_changed.emit()
+
+    def given(self) -> ViewData:
+        """What a session keeps."""
+        return ViewData(self.look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings)
+
+    def take(self, data: ViewData) -> None:
+        """Look as a session has kept it."""
+        self.look, self._dug = data.look, list(data.dug)
+        self.handles, self.plane_at, self.snap, self.rings = data.handles, data.plane_at, data.snap, data.rings
+        self.look_changed.emit()
 
     def colour_by(self, metric: str) -> None:
         """Have the colours show another metric, or movement, in the range that suits it."""

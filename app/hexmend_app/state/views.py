@@ -48,6 +48,23 @@ class Wipe:
     at: float = 0.5
 
 
+@dataclass(frozen=True, eq=False)
+class ViewsData:
+    """What a session keeps of the views."""
+
+    shown: tuple[Shown, ...]
+    wipe: Wipe | None
+
+    def __post_init__(self) -> None:
+        wipe, count = self.wipe, len(self.shown)
+        if count > MOST:
+            raise ValueError(f"there are {count} views: expected {MOST} at most")
+        if wipe is not None and not (
+            0 <= wipe.left <= count and 0 <= wipe.right <= count and wipe.left != wipe.right and 0 <= wipe.at <= 1
+        ):
+            raise ValueError(f"there is no wipe {wipe} of {count} views")
+
+
 class Views(QObject):
     """The views beside that of the mesh as it is now; the distributions of what they show are kept as long as they do.
 
@@ -130,6 +147,16 @@ class Views(QObject):
         if self.wipe is not None and at != self.wipe.at:
             self.wipe = replace(self.wipe, at=at)
             self.wiped.emit()
+
+    def given(self) -> ViewsData:
+        """What a session keeps."""
+        return ViewsData(self.all, self.wipe)
+
+    def take(self, data: ViewsData) -> None:
+        """Show what a session has kept."""
+        self._take(*data.shown)
+        self.wipe = data.wipe
+        self.changed.emit()
 
     def _take(self, *all: Shown) -> None:
         if all == self.all:

@@ -9,6 +9,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from hexmend.io import readable_suffixes, writable_suffixes
+from hexmend.io.session import SUFFIX
 from hexmend_app.state.settings import FOLDER
 
 
@@ -21,16 +22,21 @@ class Answer(Enum):
 
 
 def ask_mesh(parent: QWidget) -> str:
-    """The mesh file to open, "" for none."""
+    """The mesh file or the session to open, "" for none."""
     kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
-    filters = f"Hexahedral meshes ({kinds});;All files (*)"
-    return _ask_to_open(parent, "Open a mesh", filters)
+    filters = f"Hexahedral meshes and sessions ({kinds});;Hexmend sessions (*{SUFFIX});;All files (*)"
+    return _ask_to_open(parent, "Open a mesh or a session", filters)
 
 
 def ask_target(parent: QWidget, stem: str) -> str:
     """Where to save the mesh, "" for nowhere."""
     kinds = ";;".join(f"{suffix[1:].upper()} mesh (*{suffix})" for suffix in writable_suffixes())
     return _ask_to_save(parent, "Save the mesh as", f"{stem}-smoothed.vtu", kinds, "VTU mesh (*.vtu)")
+
+
+def ask_session(parent: QWidget, stem: str) -> str:
+    """Where to save the session, "" for nowhere."""
+    return _ask_to_save(parent, "Save the session as", f"{stem}{SUFFIX}", f"Hexmend session (*{SUFFIX})")
 
 
 def ask_list(parent: QWidget, stem: str) -> str:

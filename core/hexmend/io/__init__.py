@@ -17,6 +17,7 @@ from hexmend.io import (  # noqa: F401  (they register themselves)
     nastran,
     ovm,
     pvtu,
+    session,
     su2,
     vtk_legacy,
     vtkhdf,

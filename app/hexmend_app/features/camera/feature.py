@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, Feature, Host, Seen
 from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.eye import Stand
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -35,6 +36,7 @@ class FeatureCamera(Feature):
         super().__init__(host)
         self._seen = Seen()
         self.session.selection.visited.connect(self._fly)
+        self.session.eye.now = self._stand
 
     def actions(self) -> Sequence[Action]:
         """Fit, the directions, back and forward, what is up, and how depth is drawn."""
@@ -106,7 +108,13 @@ class FeatureCamera(Feature):
         canvas.views_changed.connect(self.host.refresh_soon)
 
     def refresh(self) -> None:
-        """Come back to where the camera was before something was isolated, once it no longer is."""
+        """Come back to where the camera was before something was isolated, once it no longer is.
+
+        Where a session says where the camera is to stand, it does once the session's mesh is drawn.
+        """
+        if self.session.eye.wanted is not None and self._draws:
+            self.canvas.stand_at(self.session.eye.wanted)
+            self.session.eye.wanted = None
         isolated = self.session.view.look.isolation is not None
         if self.canvas is not None and self._seen.another("isolated", isolated):
             if isolated:
@@ -136,6 +144,16 @@ class FeatureCamera(Feature):
             enabled=lambda: self._ready() and enabled(),
             in_view=in_view,
         )
+
+    @property
+    def _draws(self) -> bool:
+        """Whether the view has drawn the open mesh."""
+        frame = None if self.canvas is None else self.canvas.viewport.frame
+        return frame is not None and self.session.document.is_open and frame.mesh is self.session.document.now.mesh
+
+    def _stand(self) -> Stand | None:
+        """Where the camera stands."""
+        return self.canvas.stand if self._draws else None
 
     def _ready(self) -> bool:
         return self.canvas is not None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from weakref import WeakKeyDictionary
 
 from hexmend.advice import Advice, Suggestion
 from hexmend.recipe import Stage
@@ -22,7 +21,6 @@ class FeatureOutcome(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        self._advice: WeakKeyDictionary[Record, Advice] = WeakKeyDictionary()
         #: Of a run without an iteration, which has no record: the one before it, its name, and what there is to say.
         self._idle: tuple[Record | None, str, Advice] | None = None
         self._shown: Advice | None = None
@@ -78,9 +76,7 @@ class FeatureOutcome(Feature):
 
     def _on_ended(self) -> None:
         record, advice = self.session.smoothing.record, self.session.smoothing.advice
-        if record in self.session.history.records:
-            self._advice[record] = advice
-        else:
+        if record not in self.session.history.records:
             self._idle = (self.session.timeline.record, record.name, advice)
 
     def _on_another(self) -> None:
@@ -93,7 +89,7 @@ class FeatureOutcome(Feature):
             self._idle = None
         if self._idle is not None:
             return self._idle[1:]
-        return ("", None) if record is None else (record.name, self._advice.get(record))
+        return ("", None) if record is None else (record.name, record.advice)
 
     def _where(self) -> str:
         """What the view shows, where that is not what the run that is explained has left."""

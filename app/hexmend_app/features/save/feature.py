@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from hexmend.io.session import SUFFIX
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.run import Phase
-from hexmend_app.widgets.questions import Answer, ask_target, ask_unsaved
+from hexmend_app.widgets.questions import Answer, ask_session, ask_target, ask_unsaved
 
 
 class FeatureSave(Feature):
@@ -62,8 +63,10 @@ class FeatureSave(Feature):
         return answer is Answer.DISCARD
 
     def ask_mesh(self) -> bool:
-        """Ask where the mesh goes and write it; whether it was."""
-        path = ask_target(self.host.window, self.host.stem)
+        """Ask where the mesh goes and write it, or the session that was opened; whether it was."""
+        opened = self.session.document.path
+        ask = ask_session if opened is not None and opened.suffix.lower() == SUFFIX else ask_target
+        path = ask(self.host.window, self.host.stem)
         return bool(path) and self.mesh(path)
 
     def mesh(self, path: str | Path) -> bool:

@@ -109,7 +109,9 @@ class FeatureSmooth(Feature):
         if self._seen.another("chosen", chosen.hex, chosen.node):
             form.set_chosen(chosen.hex, chosen.node)
         if session.document.is_open and self._seen.another("mesh", session.document.start):
+            breakpoints = self._smoothing.breakpoints
             form.set_mesh(session.document.now.mesh.n_hexes, session.document.now.mesh.n_nodes)
+            form.set_breakpoints(breakpoints)  # which know of the mesh already
         if phase is not Phase.PAUSED:
             self._hit = None
         moved = session.document.is_open and session.document.now is not session.document.start

@@ -1,0 +1,161 @@
+"""Values as plain data and back, by the types that dataclasses declare: what a session's file holds of the window.
+
+Dataclasses become tables of their fields, enumerations their values, tuples and sets lists. What comes back is of the
+declared types or is refused: a field that is unknown, missing, or of another kind is named with its place.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import typing
+from collections.abc import Callable, Mapping
+from enum import Enum
+from functools import cache
+from types import NoneType, UnionType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from hexmend.errors import HexmendError
+
+
+class Misfit(HexmendError):
+    """Data that is not of the declared type."""
+
+
+class Own(NamedTuple):
+    """How a type goes to plain data and back where it is no dataclass of such; a value that cannot be raises."""
+
+    data: Callable[[Any], Any]
+    value: Callable[[Any], Any]
+
+
+class Plain:
+    """Converts both ways.
+
+    Parameters
+    ----------
+    own : mapping of type to Own
+        Types with a way of their own, as they are declared.
+
+    Examples
+    --------
+    >>> from hexmend_app.state.look import Look, Structure
+    >>> plain = Plain({})
+    >>> plain.data(Structure(), Structure)["sharp"]
+    False
+    >>> plain.value(plain.data(Look(), Look), Look) == Look()
+    True
+    >>> plain.value({"sharp": 3}, Structure, "structure")
+    Traceback (most recent call last):
+    hexmend_app.state.plain.Misfit: structure has no field 'irregular'
+    """
+
+    def __init__(self, own: Mapping[type, Own]):
+        self._own = own
+
+    def data(self, value: Any, kind: Any) -> Any:
+        """A value of a declared type as plain data."""
+        if kind in self._own:
+            return self._own[kind].data(value)
+        origin, inner = typing.get_origin(kind), typing.get_args(kind)
+        if value is None or kind is np.ndarray:
+            return value
+        if origin in (UnionType, typing.Union):
+            kinds = [one for one in inner if one is not NoneType]
+            if len(kinds) == 1:
+                return self.data(value, kinds[0])
+            return {type(value).__name__: self.data(value, type(value))}
+        if dataclasses.is_dataclass(kind):
+            return {name: self.data(getattr(value, name), one) for name, one in _fields(kind).items()}
+        if isinstance(kind, type) and issubclass(kind, Enum):
+            return value.value
+        if origin in (tuple, list, frozenset):
+            kinds = inner if origin is tuple and inner[-1:] != (Ellipsis,) else [inner[0]] * len(value)
+            ordered = sorted(value) if origin is frozenset else value
+            return [self.data(one, its) for one, its in zip(ordered, kinds, strict=True)]
+        if origin in (dict, Mapping):
+            return {name: self.data(one, inner[1]) for name, one in value.items()}
+        return value
+
+    def value(self, data: Any, kind: Any, where: str = "it") -> Any:
+        """The value of a declared type that plain data stands for.
+
+        Parameters
+        ----------
+        data
+        kind : type
+        where : str
+            What to call it in an error.
+
+        Raises
+        ------
+        Misfit
+        """
+        try:
+            return self._value(data, kind, where)
+        except Misfit:
+            raise
+        except (HexmendError, ValueError, TypeError, KeyError, IndexError, OverflowError) as error:
+            raise Misfit(f"{where}: {error}") from None
+
+    def _value(self, data: Any, kind: Any, where: str) -> Any:
+        if kind in self._own:
+            return self._own[kind].value(data)
+        origin, inner = typing.get_origin(kind), typing.get_args(kind)
+        if kind is Any:
+            return data
+        if origin in (UnionType, typing.Union):
+            return self._one_of(data, inner, where)
+        if dataclasses.is_dataclass(kind):
+            return self._made(data, kind, where)
+        if isinstance(kind, type) and issubclass(kind, Enum):
+            return kind(data)
+        if origin in (tuple, list, frozenset):
+            return origin(self._several(data, origin, inner, where))
+        if origin in (dict, Mapping):
+            _check(data, dict, where)
+            return {name: self.value(one, inner[1], f"{where}.{name}") for name, one in data.items()}
+        if kind is float and type(data) is int:
+            return float(data)
+        _check(data, kind, where)
+        return data
+
+    def _one_of(self, data: Any, kinds: tuple[Any, ...], where: str) -> Any:
+        if data is None and NoneType in kinds:
+            return None
+        kinds = tuple(one for one in kinds if one is not NoneType)
+        if len(kinds) == 1:
+            return self.value(data, kinds[0], where)
+        _check(data, dict, where)
+        named = {one.__name__: one for one in kinds}
+        if len(data) != 1 or next(iter(data)) not in named:
+            raise Misfit(f"{where} is none of {', '.join(named)}")
+        ((name, inside),) = data.items()
+        return self.value(inside, named[name], where)
+
+    def _made(self, data: Any, kind: type, where: str) -> Any:
+        _check(data, dict, where)
+        fields = _fields(kind)
+        for name in [*fields, *data]:
+            if (name in fields) != (name in data):
+                raise Misfit(f"{where} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
+        return kind(**{name: self.value(data[name], one, f"{where}.{name}") for name, one in fields.items()})
+
+    def _several(self, data: Any, origin: type, inner: tuple[Any, ...], where: str) -> list[Any]:
+        _check(data, list, where)
+        kinds = inner if origin is tuple and inner[-1:] != (Ellipsis,) else [inner[0]] * len(data)
+        if len(kinds) != len(data):
+            raise Misfit(f"{where} has {len(data)} entries: expected {len(kinds)}")
+        return [self.value(one, its, f"{where}[{at}]") for at, (one, its) in enumerate(zip(data, kinds, strict=True))]
+
+
+@cache
+def _fields(kind: type) -> dict[str, Any]:
+    types = typing.get_type_hints(kind)
+    return {one.name: types[one.name] for one in dataclasses.fields(kind) if one.init}
+
+
+def _check(data: Any, kind: type, where: str) -> None:
+    if not isinstance(data, kind) or (isinstance(data, bool) and kind is not bool):
+        raise Misfit(f"{where} is of another kind: expected {kind.__name__}")

@@ -1,0 +1,169 @@
+"""A session as a file: what its parts keep, put together, written, and read again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hexmend.errors import FileError, MeshError
+from hexmend.io.atomic import replacing
+from hexmend.io.session import SUFFIX, is_session, read_session, write_session
+from hexmend.mesh import Mesh
+from hexmend.parameters import from_values
+from hexmend.quality import measure, summarise
+from hexmend.run.breakpoints import Breakpoints
+from hexmend.smoothers import METHODS, Smoother
+from hexmend_app.state.chain import ChainData
+from hexmend_app.state.comparison import ComparisonData
+from hexmend_app.state.document import DocumentData, State
+from hexmend_app.state.eye import Stand
+from hexmend_app.state.history import HistoryData
+from hexmend_app.state.kept import Kept
+from hexmend_app.state.order import OrderData
+from hexmend_app.state.plain import Misfit, Own, Plain
+from hexmend_app.state.selection import SelectionData
+from hexmend_app.state.timeline import TimelineData
+from hexmend_app.state.view import ViewData
+from hexmend_app.state.views import ViewsData
+
+#: Bytes from which a file's kind is told.
+_HEAD = 64
+
+
+@dataclass(frozen=True, eq=False)
+class SessionData:
+    """Everything that a session keeps, part by part; each part gives its own and takes it again."""
+
+    document: DocumentData
+    history: HistoryData
+    timeline: TimelineData
+    view: ViewData
+    selection: SelectionData
+    kept: tuple[Kept, ...]
+    views: ViewsData
+    comparison: ComparisonData
+    order: OrderData
+    chain: ChainData
+    breakpoints: Breakpoints
+    eye: Stand | None
+
+    def __post_init__(self) -> None:
+        mesh = self.document.now.mesh
+        hexes, nodes = mesh.n_hexes, mesh.n_nodes
+        for state in self._compared():
+            if state.mesh.hexes is not mesh.hexes:
+                raise ValueError("it compares the mesh with states of another")
+        self.view.check(hexes)
+        self.selection.check(hexes, nodes)
+        for one in self.kept:
+            one.check(hexes, nodes)
+        for number, count in ((self.breakpoints.hex, hexes), (self.breakpoints.node, nodes)):
+            if not 0 <= (number or 0) < count:
+                raise ValueError(f"a run is to pause at {number}, of which there are {count}")
+        if not 0 <= (self.timeline.record or 0) < max(len(self.history.records), self.timeline.record is None):
+            raise ValueError(f"there is no run {self.timeline.record}")
+
+    def _compared(self) -> Iterator[State]:
+        """What is to be of the mesh that is shown, besides itself."""
+        yield from (one.state for one in self.views.shown)
+        yield from (record.start for record in self.history.records)
+        yield from (record.end for record in self.history.records if record.end is not None)
+        yield from (one.state for one in self.comparison.results if one.state is not None)
+        if self.comparison.initial is not None:
+            yield self.comparison.initial
+
+
+def is_session_file(path: Path) -> bool:
+    """Whether a file is a session by its name, or else by how it begins."""
+    if path.suffix.lower() == SUFFIX:
+        return True
+    try:
+        with open(path, "rb") as file:
+            return is_session(file.read(_HEAD))
+    except (OSError, ValueError):  # whoever reads it says why it cannot be read
+        return False
+
+
+def write(path: Path, data: SessionData) -> None:
+    """Write a session as a whole or, where that fails, leave what was there.
+
+    Raises
+    ------
+    FileError
+        Where the place cannot be written to.
+    """
+    numbers: dict[Mesh, int] = {}
+
+    def number(mesh: Mesh) -> int:
+        return numbers.setdefault(mesh, len(numbers))
+
+    plain = Plain({
+        Mesh: Own(number, _none),
+        State: Own(lambda state: number(state.mesh), _none),
+        Smoother: Own(_smoother_data, _none),
+    })  # fmt: skip
+    window = plain.data(data, SessionData)
+    now = number(data.document.now.mesh)
+    with replacing(path) as temporary:
+        write_session(temporary, tuple(numbers), now, window)
+
+
+def read(path: Path) -> SessionData:
+    """Read a session; every mesh in it is measured.
+
+    Raises
+    ------
+    FileError
+        Where it is none, is damaged or newer, or its parts do not fit together.
+    """
+    stored = read_session(path)
+    states = _States(stored.meshes)
+    plain = Plain({
+        Mesh: Own(_none, lambda at: states(at).mesh),
+        State: Own(_none, states),
+        Smoother: Own(_none, _smoother),
+    })  # fmt: skip
+    try:
+        return plain.value(stored.window, SessionData, "the window")
+    except (Misfit, MeshError) as error:
+        raise FileError(path, f"does not hold together: {error}", "Use an earlier copy, or open its mesh.") from None
+
+
+class _States:
+    """States of some meshes by number, each made once; the same places of the same hexes are measured once."""
+
+    def __init__(self, meshes: tuple[Mesh, ...]):
+        self._meshes = meshes
+        self._states: dict[int, State] = {}
+        self._figures: dict[tuple[int, int], Any] = {}
+
+    def __call__(self, at: Any) -> State:
+        if type(at) is not int or not 0 <= at < len(self._meshes):
+            raise Misfit(f"there is no mesh {str(at)[:20]}")
+        if at not in self._states:
+            mesh = self._meshes[at]
+            key = id(mesh.points), id(mesh.hexes)
+            if key not in self._figures:
+                self._figures[key] = measure(mesh.points, mesh.hexes)
+            self._states[at] = State(mesh, self._figures[key], summarise(mesh, self._figures[key]))
+        return self._states[at]
+
+
+def _smoother_data(smoother: Smoother) -> dict[str, Any]:
+    return {"method": smoother.name, "parameters": smoother.values()}
+
+
+def _smoother(data: Any) -> Smoother:
+    if not isinstance(data, dict) or data.keys() != {"method", "parameters"}:
+        raise Misfit("a method is no table of its name and its parameters")
+    name, parameters = str(data["method"]), data["parameters"]
+    if not isinstance(parameters, dict):
+        raise Misfit(f"the parameters of {name} are no table")
+    return from_values(METHODS[name], parameters, owner=name)
+
+
+def _none(_: Any) -> None:
+    """The way that is not gone."""
+    raise NotImplementedError

@@ -1,0 +1,123 @@
+"""Sessions (.hexmend): the meshes of a window, which of them is shown, and all that the window keeps beside them.
+
+A zip as `hexmend.io.archive` has it. To the core a session is the mesh as it was shown when it was saved: `read` gives
+that one, with the surface that its boundary slides on. What stands under "window" is the viewer's.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hexmend.errors import FileError, MeshError
+from hexmend.io.format import FORMATS, Format
+from hexmend.mesh import Mesh
+
+#: The suffix of sessions, and the number of what is written; lower ones can be read.
+SUFFIX, VERSION = ".hexmend", 1
+
+_FORMAT = "Hexmend session"
+_HEAD = b"PK\x03\x04", b"description.json"
+
+
+@dataclass(frozen=True, eq=False)
+class Stored:
+    """What a session file holds.
+
+    Parameters
+    ----------
+    meshes : tuple of Mesh
+    now : int
+        Which of them was shown.
+    window : object
+        Plain data with arrays, as `write_archive` takes it.
+    """
+
+    meshes: tuple[Mesh, ...]
+    now: int
+    window: Any
+
+
+def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int, window: Any) -> None:
+    """Write a session; who calls it sees to it that a file is replaced as a whole.
+
+    Parameters
+    ----------
+    path : path-like
+    meshes : sequence of Mesh
+        What they share is written once.
+    now : int
+        Which of them is shown.
+    window : object
+    """
+    from hexmend.io.archive import write_archive
+    from hexmend.io.mesh_data import mesh_data
+
+    data = {"meshes": [mesh_data(mesh) for mesh in meshes], "now": now, "window": window}
+    write_archive(path, _FORMAT, VERSION, data)
+
+
+def read_session(path: str | os.PathLike[str]) -> Stored:
+    """Read a session.
+
+    Raises
+    ------
+    FileError
+        Where it is none, is damaged, or is of a newer version.
+    """
+    from hexmend.io.mesh_data import Meshes, check_fields
+
+    data = _data(path)
+    try:
+        check_fields("the session", data, {"meshes", "now", "window"})
+        make = Meshes()
+        meshes = tuple(make.mesh(one) for one in data["meshes"])
+        return Stored(meshes, _number(data), data["window"])
+    except MeshError as error:
+        raise _unfit(path, error) from None
+
+
+def _read(path: Path) -> Mesh:
+    """The mesh that was shown."""
+    from hexmend.io.mesh_data import Meshes, check_fields
+
+    data = _data(path)
+    try:
+        check_fields("the session", data, {"meshes", "now", "window"})
+        return Meshes().mesh(data["meshes"][_number(data)])
+    except MeshError as error:
+        raise _unfit(path, error) from None
+
+
+def _data(path: str | os.PathLike[str]) -> Any:
+    from hexmend.io.archive import read_archive
+    from hexmend.io.files import check_readable
+
+    check_readable(Path(path), "a session")
+    try:
+        return read_archive(path, _FORMAT, VERSION)
+    except OSError as error:
+        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
+
+
+def _number(data: dict[str, Any]) -> int:
+    meshes, now = data["meshes"], data["now"]
+    if not isinstance(meshes, list) or type(now) is not int or not 0 <= now < len(meshes):
+        raise MeshError("it does not say which of its meshes was shown")
+    return now
+
+
+def _unfit(path: str | os.PathLike[str], error: MeshError) -> FileError:
+    return FileError(path, str(error), "Use an earlier copy, or open the mesh that it was made from.")
+
+
+def is_session(head: bytes) -> bool:
+    """Whether a file that begins with these bytes is a session."""
+    begin, name = _HEAD
+    return head.startswith(begin) and head[30 : 30 + len(name)] == name
+
+
+FORMATS.add("session", Format("session", "Hexmend session", (SUFFIX,), (), _read, recognised=is_session))
