@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySequence, QShortcut
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton, QWidget
 
 from hexmend_app.scene.palette import AMBER, BLUE, TOLD, WARNED, WORSE, WRONG
 from hexmend_app.widgets.style import dress, explain, icon
@@ -23,6 +24,7 @@ class _Message:
     title: str
     text: str
     timeout_ms: int = 0
+    choices: tuple[tuple[str, Callable[[], object]], ...] = ()
     times: int = 1
     number: int = 0
     report: str = ""
@@ -113,6 +115,9 @@ class MessageBar(QFrame):
         layout.addWidget(self.title, 0, 1)
         layout.addLayout(buttons, 0, 2, Qt.AlignmentFlag.AlignTop)
         layout.addWidget(self.text, 1, 1, 1, 2)
+        self._choices = QHBoxLayout()
+        self._choices.addStretch()
+        layout.addLayout(self._choices, 2, 1, 1, 2)
         self.hide()
         dress(self, self._paint)
 
@@ -123,6 +128,10 @@ class MessageBar(QFrame):
     def show_warning(self, title: str, text: str = "") -> None:
         """Show what to look out for; it stays until dismissed."""
         self._add(_Message("warning", title, text))
+
+    def show_offer(self, title: str, text: str, choices: Sequence[tuple[str, Callable[[], object]]]) -> None:
+        """Show what can be done, with a button for each choice; one that is pressed dismisses it and is called."""
+        self._add(_Message("warning", title, text, choices=tuple(choices)))
 
     def show_info(self, text: str, timeout_ms: int = 6000) -> None:
         """Show what has been done, for `timeout_ms` milliseconds (0: until dismissed)."""
@@ -165,6 +174,21 @@ class MessageBar(QFrame):
         came = sorted(self._messages, key=lambda message: message.number)
         return [(message.kind, message.title, message.text) for message in came]
 
+    def _choose(self, choice: Callable[[], object]) -> None:
+        self.dismiss()
+        choice()
+
+    def _show_choices(self, message: _Message) -> None:
+        while self._choices.count() > 1:
+            button = self._choices.takeAt(1).widget()
+            button.hide()
+            button.deleteLater()
+        for word, choice in message.choices:
+            button = QPushButton(word)
+            button.clicked.connect(lambda _=False, choice=choice: self._choose(choice))
+            self._choices.addWidget(button)
+            button.show()
+
     def _show_next(self) -> None:
         self._at += 1
         self._refresh()
@@ -200,6 +224,7 @@ class MessageBar(QFrame):
         long = len(message.text) > _MAX_SHOWN
         self.text.setText(f"{message.text[:_MAX_SHOWN]}… (Copy takes all of it.)" if long else message.text)
         self.text.setVisible(bool(message.text))
+        self._show_choices(message)
         self._next.setVisible(len(self._messages) > 1)
         self._next.setText(f"{self._at + 1} of {len(self._messages)}  ›")
         if message.timeout_ms:

@@ -1,0 +1,251 @@
+"""The way back after an unexpected end: the session is written beside the window, and found again at the next start.
+
+Every window has a folder of its own below `state_folder`, with a lock that ends with its process. A window that ends in
+order removes its folder; one whose lock nobody holds any more was left by a crash.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from contextlib import suppress
+from dataclasses import dataclass
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
+
+from hexmend.errors import HexmendError
+from hexmend_app.state import session_data
+from hexmend_app.state.places import state_folder
+from hexmend_app.state.task import Task
+
+if TYPE_CHECKING:
+    from hexmend_app.state.session import Session
+
+#: Milliseconds between two looks at whether something has changed.
+PERIOD = 180_000
+
+_FOLDER, _LOCK, _SESSION, _ABOUT = "windows", "lock", "session.hexmend", "about.json"
+#: Bytes of an account that are read.
+_LARGEST = 10_000
+
+
+@dataclass(frozen=True, eq=False)
+class Left:
+    """What a window has left that did not end in order.
+
+    Parameters
+    ----------
+    folder : Path
+    lock : QLockFile
+        Held, so that no other window offers it.
+    name : str
+        What its mesh was called.
+    runs : int
+        How many runs were on it.
+    when : datetime
+        When it was written, in local time.
+    """
+
+    folder: Path
+    lock: QLockFile
+    name: str
+    runs: int
+    when: datetime
+
+    @property
+    def path(self) -> Path:
+        """The session."""
+        return self.folder / _SESSION
+
+
+class Recovery(QObject):
+    """Writes the session while the window is open, when something has changed and nothing runs, and after every run.
+
+    Parameters
+    ----------
+    session : Session
+
+    Signals
+    -------
+    written
+        The session is on disk.
+    failed(Exception)
+        It could not be written.
+    """
+
+    written = Signal()
+    failed = Signal(object)
+
+    def __init__(self, session: Session, parent: QObject | None = None):
+        super().__init__(parent)
+        self._session = session
+        self._folder: Path | None = None
+        self._lock: QLockFile | None = None
+        self._task: Task | None = None
+        self._changed = False
+        self._taken_up: Left | None = None
+        self._left: list[Left] = []
+        self._timer = QTimer(self, interval=PERIOD)
+        self._timer.timeout.connect(self.write)
+        self._soon = QTimer(self, singleShot=True, interval=0)
+        self._soon.timeout.connect(self.write)
+        for told in (session.document.changes_changed, session.timeline.runs_changed, session.view.look_changed,
+                     session.kept.changed, session.views.changed, session.order.changed, session.chain.changed,
+                     session.comparison.changed):  # fmt: skip
+            told.connect(self._on_change)
+        session.smoothing.ended.connect(lambda _: self._on_run())
+        session.opener.ended.connect(lambda _: self._on_opened())
+        session.opener.failed.connect(lambda *_: self._give_up())
+        session.opener.cancelled.connect(lambda _: self._give_up())
+
+    @property
+    def watching(self) -> bool:
+        """Whether the session is written beside the window."""
+        return self._lock is not None
+
+    @property
+    def left(self) -> tuple[Left, ...]:
+        """What windows have left that did not end in order, the newest first."""
+        return tuple(self._left)
+
+    def begin(self) -> None:
+        """Look for what was left, and write the session from now on; where there is no place for it, say why."""
+        if self.watching:
+            return
+        place = state_folder() / _FOLDER
+        folder = place / f"{os.getpid()}-{os.urandom(4).hex()}"
+        try:
+            folder.mkdir(mode=0o700, parents=True)
+        except OSError as error:
+            self.failed.emit(error)
+            return
+        self._folder, self._lock = folder, _locked(folder)
+        others = [one for one in place.iterdir() if one.is_dir() and one != folder]
+        self._left = sorted(filter(None, map(_found, others)), key=lambda one: one.when, reverse=True)
+        self._changed = True
+        self._timer.start()
+
+    def write(self) -> None:
+        """Write the session, where there is something to lose and nothing runs."""
+        session = self._session
+        runs = session.smoothing.busy or session.stepping.sweep is not None or session.opener.busy
+        if not (self.watching and self._changed and self._worth) or runs or self._task is not None:
+            return
+        self._changed = False
+        self._task = Task("keeping the session", partial(_write, self._folder, session.given()))
+        self._task.ended.connect(self._on_written)
+        self._task.start()
+
+    def take_up(self, left: Left) -> None:
+        """Open what was left; once it is open it is this window's."""
+        self._session.smoothing.end_now()
+        self._taken_up = left
+        self._session.opener.open(left.path, recovers=True)
+
+    def forget(self, left: Left) -> None:
+        """Remove what was left."""
+        self._left.remove(left)
+        _removed(left.folder, left.lock)
+
+    def end(self) -> None:
+        """The window ends in order: nothing is left of it."""
+        self._timer.stop()
+        self._soon.stop()
+        if self._task is not None:
+            self._task.wait()
+            self._task = None
+        for left in self._left:
+            left.lock.unlock()  # for the next start
+        self._left.clear()
+        if self._lock is not None:
+            _removed(self._folder, self._lock)
+            self._lock = None
+
+    @property
+    def _worth(self) -> bool:
+        """Whether there is something that its file has not."""
+        session = self._session
+        work = session.history.records or session.chain.stages or session.comparison.results or session.kept.all
+        return session.document.is_open and bool(session.document.modified or work)
+
+    def _on_change(self, *_: object) -> None:
+        self._changed = True
+
+    def _on_run(self) -> None:
+        self._changed = True
+        self._soon.start()
+
+    def _on_opened(self) -> None:
+        """What was written of another mesh is no longer wanted; what was taken up is as good as written."""
+        if not self.watching:
+            return
+        if self._task is not None:
+            self._task.wait()
+            self._task = None
+        left, self._taken_up = self._taken_up, None
+        with suppress(OSError):
+            if left is None:
+                (self._folder / _SESSION).unlink(missing_ok=True)
+            else:
+                for name in (_ABOUT, _SESSION):
+                    os.replace(left.folder / name, self._folder / name)
+                self.forget(left)
+
+    def _give_up(self) -> None:
+        self._taken_up = None
+
+    def _on_written(self) -> None:
+        task, self._task = self._task, None
+        if task.error is None:
+            self.written.emit()
+        elif isinstance(task.error, HexmendError | OSError):
+            self.failed.emit(task.error)
+        else:
+            raise task.error
+
+
+def _write(folder: Path, data: session_data.SessionData, task: Task) -> None:
+    """Write a session with an account of it."""
+    name = Path(data.document.path or data.document.now.mesh.name).name
+    about = json.dumps({"name": name, "runs": len(data.history.records)})
+    (folder / _ABOUT).write_text(about, encoding="utf-8")
+    session_data.write(folder / _SESSION, data)
+
+
+def _locked(folder: Path) -> QLockFile | None:
+    """The lock of a window's folder; None where its process holds it."""
+    lock = QLockFile(str(folder / _LOCK))
+    lock.setStaleLockTime(0)  # however old it is, it is held as long as its process lives
+    return lock if lock.tryLock(0) else None
+
+
+def _found(folder: Path) -> Left | None:
+    """What was left in a folder; None where its window is open, and where there is nothing, which is removed."""
+    lock = _locked(folder)
+    if lock is None:
+        return None
+    try:
+        when = datetime.fromtimestamp((folder / _SESSION).stat().st_mtime)
+    except OSError:
+        _removed(folder, lock)
+        return None
+    name, runs = "", 0
+    with suppress(OSError, ValueError, AttributeError, TypeError):
+        with open(folder / _ABOUT, encoding="utf-8") as file:
+            about = json.loads(file.read(_LARGEST))
+        name, runs = str(about.get("name", "")), int(about.get("runs", 0))
+    return Left(folder, lock, name, runs, when)
+
+
+def _removed(folder: Path, lock: QLockFile) -> None:
+    """Remove a window's folder, what is in it first: as long as it is locked, nobody offers it."""
+    for name in (_SESSION, _ABOUT):
+        with suppress(OSError):
+            (folder / name).unlink(missing_ok=True)
+    lock.unlock()
+    shutil.rmtree(folder, ignore_errors=True)

@@ -1,0 +1,170 @@
+"""A window that ends unexpectedly leaves its session, and the next offers it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+from PySide6.QtWidgets import QPushButton
+
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.state.places import VARIABLE
+from tests.app.driving import open_and_wait, press
+from tests.patience import PATIENCE
+
+#: A window that smooths a mesh, tells what it has come to once that is kept, and never ends by itself.
+_PROGRAM = """
+import hashlib, json, sys
+from pathlib import Path
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.shell.program import application
+from hexmend_app.shell.window import Window
+
+app = application()
+window = Window()
+window.show()
+window.furnish()
+window.build_canvas()
+session, feature = window.session, window.features["session"]
+
+def smooth(_):
+    session.view.change(peel=1)
+    session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=5)))
+
+def tell():
+    now = session.document.now
+    digest = hashlib.sha256(now.mesh.points.tobytes()).hexdigest()
+    print(json.dumps({"points": digest, "rows": session.history.records[0].rows}), flush=True)
+
+session.opener.ended.connect(smooth)
+feature.recovery.written.connect(tell)
+feature.guard()
+window.features["open"].open(Path(sys.argv[1]))
+app.exec()
+"""
+
+
+@pytest.fixture(autouse=True)
+def own_state(tmp_path, monkeypatch):
+    """A folder of the test's own for what windows leave."""
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "state"))
+    return tmp_path / "state" / "windows"
+
+
+@pytest.fixture
+def killed(tmp_path, mesh_file, qapp):
+    """What a window had come to before its process was killed."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "XDG_CONFIG_HOME": str(tmp_path / "config")}
+    command = [sys.executable, "-c", _PROGRAM, str(mesh_file)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        told = process.stdout.readline()
+        process.send_signal(signal.SIGKILL)
+    return json.loads(told)
+
+
+def offered(window):
+    window.refresh()
+    return [text for _, text, _ in window.messages.messages() if "can be recovered" in text]
+
+
+def choice(window, word):
+    (button,) = (one for one in window.messages.findChildren(QPushButton) if one.text() == word and one.isVisible())
+    return button
+
+
+def run(window, qtbot):
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
+
+
+def test_what_a_killed_window_had_is_recovered(killed, fresh_window, qtbot, mesh_file, own_state):
+    window, session = fresh_window, fresh_window.session
+    window.features["session"].guard()
+    assert offered(window) == [f"{mesh_file.name} can be recovered"]
+    (text,) = (text for _, title, text in window.messages.messages() if "recovered" in title)
+    assert "with 1 run." in text
+    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+        press(choice(window, "Recover"))
+    window.refresh()
+    assert hashlib.sha256(session.document.now.mesh.points.tobytes()).hexdigest() == killed["points"]
+    assert session.history.records[0].rows == killed["rows"]
+    assert session.view.look.peel == 1
+    assert session.document.path == mesh_file
+    assert session.document.modified
+    assert session.document.undo_title == METHODS["laplacian"].title
+    (own,) = own_state.iterdir()  # what was left is this window's now
+    assert (own / "session.hexmend").exists()
+    assert not window.features["session"].recovery.left
+
+
+def test_what_was_left_is_offered_again_unless_it_is_discarded(killed, fresh_window, own_state):
+    feature = fresh_window.features["session"]
+    feature.guard()
+    assert offered(fresh_window)
+    fresh_window.messages.dismiss()
+    assert not offered(fresh_window)  # not today
+    feature.close()
+    assert len(list(own_state.iterdir())) == 1
+    feature.guard()
+    fresh_window.action("recover").trigger()
+    assert offered(fresh_window)
+    press(choice(fresh_window, "Discard"))
+    feature.close()
+    assert list(own_state.iterdir()) == []
+
+
+def test_a_window_that_ends_in_order_leaves_nothing(fresh_window, qtbot, own_state, mesh_file):
+    recovery = fresh_window.features["session"].recovery
+    recovery.begin()
+    recovery.write()
+    (own,) = own_state.iterdir()
+    assert not (own / "session.hexmend").exists()  # there is nothing to lose yet
+    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
+        run(fresh_window, qtbot)
+    assert (own / "session.hexmend").exists()
+    assert sorted(one.name for one in own.iterdir()) == ["about.json", "lock", "session.hexmend"]
+    open_and_wait(qtbot, fresh_window, mesh_file)
+    assert not (own / "session.hexmend").exists()  # it was of work that was given up
+    recovery.end()
+    assert list(own_state.iterdir()) == []
+
+
+def test_a_window_that_is_open_is_not_offered(fresh_window, qtbot, own_state):
+    recovery = fresh_window.features["session"].recovery
+    recovery.begin()
+    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
+        run(fresh_window, qtbot)
+    program = (
+        "from PySide6.QtCore import QCoreApplication\n"
+        "from hexmend_app.state.recovery import Recovery\n"
+        "from hexmend_app.state.session import Session\n"
+        "app = QCoreApplication([])\n"
+        "recovery = Recovery(Session())\n"
+        "recovery.begin()\n"
+        "print(len(recovery.left))\n"
+        "recovery.end()\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, env=environment)
+    assert done.stdout == "0\n"
+    assert len(list(own_state.iterdir())) == 1
+    recovery.end()
+
+
+def test_where_nothing_can_be_written_it_is_said_once(fresh_window, tmp_path):
+    (tmp_path / "state").write_text("in the way")
+    feature = fresh_window.features["session"]
+    feature.guard()
+    feature.guard()
+    (warning,) = fresh_window.messages.messages()
+    assert "not kept safe" in warning[1]
+    assert not feature.recovery.watching
