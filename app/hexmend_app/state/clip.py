@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,8 +32,8 @@ class ClipPlane:
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        length = float(np.linalg.norm(self.normal))
-        if not length > 0 or not np.isfinite(length):
+        length = math.hypot(*self.normal)
+        if not length > 0 or not math.isfinite(length):
             raise ValueError(f"the plane's normal is {self.normal}: expected a direction")
         if abs(length - 1) < _ROUNDING:
             length = 1.0  # a plane that is copied is the same to the bit

@@ -18,6 +18,8 @@ from hexmend.mesh import Mesh
 
 #: The suffix of sessions, and the number of what is written; lower ones can be read.
 SUFFIX, VERSION = ".hexmend", 1
+#: Meshes of one session: changes, runs and what they are compared with.
+MOST = 10_000
 
 _FORMAT = "Hexmend session"
 _HEAD = b"PK\x03\x04", b"description.json"
@@ -68,25 +70,22 @@ def read_session(path: str | os.PathLike[str]) -> Stored:
     FileError
         Where it is none, is damaged, or is of a newer version.
     """
-    from hexmend.io.mesh_data import Meshes, check_fields
+    from hexmend.io.mesh_data import Meshes
 
     data = _data(path)
     try:
-        check_fields("the session", data, {"meshes", "now", "window"})
-        make = Meshes()
-        meshes = tuple(make.mesh(one) for one in data["meshes"])
-        return Stored(meshes, _number(data), data["window"])
+        make, now = Meshes(), _number(data)
+        return Stored(tuple(make.mesh(one) for one in data["meshes"]), now, data["window"])
     except MeshError as error:
         raise _unfit(path, error) from None
 
 
 def _read(path: Path) -> Mesh:
     """The mesh that was shown."""
-    from hexmend.io.mesh_data import Meshes, check_fields
+    from hexmend.io.mesh_data import Meshes
 
     data = _data(path)
     try:
-        check_fields("the session", data, {"meshes", "now", "window"})
         return Meshes().mesh(data["meshes"][_number(data)])
     except MeshError as error:
         raise _unfit(path, error) from None
@@ -103,10 +102,16 @@ def _data(path: str | os.PathLike[str]) -> Any:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None
 
 
-def _number(data: dict[str, Any]) -> int:
+def _number(data: Any) -> int:
+    """Which of its meshes a session shows, once it is known that it has the fields of one."""
+    from hexmend.io.mesh_data import check_fields
+
+    check_fields("the session", data, {"meshes", "now", "window"})
     meshes, now = data["meshes"], data["now"]
     if not isinstance(meshes, list) or type(now) is not int or not 0 <= now < len(meshes):
         raise MeshError("it does not say which of its meshes was shown")
+    if len(meshes) > MOST:
+        raise MeshError(f"it has {len(meshes):,} meshes: expected {MOST:,} at most")
     return now
 
 

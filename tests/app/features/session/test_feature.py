@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import numpy as np
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
+from hexmend.io.archive import read_archive, write_archive
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS
+from hexmend_app.shell.starting import Starting
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Structure, Traces, ValueRange
-from tests.app.driving import open_and_wait, pixels
+from hexmend_app.state.run import Phase
+from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
 
@@ -113,3 +119,132 @@ def test_a_session_is_as_it_was(window, qtbot, tmp_path, mesh_file):
     for record, places in zip(session.history.records, positions, strict=True):
         for number, place in zip(session.history.kept(record), places, strict=True):
             np.testing.assert_array_equal(record.points(number), place)
+
+
+def test_what_is_restored_goes_on(window, qtbot, tmp_path):
+    """Undo, the timeline, branches, breakpoints and further runs work as if the session had never been closed."""
+    work(window, qtbot)
+    session = window.session
+    window.features["session"].save(tmp_path / "work.hexmend")
+    undone = []
+    for _ in range(4):
+        session.commands.undo()
+        undone.append((session.document.now.mesh.points, session.document.redo_title))
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    for points, title in undone:
+        session.commands.undo()
+        np.testing.assert_array_equal(session.document.now.mesh.points, points)
+        assert session.document.redo_title == title
+    assert session.document.now is session.document.start
+    while session.document.redo_title is not None:
+        session.commands.redo()
+    first = session.history.records[0]
+    session.timeline.choose(first)
+    assert (session.timeline.moment.record, session.timeline.moment.number) == (first, first.result)
+    session.view.change(peel=0)
+    session.smoothing.break_at(Breakpoints())
+    run(window, qtbot, "laplacian", 2)
+    assert [record.name for record in session.history.records][-1] == "Laplacian (2)"
+    assert session.history.records[-1].parent.record is first
+
+
+def test_the_title_names_the_session_and_marks_what_is_not_saved(window, qtbot, tmp_path):
+    run(window, qtbot, "laplacian")
+    assert window.isWindowModified()
+    window.features["session"].save(tmp_path / "work.hexmend")
+    window.refresh()
+    assert window.windowTitle().startswith("work.hexmend")
+    assert not window.isWindowModified()
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    window.refresh()
+    assert window.windowTitle().startswith("work.hexmend")
+    assert not window.isWindowModified()
+    window.session.commands.undo()
+    window.refresh()
+    assert window.isWindowModified()
+
+
+def test_an_iteration_that_was_gone_back_to_is_no_change(window, qtbot, tmp_path):
+    run(window, qtbot, "laplacian")
+    session = window.session
+    session.timeline.go(session.history.records[0], 1)
+    window.features["session"].save(tmp_path / "work.hexmend")
+    assert session.document.previews
+    assert not session.document.modified
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    assert session.document.previews
+    assert session.timeline.moment.number == 1
+    session.timeline.go_to_newest()
+    assert session.document.now.summary == session.history.records[0].end.summary
+
+
+def test_a_question_about_unsaved_work_saves_the_session_that_was_opened(window, qtbot, tmp_path, monkeypatch):
+    window.features["session"].save(tmp_path / "work.hexmend")
+    run(window, qtbot, "laplacian")
+    asked = []
+    monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Save)
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *given: asked.append(given[2:4]) or (str(tmp_path / "new"), given[3])
+    )
+    assert window.may_leave()
+    ((proposed, kind),) = asked
+    assert proposed.endswith("work.hexmend")
+    assert kind == "Hexmend session (*.hexmend)"
+    open_and_wait(qtbot, window, tmp_path / "new.hexmend")
+    assert [record.name for record in window.session.history.records] == ["Laplacian"]
+
+
+def test_a_paused_run_is_saved_as_far_as_it_is(window, qtbot, tmp_path):
+    key(window, Qt.Key.Key_F10)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    window.refresh()
+    assert window.action("save_session").isEnabled()
+    points = window.session.document.now.mesh.points
+    window.features["session"].save(tmp_path / "work.hexmend")
+    window.session.smoothing.end_now()
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, points)
+    assert window.session.timeline.moment.number == 1
+    window.refresh()
+
+
+def test_a_session_is_dropped_on_the_window(window, qtbot, tmp_path):
+    window.features["session"].save(tmp_path / "work.hexmend")
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "work.hexmend"))])
+    how = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
+    QApplication.sendEvent(window, QDragEnterEvent(QPoint(50, 50), *how))
+    with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
+        QApplication.sendEvent(window, QDropEvent(QPointF(50, 50), *how))
+    assert window.session.document.name == "work.hexmend"
+
+
+def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window):
+    work(window, qtbot)
+    window.features["session"].save(tmp_path / "work.hexmend")
+    before = tables(window)
+    stand = window.canvas.stand
+    with qtbot.waitSignal(bare_window.furnished, timeout=PATIENCE):
+        Starting(bare_window, tmp_path / "work.hexmend")
+    bare_window.refresh()
+    assert tables(bare_window) == before
+    assert bare_window.canvas.stand == stand
+
+
+def test_a_session_that_is_damaged_is_refused_and_what_is_open_stays(window, qtbot, tmp_path):
+    path = tmp_path / "work.hexmend"
+    window.features["session"].save(path)
+    description = read_archive(path, "Hexmend session", 1)
+    description["window"]["view"]["look"]["colour"] = "red"
+    write_archive(path, "Hexmend session", 1, description)
+    now = window.session.document.now
+    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
+        window.features["open"].open(path)
+    assert window.session.document.now is now
+    (text,) = (text for kind, _, text in window.messages.messages() if kind == "error")
+    assert "the window.view.look has an unknown field 'colour'" in text
+
+
+def test_where_it_cannot_be_written_the_old_one_stays(window, tmp_path):
+    assert not window.features["session"].save(tmp_path / "missing" / "work.hexmend")
+    assert window.messages.messages()[-1][1] == "The session was not saved"
