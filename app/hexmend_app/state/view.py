@@ -24,9 +24,12 @@ class ViewData:
     plane_at: int
     snap: bool
     rings: int
+    counted: str | None
 
     def __post_init__(self) -> None:
         scale, shown = self.look.scale, self.look.quality_range
+        if self.counted is not None and self.counted not in METRICS:
+            raise ValueError(f"there is no metric {self.counted!r}")
         if scale.metric not in METRICS and scale.metric not in MOVEMENTS:
             raise ValueError(f"there is no metric {scale.metric!r}")
         if shown is not None and shown.metric not in METRICS:
@@ -65,6 +68,7 @@ class View(QObject):
         self.plane_at = 0  # which of several planes has them
         self.snap = True
         self.rings = 1
+        self.counted: str | None = None  # the metric of the histogram, where it is not that of the colours
         self._dug: list[int] = []  # in the order of digging
 
     def change(self, **fields: object) -> None:
@@ -78,12 +82,13 @@ class View(QObject):
 
     def given(self) -> ViewData:
         """What a session keeps."""
-        return ViewData(self.look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings)
+        return ViewData(self.look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings, self.counted)
 
     def take(self, data: ViewData) -> None:
         """Look as a session has kept it."""
         self.look, self._dug = data.look, list(data.dug)
         self.handles, self.plane_at, self.snap, self.rings = data.handles, data.plane_at, data.snap, data.rings
+        self.counted = data.counted
         self.look_changed.emit()
 
     def colour_by(self, metric: str) -> None:

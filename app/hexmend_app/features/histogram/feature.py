@@ -32,7 +32,6 @@ class FeatureHistogram(Feature):
         super().__init__(host)
         view = self._view = self.session.view
         self._document, self._kept = self.session.document, self.session.kept
-        self._own: str | None = None  # chosen here, not by the colours
         self._seen = Seen()
         self._kept_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
         panel = self.panel = QualityHistogram()
@@ -61,16 +60,20 @@ class FeatureHistogram(Feature):
     def metric(self) -> str:
         """What is counted; q where the colours show a movement, which is none of one moment."""
         shown = self._view.look.scale.metric
-        return self._own or ("q" if shown in MOVEMENTS else shown)
+        return self._view.counted or ("q" if shown in MOVEMENTS else shown)
 
     def refresh(self) -> None:
         """Count the hexes as they are now."""
         self.panel.setEnabled(self._document.is_open)
         look = self._view.look
-        if self._own is None and look.quality_range is not None and look.quality_range.metric != look.scale.metric:
-            self._own = look.quality_range.metric
+        if (
+            self._view.counted is None
+            and look.quality_range is not None
+            and look.quality_range.metric != look.scale.metric
+        ):
+            self._view.counted = look.quality_range.metric
         self.session.smoothing.want({look.scale.metric, self.metric} - MOVEMENTS.keys())
-        self.panel.set_metric(self.metric, self._own is None and self.metric == look.scale.metric)
+        self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.scale.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()
         self.panel.set_range(look.quality_range)
@@ -89,7 +92,7 @@ class FeatureHistogram(Feature):
         return values(self.metric, state.mesh.points, state.mesh.hexes, state.figures)
 
     def _on_metric(self, name: str) -> None:
-        self._own = name or None
+        self._view.counted = name or None
         chosen = self._view.look.quality_range
         if chosen is not None and chosen.metric != self.metric:
             self._view.change(quality_range=None)  # what it hides could no longer be told from the plot

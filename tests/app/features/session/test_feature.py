@@ -50,6 +50,7 @@ def work(window, qtbot):
         structure=Structure(sharp=True, fixed=True),
         traces=Traces(arrows=Arrows.SIGHT, factor=2.0),
     )
+    session.view.counted = "volume"
     session.selection.choose(9, int(session.document.now.mesh.hexes[9, 3]))
     window.refresh()
     window.canvas.look_along("-x")
@@ -90,6 +91,7 @@ def tables(window):
         "moment": (moment.record.name, moment.number),
         "compared": [(one.row.method, one.row.message, one.row.after) for one in session.comparison.results],
         "look": session.view.look,
+        "counted": window.features["histogram"].metric,
         "kept": [(one.slot, one.name) for one in session.kept.all],
         "chosen": (session.selection.hex, session.selection.node),
         "order": (session.order.stage, session.order.why),
