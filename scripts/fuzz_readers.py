@@ -26,6 +26,7 @@ import numpy as np
 from hexmend import gallery, io
 from hexmend.errors import HexmendError
 from hexmend.io.format import FORMATS, Format
+from hexmend.io.session import write_session
 from hexmend.mesh import Mesh
 
 #: Bytes that the process may take, seconds that a file may, and files of others that are taken, by their size.
@@ -87,6 +88,11 @@ def seeds(format: Format, meshes: Path | None) -> list[tuple[str, bytes]]:
                     path = Path(folder) / f"{k}{format.suffixes[0]}"
                     io.write(path, mesh, encoding=encoding)
                     found.append((format.suffixes[0], path.read_bytes()))
+    if format.name == "session":  # which holds more than a mesh, so that no mesh is written as one
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "session.hexmend"
+            write_session(path, _meshes(), 1, {"look": [0.5, None]})
+            found.append((path.suffix, path.read_bytes()))
     return found
 
 

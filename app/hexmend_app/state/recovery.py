@@ -98,7 +98,8 @@ class Recovery(QObject):
                      session.kept.changed, session.views.changed, session.order.changed, session.chain.changed,
                      session.comparison.changed):  # fmt: skip
             told.connect(self._on_change)
-        session.smoothing.ended.connect(lambda _: self._on_run())
+        for told in (session.smoothing.ended, session.smoothing.failed):
+            told.connect(lambda _: self._on_run())
         session.opener.ended.connect(lambda _: self._on_opened())
         session.opener.failed.connect(lambda *_: self._give_up())
         session.opener.cancelled.connect(lambda _: self._give_up())
