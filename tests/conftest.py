@@ -53,6 +53,7 @@ def temporary_folder(tmp_path_factory) -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TMPDIR", str(folder))
         patch.setattr(tempfile, "tempdir", None)
+        patch.setenv("HEXMEND_STATE", str(tmp_path_factory.mktemp("state")))  # and what windows leave
         yield folder
 
 

@@ -189,13 +189,14 @@ class Recovery(QObject):
             self._task.wait()
             self._task = None
         left, self._taken_up = self._taken_up, None
-        with suppress(OSError):
-            if left is None:
+        if left is None:
+            with suppress(OSError):
                 (self._folder / _SESSION).unlink(missing_ok=True)
-            else:
-                for name in (_ABOUT, _SESSION):
-                    os.replace(left.folder / name, self._folder / name)
-                self.forget(left)
+            return
+        for name in (_SESSION, _ABOUT):
+            with suppress(OSError):
+                os.replace(left.folder / name, self._folder / name)
+        self.forget(left)
 
     def _give_up(self) -> None:
         self._taken_up = None
