@@ -13,7 +13,8 @@ from hexmend.cli.main import main
 
 #: The program, which tells of every iteration.
 TALKATIVE = """
-import sys
+import signal, sys
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # who runs the tests may ignore it
 from hexmend.cli.command import progress
 from hexmend.cli.main import main
 progress.EVERY = 0.0
@@ -21,7 +22,8 @@ sys.exit(main(sys.argv[1:]))
 """
 #: The program, which takes its time to write.
 SLOW_TO_WRITE = """
-import sys, time
+import signal, sys, time
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 from hexmend.cli.main import main
 from hexmend.io import vtu
 from hexmend.io.format import FORMATS

@@ -2,13 +2,13 @@
 
 >>> from hexmend.gallery import make
 >>> from hexmend.run import Stop, smooth
->>> advice = advise(smooth(make("bridge-sharp", size=500), "laplacian", Stop(keep_last=True)))
+>>> advice = advise(smooth(make("bridge-sharp", size=864), "laplacian", Stop(keep_last=True)))
 >>> print(advice.why)
-Converged: in the last of 34 iterations no node moved further than 0.0001 mean edge lengths.
+Converged: in the last of 48 iterations no node moved further than 0.0001 mean edge lengths.
 >>> print(advice.left)
-10 of 500 hexes are inverted. None was at the start.
+12 of 864 hexes are inverted. None was at the start.
 >>> print(advice.worse)
-Worse than at the start: inverted 0 → 10, q min 0.2550 → 0.2419, scaled Jacobian min 0.0941 → -0.4857.
+Worse than at the start: inverted 0 → 12, q min 0.2522 → 0.1774, scaled Jacobian min 0.1625 → -0.8854.
 >>> [suggestion.title for suggestion in advice.suggestions]
 ['Mend', 'Smart Laplacian from before the run']
 """

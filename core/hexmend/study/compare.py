@@ -73,7 +73,7 @@ def compare(
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> answer = compare(make("bridge-sharp", size=500), ["laplacian", "local-sd"], Stop(keep_last=True))
+    >>> answer = compare(make("bridge-sharp", size=864), ["laplacian", "local-sd"], Stop(keep_last=True))
     >>> [row.after.inverted > 0 for row in answer.rows]
     [True, False]
     >>> answer.rows[0].worse
