@@ -69,13 +69,20 @@ def live(window, qtbot):
     window.refresh()
 
 
+def known(window, qtbot):
+    """All of a window, once what is found beside it is known."""
+    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
+    window.refresh()
+    return everything(window)
+
+
 def test_after_an_eventful_session_the_shared_window_is_as_a_new_one(fresh_window, shared, qtbot):
-    new = everything(fresh_window)
+    new = known(fresh_window, qtbot)
     resetting = shared(qtbot)
     resetting.reset(qtbot)
     live(resetting.window, qtbot)
     resetting.end()
     resetting.reset(qtbot)
-    now = everything(resetting.window)
+    now = known(resetting.window, qtbot)
     assert sorted(now - new) == []
     assert sorted(new - now) == []
