@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.kernels import elements
 from hexmend.mesh import Mesh
+from hexmend.quality import corner_determinants
 from hexmend.second_order import EXCHANGED
 
 #: Corners of a hex whose lower and upper face are exchanged; and its faces.
@@ -33,10 +33,8 @@ def mirrored_parts(mesh: Mesh) -> np.ndarray:
 
     Parts hang together by nodes. A hex is wound the other way if its volume is negative.
     """
-    sigma = np.empty((mesh.n_hexes, 8))
-    elements.corner_determinants(mesh.points, mesh.hexes, sigma)
     with np.errstate(all="ignore"):  # of coordinates that are very large
-        wrong = sigma.sum(axis=1) < 0
+        wrong = corner_determinants(mesh.points, mesh.hexes).sum(axis=1) < 0
     if not wrong.any():
         return wrong
     part = parts_of(mesh)

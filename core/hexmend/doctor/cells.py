@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.doctor.ailment import Ailment, Finding, ailment, counted
-from hexmend.doctor.surgery import with_hexes
+from hexmend.doctor.surgery import collapsed, with_hexes
 from hexmend.hexahedron import EDGES
 from hexmend.mesh import Cells, Mesh
 
@@ -63,7 +63,7 @@ class DegenerateHexes(Ailment):
     action = "keep wedges as wedges, whose nodes stay, and remove flat ones, with the sides on them"
 
     def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        which = np.flatnonzero(_collapsed(mesh))
+        which = np.flatnonzero(collapsed(mesh.hexes))
         if not which.size:
             return None
         wedges, flat = _wedges(mesh, which)
@@ -76,7 +76,7 @@ class DegenerateHexes(Ailment):
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        which = np.flatnonzero(_collapsed(mesh))
+        which = np.flatnonzero(collapsed(mesh.hexes))
         wedges, flat = _wedges(mesh, which)
         gone = np.array([*wedges, *flat], dtype=np.int64)
         if not gone.size or gone.size == mesh.n_hexes:
@@ -93,11 +93,6 @@ class DegenerateHexes(Ailment):
             sets = {name: np.flatnonzero(np.isin(which, members)) for name, members in mesh.hex_sets.items()}
             cells = (*cells, Cells("wedge", nodes, data, {name: rows for name, rows in sets.items() if rows.size}))
         return with_hexes(mesh, kept).replace(cells=cells, pinned=pinned)
-
-
-def _collapsed(mesh: Mesh) -> np.ndarray:
-    rows = np.sort(mesh.hexes, axis=1)
-    return (rows[:, 1:] == rows[:, :-1]).any(axis=1)
 
 
 def _wedges(mesh: Mesh, which: np.ndarray) -> tuple[dict[int, tuple[int, ...]], list[int]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.doctor.ailment import Ailment, Finding, ailment, counted
-from hexmend.doctor.surgery import used_by_anything, with_nodes
+from hexmend.doctor.surgery import collapsed, used_by_anything, with_nodes
 from hexmend.mesh import Mesh
 
 #: Nodes are in one place if they are no further apart than this, in mean edge lengths.
@@ -139,8 +139,6 @@ def _merged(mesh: Mesh) -> np.ndarray:
     first = np.full(group.max() + 1, n)
     np.minimum.at(first, group, np.arange(n))
     target = first[group]
-    rows = np.sort(target[mesh.hexes], axis=1)
-    was = np.sort(mesh.hexes, axis=1)
-    broken = (rows[:, 1:] == rows[:, :-1]).any(axis=1) & ~(was[:, 1:] == was[:, :-1]).any(axis=1)
+    broken = collapsed(target[mesh.hexes]) & ~collapsed(mesh.hexes)
     apart = np.isin(target, target[mesh.hexes[broken]])
     return np.where(apart, np.arange(n), target)

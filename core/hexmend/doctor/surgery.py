@@ -59,6 +59,12 @@ def with_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
     )
 
 
+def collapsed(hexes: np.ndarray) -> np.ndarray:
+    """True for each hex (m, 8) that uses a node twice, (m,) bool."""
+    rows = np.sort(hexes, axis=1)
+    return (rows[:, 1:] == rows[:, :-1]).any(axis=1)
+
+
 def used_by_anything(mesh: Mesh) -> np.ndarray:
     """True for each node that a hex, of whatever order, another cell or a named set uses, (n,) bool."""
     used = mesh.topology.used.copy()

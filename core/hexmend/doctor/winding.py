@@ -4,18 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import Ailment, Finding, ailment
+from hexmend.doctor.ailment import Ailment, Finding, ailment, counted
 from hexmend.hexahedron import FACES, VOXEL_ORDER
-from hexmend.kernels import elements
 from hexmend.mesh import Mesh
 from hexmend.orientation import mirrored_parts, turned
-
-
-def determinants(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """sigma of the corner tetrahedra, (m, 8)."""
-    sigma = np.empty((len(hexes), 8))
-    elements.corner_determinants(points, np.ascontiguousarray(hexes, dtype=np.int32), sigma)
-    return sigma
+from hexmend.quality import corner_determinants
 
 
 @ailment
@@ -54,8 +47,8 @@ class FlippedHexes(Ailment):
             return None
         return Finding(
             self.name, which.size,
-            f"{which.size:,} hex{'es are' if which.size > 1 else ' is'} numbered left-handed; turned the other way "
-            f"{'they are' if which.size > 1 else 'it is'} sound, as the neighbours are.",
+            f"{counted(which.size, 'hex is', 'hexes are')} numbered left-handed, and sound if turned the other way, as "
+            "the neighbours are.",
             "Number them the other way: nodes stay where they are.", True, which,
         )  # fmt: skip
 
@@ -63,7 +56,7 @@ class FlippedHexes(Ailment):
         return turned(mesh, self._which(mesh))
 
     def _which(self, mesh: Mesh) -> np.ndarray:
-        sigma = determinants(mesh.points, mesh.hexes)
+        sigma = corner_determinants(mesh.points, mesh.hexes)
         inside_out, sound = (sigma < 0).all(axis=1), (sigma > 0).all(axis=1)
         inside_out &= ~mirrored_parts(mesh)
         rows = np.flatnonzero(inside_out)
@@ -98,7 +91,7 @@ class VoxelOrder(Ailment):
             return None
         return Finding(
             self.name, which.size,
-            f"{which.size:,} hexes are twisted and sound once their corners are read in the order of voxels "
+            f"{counted(which.size, 'hex is', 'hexes are')} twisted, and sound with corners read in the order of voxels "
             "(VTK type 11).", "Put their corners in the order of hexahedra (type 12).", True, which,
         )  # fmt: skip
 
@@ -113,8 +106,8 @@ class VoxelOrder(Ailment):
             return np.zeros(mesh.n_hexes, dtype=bool)
         # The faces x- and x+ of such a hex are none of its own, so that no neighbour shares them.
         alone = (mesh.topology.face_neighbours[:, :2] < 0).all(axis=1)
-        twisted = alone & (determinants(mesh.points, mesh.hexes) <= 0).any(axis=1)
+        twisted = alone & (corner_determinants(mesh.points, mesh.hexes) <= 0).any(axis=1)
         rows = np.flatnonzero(twisted)
-        sound = (determinants(mesh.points, mesh.hexes[rows][:, VOXEL_ORDER]) > 0).all(axis=1)
+        sound = (corner_determinants(mesh.points, mesh.hexes[rows][:, VOXEL_ORDER]) > 0).all(axis=1)
         twisted[rows] = sound
         return twisted

@@ -29,7 +29,7 @@ _ANY = {2: {1: 1}, 4: {2: 3, 3: 21}, 7: {3: 5, 4: 9}}
 #: Names of types that are not read, for messages.
 NAMES = {
     0: "VTK_EMPTY_CELL", 2: "VTK_POLY_VERTEX", 4: "VTK_POLY_LINE", 6: "VTK_TRIANGLE_STRIP", 7: "VTK_POLYGON",
-    10: "VTK_TETRA", 15: "VTK_PENTAGONAL_PRISM", 16: "VTK_HEXAGONAL_PRISM", 42: "VTK_POLYHEDRON",
+    15: "VTK_PENTAGONAL_PRISM", 16: "VTK_HEXAGONAL_PRISM", 42: "VTK_POLYHEDRON",
     72: "VTK_LAGRANGE_HEXAHEDRON",
 }  # fmt: skip
 

@@ -8,8 +8,8 @@ from hexmend.errors import FileError
 from hexmend.io.cgns_tree import Node
 from hexmend.io.cgns_zone import DAMAGED, Zone, add, conditions, coordinates, family, location_of, results, sizes
 from hexmend.io.content import Block
-from hexmend.kernels import elements
 from hexmend.orientation import TURNED_CORNERS, TURNED_FACES
+from hexmend.quality import corner_determinants
 
 #: The faces of hexes at the lower and the upper end of i, j and k.
 FACES_AT = np.array([[0, 1], [2, 3], [4, 5]])
@@ -61,10 +61,8 @@ def hexes_between(points: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, bo
     corner = (i + count[0] * (j[:, None] + count[1] * k[:, None, None])).ravel()
     steps = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
     hexes = corner[:, None] + steps @ [1, count[0], count[0] * count[1]]
-    sigma = np.empty((len(hexes), 8))
-    elements.corner_determinants(points, hexes.astype(np.int32), sigma)
     with np.errstate(all="ignore"):
-        mirrored = np.count_nonzero(sigma.sum(axis=1) < 0) > len(hexes) / 2
+        mirrored = np.count_nonzero(corner_determinants(points, hexes).sum(axis=1) < 0) > len(hexes) / 2
     return hexes[:, TURNED_CORNERS] if mirrored else hexes, bool(mirrored)
 
 

@@ -10,7 +10,6 @@ from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
     QHBoxLayout,
-    QScrollArea,
     QSizePolicy,
     QToolTip,
     QVBoxLayout,
@@ -25,6 +24,7 @@ from hexmend_app.features.convergence.run_legend import RunLegend
 from hexmend_app.features.convergence.words import describe
 from hexmend_app.state.history import Record
 from hexmend_app.widgets.menu_button import MenuButton
+from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.segmented import Segmented
 from hexmend_app.widgets.style import icon, note, smaller
 
@@ -126,7 +126,7 @@ class ConvergencePanel(QWidget):
             charts.addWidget(plot, 1)
         self._none = note(_NONE)
         self._none.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.plotting, self._runs = _scrolled(stack), _scrolled(self.legend)
+        self.plotting, self._runs = scrolled(stack), scrolled(self.legend)
         buttons = QHBoxLayout()
         self.which.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (self.which, self.more):
@@ -244,13 +244,3 @@ class ConvergencePanel(QWidget):
             text = describe(plot.chart, self.curves, plot.view.mapSceneToView(place).x(), self.by_time)
         at = plot.plot.mapToGlobal(plot.plot.mapFromScene(place)) if place is not None else plot.mapToGlobal(plot.pos())
         QToolTip.showText(at, text, plot.plot)
-
-
-def _scrolled(widget: QWidget) -> QScrollArea:
-    area = QScrollArea()
-    area.setWidget(widget)
-    area.setWidgetResizable(True)
-    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-    area.setFrameShape(QScrollArea.Shape.NoFrame)
-    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    return area

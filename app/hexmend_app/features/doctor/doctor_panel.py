@@ -7,17 +7,16 @@ from html import escape
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
-    QFrame,
     QGridLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
 
 from hexmend.doctor import AILMENTS, Finding
+from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.style import explain, icon, note
 
 _LOOKING = "The mesh is being examined."
@@ -57,15 +56,9 @@ class DoctorPanel(QWidget):
         column.addLayout(head)
         column.addLayout(self._rows)
         column.addStretch()
-        scroll = QScrollArea()
-        scroll.setWidget(inside)
-        scroll.setWidgetResizable(True)
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         outside = QVBoxLayout(self)
         outside.setContentsMargins(0, 0, 0, 0)
-        outside.addWidget(scroll)
+        outside.addWidget(scrolled(inside))
         self.show_findings(None)
 
     def show_findings(self, findings: Sequence[Finding] | None, problem: str = "") -> None:

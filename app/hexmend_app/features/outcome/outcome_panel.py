@@ -9,18 +9,17 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import (
-    QFrame,
     QGridLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QScrollArea,
     QStackedLayout,
     QVBoxLayout,
     QWidget,
 )
 
 from hexmend.advice import Advice, Suggestion
+from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.style import AMBER, INVERTED_TEXT, TEXT, WORSE, dress, explain, icon, note, tint
 from hexmend_app.widgets.wording import counted
 
@@ -108,13 +107,7 @@ class OutcomePanel(QWidget):
             column.addWidget(part)
         column.addLayout(self._rows)
         column.addStretch()
-        scroll = QScrollArea()
-        scroll.setWidget(inside)
-        scroll.setWidgetResizable(True)
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        return scroll
+        return scrolled(inside)
 
     def show_none(self, hint: str = _HINT) -> None:
         """Say that nothing is known yet, and why."""

@@ -8,11 +8,11 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend_app.scene.filters import same_mask
 from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.layers.flat import flat_actor
+from hexmend_app.scene.layers.see_through import SeeThrough
 from hexmend_app.scene.palette import ORIGINAL, rgb
 
-#: How strongly it is drawn. It has one colour and no light, so that it does not matter which face is drawn first.
-_FACES, _EDGES = 0.22, 0.55
+#: How strongly its edges are drawn.
+_EDGES = 0.55
 
 #: How far its faces and edges are drawn behind their places, in VTK's units of depth: where the boundary is still
 #: there, they are not seen.
@@ -32,9 +32,8 @@ class Original:
     def __init__(self, renderer: vtkRenderer, pen: float = 1.0):
         self._points: np.ndarray | None = None
         self._keep: np.ndarray | None = None
-        self.poly = pv.PolyData()
-        self._actors = flat_actor(renderer, opacity=_FACES), flat_actor(renderer, pen, _EDGES)
-        for actor in self._actors:
+        self._skin = SeeThrough(renderer, pen, _EDGES)
+        for actor in self._skin.actors:
             mapper = actor.GetMapper()
             mapper.SetResolveCoincidentTopologyToPolygonOffset()
             mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _FACES_BEHIND)
@@ -42,19 +41,23 @@ class Original:
         self.set_dark(False)
 
     @property
+    def poly(self) -> pv.PolyData:
+        """What is drawn."""
+        return self._skin.poly
+
+    @property
     def shown(self) -> bool:
         """Whether it is drawn."""
-        return bool(self._actors[0].GetVisibility())
+        return self._skin.shown
 
     @property
     def places(self) -> np.ndarray:
         """Its corners, (k, 3); none where it is not drawn."""
-        return np.asarray(self.poly.points) if self.shown else np.empty((0, 3))
+        return self._skin.places
 
     def set_dark(self, dark: bool) -> None:
         """Draw for the dark ground, or for the light one."""
-        for actor in self._actors:
-            actor.GetProperty().SetColor(rgb(ORIGINAL.of(dark)))
+        self._skin.set_colour(rgb(ORIGINAL.of(dark)))
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
         """Draw what a frame wants of it; what is drawn already stays.
@@ -71,19 +74,17 @@ class Original:
             topology = frame.mesh.topology
             hexes = np.nonzero(topology.face_neighbours < 0)[0]
             self._take(frame.original, topology.boundary_faces[slice(None) if keep is None else keep[hexes]])
-        for actor in self._actors:
-            actor.SetVisibility(on and self.poly.n_cells > 0)
+        self._skin.show(on)
 
     def _take(self, points: np.ndarray, faces: np.ndarray) -> None:
         if not len(faces):
-            self.poly = pv.PolyData()
+            self._skin.take(pv.PolyData(), pv.PolyData())
             return
         nodes, quads = np.unique(faces, return_inverse=True)
         quads = quads.reshape(faces.shape)
-        self.poly = pv.PolyData.from_regular_faces(points[nodes], quads)
+        poly = pv.PolyData.from_regular_faces(points[nodes], quads)
         edges = np.unique(np.sort(np.stack([quads, np.roll(quads, 1, axis=1)], axis=-1).reshape(-1, 2), axis=1), axis=0)
         lines = pv.PolyData()
-        lines.SetPoints(self.poly.GetPoints())
+        lines.SetPoints(poly.GetPoints())
         lines.lines = np.column_stack([np.full(len(edges), 2), edges]).ravel()
-        for actor, poly in zip(self._actors, (self.poly, lines), strict=True):
-            actor.GetMapper().SetInputData(poly)
+        self._skin.take(poly, lines)

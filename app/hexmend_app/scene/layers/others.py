@@ -8,12 +8,12 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh import Cells, Mesh
 from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.layers.flat import flat_actor
+from hexmend_app.scene.layers.see_through import SeeThrough
 from hexmend_app.scene.palette import OTHER_CELLS, rgb
 from hexmend_app.state.clip import Clip
 
-#: How strongly they are drawn. They have one colour and no light, so that it does not matter which face is drawn first.
-_FACES, _EDGES = 0.22, 0.4
+#: How strongly their edges are drawn.
+_EDGES = 0.4
 
 #: Corners of the faces of each kind; those of second order have the same. Which side is outside does not matter.
 FACES = {
@@ -38,25 +38,28 @@ class OtherCells:
     def __init__(self, renderer: vtkRenderer, pen: float = 1.0):
         self._drawn: tuple[Mesh | None, Clip | None] = (None, None)
         self._nodes = np.empty(0, np.int64)
-        self.poly = pv.PolyData()
         self._lines = pv.PolyData()
-        self._actors = flat_actor(renderer, opacity=_FACES), flat_actor(renderer, pen, _EDGES)
+        self._skin = SeeThrough(renderer, pen, _EDGES)
         self.set_dark(False)
+
+    @property
+    def poly(self) -> pv.PolyData:
+        """What is drawn."""
+        return self._skin.poly
 
     @property
     def shown(self) -> bool:
         """Whether any are drawn."""
-        return bool(self._actors[0].GetVisibility())
+        return self._skin.shown
 
     @property
     def places(self) -> np.ndarray:
         """Their corners, (k, 3); none where none is drawn."""
-        return np.asarray(self.poly.points) if self.shown else np.empty((0, 3))
+        return self._skin.places
 
     def set_dark(self, dark: bool) -> None:
         """Draw for the dark ground, or for the light one."""
-        for actor in self._actors:
-            actor.GetProperty().SetColor(rgb(OTHER_CELLS.of(dark)))
+        self._skin.set_colour(rgb(OTHER_CELLS.of(dark)))
 
     def draw(self, frame: Frame) -> None:
         """Draw what a frame wants of them; what is drawn already stays, or moves with its nodes."""
@@ -69,22 +72,20 @@ class OtherCells:
             elif last.points is not mesh.points and self.poly.n_cells:
                 self._place(mesh.points[self._nodes])
             self._drawn = mesh, clip
-        for actor in self._actors:
-            actor.SetVisibility(bool(on and self.poly.n_cells))
+        self._skin.show(on)
 
     def _take(self, mesh: Mesh, clip: Clip | None) -> None:
         faces = outer_faces(mesh, clip)
         ends = [np.sort(np.stack([one, np.roll(one, 1, axis=1)], axis=-1).reshape(-1, 2), axis=1) for one in faces]
         edges = np.unique(np.concatenate(ends), axis=0)
         self._nodes = np.unique(edges)
-        self.poly, self._lines = pv.PolyData(), pv.PolyData()
+        self._lines = pv.PolyData()
+        self._skin.take(pv.PolyData(), self._lines)
         if not len(edges):
             return
         self._place(mesh.points[self._nodes])
         self.poly.faces = np.concatenate([_with_lengths(np.searchsorted(self._nodes, one)) for one in faces])
         self._lines.lines = _with_lengths(np.searchsorted(self._nodes, edges))
-        for actor, poly in zip(self._actors, (self.poly, self._lines), strict=True):
-            actor.GetMapper().SetInputData(poly)
 
     def _place(self, points: np.ndarray) -> None:
         self.poly.points = points
