@@ -44,7 +44,8 @@ APP = [
     {"feature"},
     {"features"},
     {"shell"},
-    {"bench", "cli"},
+    {"bench"},
+    {"cli"},
     {"__main__"},
 ]
 # Of these folders none imports another.

@@ -43,14 +43,29 @@ def by_size(program: str) -> list[dict[str, Any]]:
 
 
 def peak_mb() -> float:
-    """The most memory that this process has held.
+    """The most memory that this process has held, MiB.
 
     Not the operating system's `ru_maxrss`, which a process inherits from the one that has started it.
     """
     try:
-        with open("/proc/self/status", encoding="ascii") as file:
-            return next(int(line.split()[1]) / 1024 for line in file if line.startswith("VmHWM"))
+        return _status_mb("VmHWM")
     except OSError:
         import resource
 
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def resident_mb() -> float:
+    """The memory that this process holds now, MiB.
+
+    Raises
+    ------
+    OSError
+        Where the system has no /proc.
+    """
+    return _status_mb("VmRSS")
+
+
+def _status_mb(field: str) -> float:
+    with open("/proc/self/status", encoding="ascii") as file:
+        return next(int(line.split()[1]) / 1024 for line in file if line.startswith(field))

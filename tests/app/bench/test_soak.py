@@ -1,0 +1,50 @@
+"""The soak: its rounds work for real, and its verdict tells memory that grows from memory that does not."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from hexmend.cli.main import main
+from hexmend.errors import FileError
+from hexmend.gallery import make
+from hexmend.io import write
+from hexmend_app.bench.soak import Memory, Sample, soak
+
+
+def memory(mb):
+    found = Memory()
+    for k, one in enumerate(mb):
+        found.add(Sample(k + 1, 0.5 * k, "a.vtu", "mend", float(one)))
+    return found
+
+
+def test_memory_that_fills_its_caches_and_stays_is_level():
+    mb = np.concatenate([np.linspace(300, 700, 20), 700 + 30 * np.random.default_rng(0).normal(size=100)])
+    assert memory(mb).level
+    assert "level" in memory(mb).verdict
+    assert "median 7" in memory(mb).verdict
+
+
+def test_memory_that_a_round_keeps_grows():
+    leaking = memory(600 + np.arange(120) + 30 * np.random.default_rng(0).normal(size=120))
+    assert not leaking.level
+    assert "GROWS" in leaking.verdict
+    assert leaking.growth == pytest.approx(90, abs=25)
+
+
+def test_a_mesh_that_cannot_be_opened_ends_it(qapp, tmp_path):
+    with pytest.raises(FileError, match=r"none\.vtu"):
+        list(soak([tmp_path / "none.vtu"], 0))
+
+
+def test_the_command_works_in_a_window_and_writes_every_round(qapp, tmp_path, capsys):
+    write(tmp_path / "small.vtu", make("five-side", size=300, scramble=0.3))
+    code = main(["soak", str(tmp_path / "small.vtu"), "--minutes", "0", "--json", str(tmp_path / "soak.json")])
+    report = json.loads((tmp_path / "soak.json").read_text())
+    assert code == (0 if report["level"] else 1)
+    assert len({one["method"] for one in report["rounds"]}) == 4
+    assert all(one["mb"] > 10 for one in report["rounds"])
+    assert f"{report['growth_mb']:+.0f} MB" in capsys.readouterr().out
