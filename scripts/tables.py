@@ -1,4 +1,4 @@
-"""Writes the tables of methods, metrics and formats into README.md and docs, between their marks; a test compares.
+"""Writes the tables of methods, metrics, formats and memory into README.md and docs, between marks; a test compares.
 
 Use: python scripts/tables.py
 """
@@ -12,9 +12,13 @@ from pathlib import Path
 from hexmend.io import FORMATS
 from hexmend.io.format import Holds
 from hexmend.quality import METRICS
+from hexmend.run.memory import amount, needed
 from hexmend.smoothers import METHODS
 
 ROOT = Path(__file__).resolve().parents[1]
+
+#: Sizes of meshes that memory is foretold for.
+_HEXES = 100_000, 1_000_000
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -55,11 +59,22 @@ def formats() -> str:
     return table(head, rows)
 
 
+def memory() -> str:
+    """What a run of each method is foretold to need, the most first."""
+    order = sorted(METHODS.values(), key=lambda method: (-method.bytes_per_hex, method.name))
+    rows = (
+        (f"`{one.name}`", f"{one.bytes_per_hex:,}", *(amount(needed(one(), hexes)) for hexes in _HEXES))
+        for one in order
+    )
+    return table(("method", "bytes a hex", *(f"{hexes:,} hexes" for hexes in _HEXES)), rows)
+
+
 #: Which table stands in which file.
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "methods": ("README.md", methods),
     "metrics": ("docs/method.md", metrics),
     "formats": ("docs/formats.md", formats),
+    "memory": ("docs/performance.md", memory),
 }
 
 

@@ -21,6 +21,10 @@ class ParameterError(HexmendError):
     """A parameter's name or value that its declaration does not admit."""
 
 
+class ShortageError(HexmendError):
+    """A run that needs more memory than there is."""
+
+
 class FileError(HexmendError):
     """A file that cannot be read, written or used.
 

@@ -16,6 +16,7 @@ class Film:
     help = "Run a method and write an animation of its iterations: GIF, PNG or WebP, by the suffix."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
+        from hexmend.cli.command.memory import add_force
         from hexmend.cli.command.method import add_method
 
         looks.prepare(parser)
@@ -25,8 +26,10 @@ class Film:
         parser.add_argument("--frames", metavar="N", default="40", help="most frames (default %(default)s)")
         parser.add_argument("--rate", metavar="N", default="10", help="frames a second (default %(default)s)")
         looks.add_arguments(parser, "800x500")
+        add_force(parser)
 
     def run(self, args: argparse.Namespace) -> int:
+        from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import chosen
         from hexmend.cli.command.progress import follow
         from hexmend.io import read
@@ -37,6 +40,7 @@ class Film:
         frames, rate = whole(args.frames, "--frames", 2, 1000), whole(args.rate, "--rate", 1, 50)
         what, stop = chosen(args)
         mesh = read(args.mesh)
+        check_memory(args, [what], mesh)
         look = looks.look_of(args, mesh)
         prepare_off_screen()
         from hexmend_app.scene.export.film import format_of, pictures, write_film

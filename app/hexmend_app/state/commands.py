@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,8 @@ from hexmend.io import left_out, write
 from hexmend.io.session import SUFFIX
 from hexmend.quality import summarise
 from hexmend.recipe import Recipe, Stage
+from hexmend.run.memory import Shortage, available, shortage
+from hexmend.smoothers import Smoother
 from hexmend_app.state import session_data
 from hexmend_app.state.document import State
 
@@ -29,10 +31,16 @@ class Commands:
     ----------
     session : Session
         The window's state.
+
+    Attributes
+    ----------
+    consent : callable
+        Asked before a run for which memory will not suffice; the run begins only if it says so.
     """
 
     def __init__(self, session: Session):
         self._session = session
+        self.consent: Callable[[Shortage], bool] = lambda short: False
         self.document, self.smoothing = session.document, session.smoothing
 
     def open(self, path: str | Path) -> None:
@@ -61,15 +69,24 @@ class Commands:
         return left_out(path, self.document.now.mesh)
 
     def run(self, stage: Stage) -> None:
-        """Run a method on the mesh as it is now, unless another is being read."""
-        self._start(stage)
+        """Run a method on the mesh as it is now, unless another is being read, or memory will not suffice."""
+        if self.may_run(stage.smoother):
+            self._start(stage)
 
     def step(self, stage: Stage, iterations: int) -> None:
         """Make so many iterations: the next of a paused run, or the first of a new one."""
         if self.smoothing.busy:
             self.smoothing.step(iterations)
-        else:
+        elif self.may_run(stage.smoother):
             self._start(stage, iterations)
+
+    def may_run(self, *works: Smoother | Recipe) -> bool:
+        """Whether memory will suffice for methods that run one after another on the mesh as it is, or it is agreed."""
+        if not self.document.is_open or self._session.opener.busy:
+            return False
+        free = available()
+        short = [one for work in works if (one := shortage(work, self.document.now.mesh, free)) is not None]
+        return not short or self.consent(max(short, key=lambda one: one.needed))
 
     def _start(self, stage: Stage, iterations: float = math.inf) -> None:
         if not self._session.opener.busy:
@@ -79,14 +96,15 @@ class Commands:
 
     def run_recipe(self, recipe: Recipe) -> None:
         """Run methods one after another on the mesh as it is now, unless another is being read."""
-        if not self._session.opener.busy:
+        if self.may_run(recipe):
             self._session.stepping.leave()
             self.smoothing.start(recipe, None)
 
     def branch(self, stage: Stage) -> None:
         """Run a method on the mesh as it is shown, whatever iteration that is; a run under way ends first."""
-        self.smoothing.end_now()
-        self.run(stage)
+        if self.may_run(stage.smoother):
+            self.smoothing.end_now()
+            self._start(stage)
 
     def reset(self) -> None:
         """End a run and put the nodes back to where they were when the mesh was opened."""

@@ -124,6 +124,20 @@ def ask_unsaved(parent: QWidget, name: str) -> Answer:
     return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(box.exec(), Answer.CANCEL)
 
 
+def ask_short_of_memory(parent: QWidget, problem: str, remedy: str) -> bool:
+    """Whether to begin a run for which memory will probably not suffice."""
+    buttons = QMessageBox.StandardButton
+    box = QMessageBox(parent)
+    box.setIcon(QMessageBox.Icon.Warning)
+    whole = re.compile(r"(?<=\d) (?=[GM]B)")  # a number stays beside its unit
+    box.setText(whole.sub("\u00a0", problem))
+    remedy = whole.sub("\u00a0", remedy)
+    box.setInformativeText(f"{remedy} If memory runs out, the system may end the program. Run it all the same?")
+    box.setStandardButtons(buttons.Yes | buttons.No)
+    box.setDefaultButton(buttons.No)
+    return box.exec() == buttons.Yes
+
+
 def show_about(parent: QWidget, version: str) -> None:
     """Version, licence and sources."""
     QMessageBox.about(

@@ -16,6 +16,7 @@ class Compare:
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         from hexmend.cli.command.limits import add_limits
+        from hexmend.cli.command.memory import add_force
         from hexmend.cli.command.method import add_boundary
 
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
@@ -34,10 +35,12 @@ class Compare:
         )
         add_boundary(parser)
         add_limits(parser)
+        add_force(parser)
         parser.add_argument("--write-meshes", action="store_true", help="write each method's mesh into the folder too")
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.limits import given_limits, limits
+        from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import with_boundary
         from hexmend.cli.command.printed import print_table
         from hexmend.cli.command.progress import Progress
@@ -51,6 +54,7 @@ class Compare:
         settings = with_boundary(args, [name for name in names if not name.endswith(".toml")])
         smoothers, stop = chosen(names, settings, given_limits(args)), limits(args)
         mesh = read(args.mesh)
+        check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
         folder = made_folder(args.output)
         suffix = Path(args.mesh).suffix
         if args.write_meshes:

@@ -1,7 +1,7 @@
 """The program `hexmend`: finds the command, runs it, says in one line what went wrong.
 
-Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used; 4 done, and hexes are still inverted;
-128 and the signal's number (130 for Ctrl-C) where it was interrupted.
+Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used, or memory does not suffice; 4 done, and
+hexes are still inverted; 128 and the signal's number (130 for Ctrl-C) where it was interrupted.
 
 A command pays for what it uses: modules are imported where they are needed, here and in the commands.
 """
@@ -106,7 +106,7 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
     import argparse
 
     from hexmend.cli.command.interrupts import EndsCleanly
-    from hexmend.errors import FileError, HexmendError, MeshError
+    from hexmend.errors import FileError, HexmendError, MeshError, ShortageError
     from hexmend.figures import printable
 
     try:
@@ -123,7 +123,10 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
             return command.run(args)
     except HexmendError as error:
         print(f"hexmend: {printable(str(error))}", file=sys.stderr)
-        return 3 if isinstance(error, FileError | MeshError) else 2
+        return 3 if isinstance(error, FileError | MeshError | ShortageError) else 2
+    except MemoryError:
+        print("hexmend: memory does not suffice: close other programs, or take a smaller mesh", file=sys.stderr)
+        return 3
 
 
 def _looks_like_a_command(word: str) -> bool:

@@ -13,6 +13,7 @@ class Smooth:
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         from hexmend.cli.command.files import add_mesh
+        from hexmend.cli.command.memory import add_force
         from hexmend.cli.command.method import add_method, add_surface
 
         add_mesh(parser)
@@ -26,6 +27,7 @@ class Smooth:
         parser.add_argument(
             "--rings", metavar="K", type=int, default=1, help="with --only: and K rings of hexes around"
         )
+        add_force(parser)
         parser.add_argument("--save-recipe", metavar="FILE.toml", help="write what is run as a recipe")
         parser.add_argument("--json", metavar="FILE", help="write a report")
         parser.add_argument("--history", metavar="FILE.csv", help="write a row an iteration")
@@ -33,6 +35,7 @@ class Smooth:
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.advice import advise
         from hexmend.cli.command.files import check_targets, say_diagnosis, say_left_out, say_notes
+        from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
         from hexmend.cli.tables import print_summaries
@@ -54,6 +57,7 @@ class Smooth:
             mesh = with_sets_fixed(mesh, *args.fix)
         if args.only:
             mesh = with_region_free(mesh, hexes_of(mesh, args.only), max(args.rings, 0))
+        check_memory(args, [what], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
         run = iterate(on_surface(args, mesh, what), what, stop)
         if args.save_recipe:
             write_recipe(args.save_recipe, run.recipe)

@@ -17,6 +17,8 @@ class Study:
     help = "Do the thesis's experiments again: tables, figures and claims, ours beside the published."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
+        from hexmend.cli.command.memory import add_force
+
         parser.add_argument(
             "study", metavar="NAME", choices=["thesis"], help="thesis: the tables of Chapter 4 and outlooks of 5.2"
         )
@@ -36,8 +38,10 @@ class Study:
             default=[],
             help="one of the tables, as 4.1, or of the sections, as 5.2.5; may be repeated",
         )
+        add_force(parser)
 
     def run(self, args: argparse.Namespace) -> int:
+        from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
         from hexmend.parameters import from_strings
         from hexmend.report import made_folder, write_experiment, write_outlook, write_study
@@ -47,12 +51,14 @@ class Study:
         from hexmend.study.experiments import load
         from hexmend.study.mesh_figures import draw_figures
         from hexmend.study.outlook import Tried
-        from hexmend.study.thesis import chosen_tables, run_experiments
+        from hexmend.study.thesis import chosen_tables, planned, run_experiments
 
         thesis = chosen_tables(load(), args.only) if args.only else load()
         if args.max_seconds is not None:
             limit = from_strings(Stop, {"max_seconds": args.max_seconds}, owner="the run")
             thesis = thesis.limited(limit.max_seconds)
+        for works, hexes in planned(thesis, args.quick):
+            check_memory(args, works, hexes, "do fewer tables (--only)", "do it in small (--quick)")
         folder = made_folder(args.output)
 
         def done(one: Measured | Tried) -> None:

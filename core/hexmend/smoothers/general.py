@@ -28,6 +28,7 @@ class General(SlidingSmoother):
     help = "GETMe; then global Newton if hexes are of similar size and none is inverted, else local steepest descent."
     source = "Wilson 5.1, Algorithm 5.1"
     optimises = True
+    bytes_per_hex = 3000  # of the global Newton's method that it may go on with
 
     sufficient: float = parameter(
         0.9, low=0, high=1, help="Least q(H) with which GETMe's result is taken as it is; 1 goes on to the optimum."

@@ -29,6 +29,7 @@ class GETMe(SlidingSmoother):
     title = "GETMe, simultaneous"
     help = "Each hex takes a step towards a cube, and nodes go to the mean of their places. Fast; often untangles."
     source = "Wilson 3.1.2; Vartziotis and Wipper 2011"
+    bytes_per_hex = 600
 
     scaling: float = parameter(1.0, low=0.01, high=10, help="s: how far a corner goes along its triangle's normal.")
     relaxation: float = parameter(0.75, low=0.01, high=1, help="rho: share of a hex's step that is taken.")

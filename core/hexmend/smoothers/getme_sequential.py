@@ -34,6 +34,7 @@ class SequentialGETMe(SlidingSmoother):
     title = "GETMe, sequential"
     help = "Raises q_min: step after step the worst hex is made more regular. Best after simultaneous GETMe."
     source = "Wilson 3.1.2; Vartziotis and Wipper 2011"
+    bytes_per_hex = 400
 
     scaling: float = parameter(1.0, low=0.01, high=10, help="s: how far a corner goes along its triangle's normal.")
     relaxation: float = parameter(

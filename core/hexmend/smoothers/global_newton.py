@@ -15,6 +15,8 @@ SOLVERS = {"minres": Minres, "cg": ConjugateGradients}
 class GlobalNewton(GlobalDescent):
     """Newton's direction for all free nodes; a method says what is done to the Hessian before."""
 
+    bytes_per_hex = 3000
+
     solver: str = parameter(
         "minres",
         choices=tuple(SOLVERS),

@@ -18,6 +18,7 @@ class GlobalSteepestDescent(GlobalDescent):
     title = "Global steepest descent"
     help = "Moves all nodes at once down the gradient. Slow or stuck: one poor component holds back the whole mesh."
     source = "Wilson 3.2, Algorithms 3.3, A.2 and A.5"
+    bytes_per_hex = 700
 
     def direction(self) -> Direction:
         return steepest_descent

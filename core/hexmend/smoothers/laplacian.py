@@ -27,6 +27,7 @@ class Laplacian(SlidingSmoother):
     title = "Laplacian"
     help = "Moves each node to the mean of its edge neighbours. Fast, but inverts hexes in concave regions."
     source = "Wilson 3.1.1, Algorithm 3.1"
+    bytes_per_hex = 400
 
     update: str = parameter(
         "in-place",

@@ -27,6 +27,7 @@ class LocalDescent(LocalOptimiser):
 
     #: Search direction, one of `hexmend.kernels.local`.
     direction: ClassVar[int]
+    bytes_per_hex = 400
 
     order: str = parameter(
         "colour",

@@ -29,6 +29,7 @@ class LocalPatch(LocalOptimiser):
     title = "Local Newton, large patches"
     help = "Moves patches of connected nodes, each by a Newton step of its own. Few sweeps, each dear."
     source = "Wilson 5.2.5, Algorithms 3.2, A.3 and A.5"
+    bytes_per_hex = 1700
 
     patch: int = parameter(
         8, low=1, high=1000, unit="nodes", help="Connected free nodes that a patch is made of: 1, 8, 27, 64, 216..."

@@ -61,6 +61,7 @@ class Mend(Objective):
     title = "Mend"
     help = "Untangles whatever its fixed nodes allow, then goes to the optimum, of shape or of the worst corner."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
+    bytes_per_hex = 2200
 
     goal: str = parameter(
         "shape",

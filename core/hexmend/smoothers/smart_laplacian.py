@@ -24,6 +24,7 @@ class SmartLaplacian(SlidingSmoother):
     title = "Smart Laplacian"
     help = "Laplacian smoothing that takes back every move which inverts an attached hex. Never adds an inverted hex."
     source = "Wilson 3.1.1"
+    bytes_per_hex = 400
 
     guard: str = parameter(
         "inversion",

@@ -38,6 +38,9 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
     #: Whether it goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
+    #: Bytes a hex that its run holds at most beside the open mesh, topology included: as `hexmend bench --only memory`
+    #: measures it, and a fifth more. See `hexmend.run.memory`.
+    bytes_per_hex: ClassVar[int] = 1000
 
     @property
     def slides(self) -> bool:

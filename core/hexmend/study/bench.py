@@ -17,6 +17,7 @@ from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
 from hexmend.study.boundaries import BOUNDARIES
 from hexmend.study.kernels import KERNELS, PRECONDITIONERS
+from hexmend.study.memory import MEMORY
 from hexmend.study.mending import OPTIMA, SIZES, TANGLED
 from hexmend.study.offsets import OFFSETS
 from hexmend.study.processes import PROCESSES
@@ -37,7 +38,7 @@ THESIS_SECONDS_PER_NODE = {
 
 def sections() -> dict[str, Section]:
     """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
-    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, OFFSETS, SCALING, SIZES
+    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, OFFSETS, SCALING, SIZES, MEMORY
     found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
 from hexmend.errors import ParameterError
 from hexmend.mesh import Mesh
 from hexmend.quality import Summary, summarise
+from hexmend.smoothers import Smoother
 from hexmend.study.claims import CLAIMS
 from hexmend.study.experiments import INITIAL, Experiment, Experiments
 from hexmend.study.measured import Measured
@@ -114,6 +116,19 @@ def run_experiments(
             break
     seconds, own = (thesis.seconds["quick"], thesis.quick_seconds) if quick else (thesis.seconds["full"], {})
     return Study(tuple(measured), tuple(tried), quick, seconds, own, laboratory.interrupted)
+
+
+def planned(thesis: Experiments, quick: bool) -> Iterator[tuple[list[Smoother], int]]:
+    """For each experiment and outlook its methods, and about how many hexes they will be run on."""
+    for experiment in thesis.experiments:
+        names = {experiment.start, *experiment.methods} - {INITIAL}
+        works = []
+        for name in sorted(names):
+            with suppress(ParameterError):  # of which its column will tell
+                works.append(thesis.smoother(experiment, name))
+        yield works, experiment.asked(quick)
+    for outlook in thesis.outlooks:
+        yield [smoother for smoother, _ in outlook.variants()], outlook.quick if quick else outlook.size
 
 
 class _Laboratory:

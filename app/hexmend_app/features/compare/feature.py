@@ -135,9 +135,10 @@ class FeatureCompare(Feature):
 
     def _start(self, names: list[str], stage: Stage) -> None:
         if self.session.editable:
-            self._close_results()
             smoothers = [self.session.order.smoother_of(name) for name in names]
-            self._comparison.start(smoothers, stage.stop)
+            if self.session.commands.may_run(*smoothers):
+                self._close_results()
+                self._comparison.start(smoothers, stage.stop)
 
     def _state_of(self, name: str) -> State:
         return self._comparison.initial if name == INITIAL else self._comparison.of(name).state

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend.recipe import Recipe
+from hexmend.run.memory import Shortage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.run import Frame, Phase
+from hexmend_app.widgets.questions import ask_short_of_memory
 from hexmend_app.widgets.report import report_of
 
 #: Actions whose keys the panel's buttons name.
@@ -25,6 +27,7 @@ class FeatureSmooth(Feature):
         session = self.session
         commands, smoothing = session.commands, session.smoothing
         self._smoothing = smoothing
+        commands.consent = self._agreed
         self._seen = Seen()
         self._hit: Frame | None = None  # the break-point that the run has paused at
         panel = self.panel = SmoothingPanel(session.order)
@@ -164,6 +167,10 @@ class FeatureSmooth(Feature):
             self.host.busy.show_work("run", "Preparing the method…", "Stop", help, self._smoothing.stop)
         else:
             self.host.busy.done("run")  # its animation would slow a run that shows itself anyway
+
+    def _agreed(self, short: Shortage) -> bool:
+        part = "isolate a part and move only that (Hex menu)"
+        return ask_short_of_memory(self.host.window, short.problem, short.remedy(part, titled=True))
 
     def _on_failed(self, error: Exception) -> None:
         record = self.session.smoothing.record

@@ -4,6 +4,7 @@ import pytest
 from PIL import Image
 
 from hexmend.cli.main import main
+from hexmend.run import memory
 
 
 def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
@@ -29,3 +30,10 @@ def test_what_cannot_be_filmed_is_said_before_the_run(mesh_file, tmp_path, monke
     assert main(["film", str(mesh_file), *words]) != 0
     assert said in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_film_for_which_memory_will_not_suffice_is_refused(mesh_file, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(memory, "available", lambda: 1000)
+    assert main(["film", str(mesh_file), "-o", str(tmp_path / "run.gif"), "--method", "laplacian"]) == 3
+    assert capsys.readouterr().err.startswith("hexmend: Laplacian on ")
+    assert not (tmp_path / "run.gif").exists()

@@ -1,0 +1,83 @@
+"""Memory that will not suffice: the window asks before a run, and nothing is lost by a no."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QMessageBox
+
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.state import commands
+from hexmend_app.state.run import Phase
+from tests.app.driving import choose, click, key, phase
+from tests.patience import PATIENCE
+
+YES, NO = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
+
+
+@pytest.fixture
+def asked(window, monkeypatch):
+    """Memory is short; what the window asks is kept, and answered as `answer` has it."""
+
+    class Asked(list):
+        answer = NO
+
+        def exec(self, box):
+            self.append(f"{box.text()} {box.informativeText()}")
+            return self.answer
+
+    asked = Asked()
+    monkeypatch.setattr(commands, "available", lambda: 80_000_000)
+    monkeypatch.setattr(QMessageBox, "exec", lambda box: asked.exec(box))
+    monkeypatch.setattr(METHODS["mend"], "bytes_per_hex", 10**9)
+    return asked
+
+
+def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
+    session = window.session
+    before = session.document.now
+    choose(window, "mend", Stop(max_iterations=2))
+    for begin in (lambda: click(window, "Run"), lambda: click(window, "Step"), lambda: key(window, Qt.Key.Key_F5)):
+        begin()
+        assert session.smoothing.phase is Phase.IDLE
+        assert session.document.now is before
+        assert not session.history.records
+    assert len(asked) == 3
+    assert "Mend on " in asked[0]
+    assert "80\u00a0MB are free" in asked[0]
+    assert METHODS["local-sd"].title in asked[0] or METHODS["local-nr"].title in asked[0]
+    asked.answer = YES
+    with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
+        click(window, "Run")
+    assert session.document.now is not before
+
+
+def test_nothing_is_asked_where_memory_suffices(window, qtbot, asked):
+    choose(window, "laplacian", Stop(max_iterations=2))
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        click(window, "Run")
+    assert not asked
+
+
+def test_a_recipe_and_a_comparison_ask_too(window, asked):
+    session = window.session
+    session.chain.add(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
+    session.chain.add(Stage(METHODS["mend"](), Stop(max_iterations=2)))
+    window.features["recipe"].run()
+    assert session.smoothing.phase is Phase.IDLE
+    window.features["compare"].panel.run_requested.emit(["laplacian", "mend"])
+    assert not session.comparison.busy
+    assert len(asked) == 2
+
+
+def test_a_branch_that_is_not_agreed_leaves_the_run_under_way(window, qtbot, asked):
+    choose(window, "laplacian", Stop(tolerance=0.0))
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    record = window.session.smoothing.record
+    window.session.commands.branch(Stage(METHODS["mend"](), Stop()))
+    assert len(asked) == 1
+    assert window.session.smoothing.phase is Phase.PAUSED
+    assert window.session.smoothing.record is record

@@ -1,0 +1,188 @@
+"""Memory of runs: what methods declare, what there is, and what is said where it will not suffice."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from hexmend import gallery, io
+from hexmend.cli.main import main
+from hexmend.recipe import Recipe
+from hexmend.run.memory import FIXED, available, needed, shortage
+from hexmend.smoothers import METHODS
+from hexmend.study.memory import taken
+from hexmend.study.thesis import planned
+
+MEBIBYTE = 1 << 20
+on_linux = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody says what is free, or what is held")
+#: Threads reserve address space, and so many as there are cores.
+ALONE = {"HEXMEND_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+
+# Limits its own address space to what it has and some more, and then runs the program.
+LIMITED = """
+import resource, sys
+from hexmend.cli.main import main
+import hexmend.io, hexmend.report, hexmend.run, hexmend.smoothers, hexmend.study.compare
+with open("/proc/self/status") as file:
+    taken = next(int(line.split()[1]) << 10 for line in file if line.startswith("VmSize:"))
+resource.setrlimit(resource.RLIMIT_AS, (taken + (int(sys.argv[1]) << 20), resource.RLIM_INFINITY))
+sys.exit(main(sys.argv[2:]))
+"""
+
+
+@pytest.fixture
+def system(tmp_path):
+    """Makes a folder in which `proc` and `sys` say what is given, by path."""
+
+    def make(texts):
+        for path, text in texts.items():
+            (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / path).write_text(text)
+        return tmp_path
+
+    return make
+
+
+@pytest.fixture
+def mesh_file(tmp_path):
+    path = tmp_path / "mesh.vtu"
+    io.write(path, gallery.make("cube", size=1000, scramble=0.3))
+    return path
+
+
+def limited(megabytes, *words):
+    """The program where so much more address space than it has may be used."""
+    command = [sys.executable, "-c", LIMITED, str(megabytes), *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, env=os.environ | ALONE)
+
+
+@on_linux
+@pytest.mark.parametrize("name", METHODS)
+def test_a_run_takes_about_what_its_method_declares(name):
+    values = {"solver_iterations": 5} if name.startswith("global-") and name != "global-sd" else {}
+    row = taken(name, 30_000, 3, **values)
+    assert row["mb"] < 1.5 * row["needed_mb"]
+    assert row["needed_mb"] < 4 * row["mb"] + 2 * FIXED / MEBIBYTE
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_what_is_needed_grows_with_what_moves(name):
+    mesh, smoother = gallery.make("cube", size=1000), METHODS[name]()
+    half = mesh.replace(pinned=mesh.points[:, 0] > np.median(mesh.points[:, 0]))
+    none = mesh.replace(pinned=np.ones(mesh.n_nodes, bool))
+    assert FIXED < needed(smoother, none) <= needed(smoother, half) <= needed(smoother, mesh)
+    assert needed(METHODS[name](boundary="slide"), mesh) > needed(smoother, mesh)
+    assert needed(smoother, 2_000_000) - needed(smoother, 1_000_000) == 1_000_000 * smoother.bytes_per_hex
+
+
+def test_a_recipe_needs_what_its_hungriest_stage_does():
+    stages = ["getme", "mend", "local-sd"]
+    assert needed(Recipe.of(*stages), 1000) == max(needed(METHODS[name](), 1000) for name in stages)
+
+
+def test_nothing_is_said_where_memory_suffices_or_nobody_knows():
+    mend = METHODS["mend"]()
+    assert shortage(mend, 1000, needed(mend, 1000)) is None
+    assert shortage(mend, 10**9, None) is None
+
+
+def test_what_is_short_names_figures_and_methods_that_would_do():
+    mend = METHODS["mend"]()
+    short = shortage(mend, 1_000_000, 1_000_000_000)
+    assert short.problem == "Mend on 1,000,000 hexes needs about 2.3 GB of memory, and 1.0 GB are free."
+    assert len(short.lighter) == 3
+    for cls, size in short.lighter:
+        assert cls.optimises
+        assert size == needed(cls(), 1_000_000) <= short.available
+        assert cls.name in short.remedy()
+        assert cls.title in short.remedy(titled=True)
+    none = shortage(mend, 1_000_000, 1000)
+    assert none.remedy("run it (--force)") == "Close other programs, smooth a smaller mesh or run it (--force)."
+
+
+INFO = {"proc/meminfo": "MemTotal: 9000 kB\nMemFree: 100 kB\nMemAvailable:    8000 kB\n"}
+TWO = {
+    "proc/self/cgroup": "0::/a/b\n",
+    "sys/fs/cgroup/a/memory.max": "3000000\n",
+    "sys/fs/cgroup/a/memory.current": "1500000\n",
+    "sys/fs/cgroup/a/memory.stat": "anon 5\ninactive_file 200000\n",
+    "sys/fs/cgroup/a/b/memory.max": "max\n",
+    "sys/fs/cgroup/a/b/memory.current": "1000\n",
+}
+ONE = {
+    "proc/self/cgroup": "4:cpu,memory:/x\n2:pids:/y\n",
+    "sys/fs/cgroup/memory/memory.limit_in_bytes": "9223372036854771712\n",
+    "sys/fs/cgroup/memory/memory.usage_in_bytes": "500\n",
+    "sys/fs/cgroup/memory/x/memory.limit_in_bytes": "4000000\n",
+    "sys/fs/cgroup/memory/x/memory.usage_in_bytes": "1000000\n",
+    "sys/fs/cgroup/memory/x/memory.stat": "inactive_file 1\ntotal_inactive_file 7\n",
+}
+
+
+@pytest.mark.parametrize(("texts", "free"), [
+    ({}, None),
+    (INFO, 8000 << 10),
+    (INFO | TWO, 1_700_000),
+    (TWO, 1_700_000),
+    (INFO | ONE, 3_000_007),
+    (INFO | {"proc/self/cgroup": "0::/../elsewhere\n"}, 8000 << 10),
+    (INFO | TWO | {"sys/fs/cgroup/a/memory.current": "9000000\n"}, 0),
+    (INFO | TWO | {"sys/fs/cgroup/a/memory.max": "\n"}, 8000 << 10),
+    ({"proc/meminfo": "MemAvailable: much\n", "proc/self/cgroup": "0::/\n"}, None),
+])  # fmt: skip
+def test_what_is_free_is_the_least_that_the_system_and_its_groups_leave(system, texts, free):
+    assert available(system(texts)) == free
+
+
+@on_linux
+@pytest.mark.parametrize("words", [
+    ("smooth", "-o", "out.vtu"), ("compare", "-o", "out", "--methods", "laplacian,mend"),
+])  # fmt: skip
+def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, mesh_file, tmp_path):
+    command, option, out, *rest = words
+    words = [command, mesh_file, option, tmp_path / out, *rest]
+    before = mesh_file.read_bytes()
+    done = limited(310, *words)
+    assert done.returncode == 3
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("hexmend: Mend on 1,000 hexes needs about 69 MB of memory, and ")
+    assert line.endswith(" or run it all the same (--force).")
+    assert not (tmp_path / out).exists()
+    done = limited(310, *words, "--force")
+    assert done.returncode == 0
+    assert done.stderr.startswith("hexmend: warning: Mend on 1,000 hexes needs about")
+    assert (tmp_path / out).exists()
+    assert mesh_file.read_bytes() == before
+
+
+@on_linux
+def test_a_study_is_refused_before_it_begins(tmp_path):
+    done = limited(310, "study", "thesis", "--quick", "-o", tmp_path / "study")
+    assert done.returncode == 3
+    assert "do fewer tables (--only)" in done.stderr
+    assert not (tmp_path / "study").exists()
+
+
+def test_every_table_of_the_thesis_has_its_methods_planned():
+    from hexmend.study.experiments import load
+
+    thesis = load()
+    for quick in (True, False):
+        plans = list(planned(thesis, quick))
+        assert len(plans) == len(thesis.experiments) + len(thesis.outlooks)
+        for one, (works, hexes) in zip(thesis.experiments, plans, strict=False):
+            assert {work.name for work in works} >= set(one.methods)
+            assert hexes == one.asked(quick)
+
+
+def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, capsys):
+    def ends(*arguments):
+        raise MemoryError
+
+    monkeypatch.setattr(METHODS["mend"], "steps", ends)
+    assert main(["smooth", str(mesh_file), "-o", str(tmp_path / "out.vtu")]) == 3
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("hexmend: memory does not suffice")
+    assert not (tmp_path / "out.vtu").exists()
