@@ -239,7 +239,7 @@ class Mesh:
         """The surface that the boundary slides on where that is not the boundary itself; see `sliding_on`."""
         return self.__dict__.get("_target")
 
-    def sliding_on(self, surface: Target) -> Mesh:
+    def sliding_on(self, surface: Target, *, check: bool = True) -> Mesh:
         """The same mesh, whose boundary slides on another surface, such as `hexmend.read_surface` gives.
 
         Methods that let the boundary slide put its nodes on that surface first; others do as ever.
@@ -247,13 +247,16 @@ class Mesh:
         Parameters
         ----------
         surface : hexmend.surface.Skin
+        check : bool
+            Whether it has to be near; one that a mesh had before need not be looked at again.
 
         Raises
         ------
         MeshError
             Where the surface is far from the boundary.
         """
-        surface.check_near(self)
+        if check:
+            surface.check_near(self)
         copy = self._copy("fixed", "free")
         copy._set(_target=surface)
         return copy

@@ -14,8 +14,6 @@ HEX27 = np.array(
         [2, 1, 1], [1, 0, 1], [1, 2, 1],
     ]
 )  # fmt: skip
-
-
 #: Nodes of a hex's sides 1 to 6, from the manual.
 SIDES = [[1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [1, 5, 8, 4], [1, 4, 3, 2], [5, 6, 7, 8]]
 
