@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from hexmend.advice import Advice
 from hexmend_app.state.document import State
+from hexmend_app.state.plain import since
 from hexmend_app.state.record import Offsets, Record
 
 #: Numbers that every iteration has, whatever the method tells besides.
@@ -31,11 +32,15 @@ class RecordData:
     pauses: tuple[tuple[int, str], ...]
     advice: Advice | None
     offsets: tuple[tuple[int, Offsets], ...]
+    slot: int | None = field(default=None, metadata=since(2))
+    plotted: bool = field(default=True, metadata=since(2))
 
     def __post_init__(self) -> None:
         numbers = [number for number, _ in self.offsets]
         if numbers != sorted(set(numbers)) or not set(numbers) <= set(range(1, len(self.rows))):
             raise ValueError(f"{self.name!r} keeps iterations that it has not made")
+        if (self.slot or 0) < 0:
+            raise ValueError(f"{self.name!r} has the slot {self.slot}")
         for at, row in enumerate(self.rows):
             figures = [row.get(name) for name in _FIGURES]
             if row.get("iteration") != at or not all(isinstance(one, int | float) for one in figures):
@@ -88,6 +93,8 @@ def given(record: Record, at: Mapping[Record, int], offsets: Mapping[int, Offset
         tuple(record.pauses.items()),
         record.advice,
         tuple(sorted(offsets.items())),
+        record.slot,
+        record.plotted,
     )
 
 
