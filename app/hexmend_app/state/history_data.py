@@ -47,6 +47,9 @@ class RecordData:
                 raise ValueError(f"iteration {at} of {self.name!r} lacks figures")
         if (self.result is None) != (self.end is None) or not 0 <= (self.result or 0) < len(self.rows):
             raise ValueError(f"{self.name!r} has no iteration {self.result}, which is its result")
+
+    def check(self) -> None:
+        """Raise `ValueError` unless its positions can be the run's; all are looked at, which is a worker's task."""
         nodes = self.start.mesh.n_nodes
         for one in {id(offsets.nodes): offsets for _, offsets in self.offsets}.values():
             inside = one.nodes.dtype == np.int32 and (
@@ -72,6 +75,11 @@ class HistoryData:
                 self._check(*record.parent, at)
         for _, run, number in self.moments:
             self._check(run, number, len(self.records))
+
+    def check(self) -> None:
+        """Raise `ValueError` unless positions can be those of their runs."""
+        for record in self.records:
+            record.check()
 
     def _check(self, run: int, number: int, runs: int) -> None:
         if not 0 <= run < runs or not 0 <= number < len(self.records[run].rows):

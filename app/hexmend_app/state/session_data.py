@@ -129,8 +129,10 @@ def read(path: Path) -> SessionData:
         Smoother: Own(_none, _smoother),
     }, stored.version)  # fmt: skip
     try:
-        return plain.value(stored.window, SessionData, "the window")
-    except (Misfit, MeshError) as error:
+        data = plain.value(stored.window, SessionData, "the window")
+        data.history.check()
+        return data
+    except (Misfit, MeshError, ValueError) as error:
         raise FileError(path, f"does not hold together: {error}", "Use an earlier copy, or open its mesh.") from None
 
 
