@@ -108,7 +108,7 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     assert texts(panel, "irregular") == ["counting…"]
     assert "Being counted" in panel.layers["sharp"].box.toolTip()
     assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
-    assert texts(panel, "locked") == ["of 2 locked hexes"]
+    assert texts(panel, "locked") == ["of 2 hexes"]
 
 
 def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
@@ -225,7 +225,7 @@ def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
     window.refresh()
     classes = window.session.classer.classes
     said = texts(window.features["structure"].panel, "locked")
-    assert said == [f"of {classes.locked} locked hexes", f"{classes.freed} freed by sliding"]
+    assert said == [f"of {classes.locked} hexes", f"{classes.freed} freed by sliding"]
 
 
 def test_the_original_surface_is_that_of_the_opened_mesh(five):
