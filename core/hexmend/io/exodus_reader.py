@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, ID, Block, Content, joined, joined_sets
 from hexmend.io.exodus_elements import FACE_OF_SIDE, FAMILIES, ORDER, PINS
@@ -13,7 +14,6 @@ from hexmend.io.exodus_ids import kept
 from hexmend.io.exodus_store import Store, opened
 from hexmend.io.exodus_values import DAMAGED, Values, with_columns
 from hexmend.io.pins import FIXED
-from hexmend.mesh import CELL_KINDS
 
 
 def content(path: Path) -> Content:

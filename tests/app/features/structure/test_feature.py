@@ -11,7 +11,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit
 
 from hexmend import gallery, io
-from hexmend.mesh import Cells, Mesh
+from hexmend.cells import Cells
+from hexmend.mesh import Mesh
 from hexmend.structure import structure
 from hexmend.surface import Kind
 from hexmend_app.features.structure.structure_panel import StructurePanel
