@@ -18,9 +18,10 @@ TYPE_CHECKING = False  # which type checkers take for true; `typing` alone would
 if TYPE_CHECKING:
     from hexmend import energy, gallery
     from hexmend.advice import advise
+    from hexmend.cells import Cells
     from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
     from hexmend.io import read, read_recipe, read_surface, write, write_recipe
-    from hexmend.mesh import Cells, Mesh
+    from hexmend.mesh import Mesh
     from hexmend.optimise import Iteration, Outcome, Result, Step
     from hexmend.parameters import parameter
     from hexmend.quality import METRICS, Summary, measure, summarise

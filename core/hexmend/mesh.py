@@ -6,13 +6,15 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 
+from hexmend.cells import Cells
 from hexmend.errors import MeshError
 from hexmend.hexahedron import EDGES
 from hexmend.kernels import elements
+from hexmend.mesh_checks import check_finite, check_node_numbers, check_size
 from hexmend.second_order import check_mid_nodes, following
 from hexmend.topology import Topology
 
@@ -20,59 +22,6 @@ from hexmend.topology import Topology
 SPOILED = 4.0
 #: In how many hexes, about, it is looked for that.
 _LOOKED_AT = 10_000
-
-
-class CellKind(NamedTuple):
-    """A kind of cell that is no hex: its dimension, its number of nodes, in the order of VTK, and its number there."""
-
-    dimension: int
-    nodes: int
-    vtk: int
-
-
-#: Every kind of cell that is carried beside hexes.
-CELL_KINDS = {
-    "vertex": CellKind(0, 1, 1),
-    "line": CellKind(1, 2, 3),
-    "triangle": CellKind(2, 3, 5),
-    "quad": CellKind(2, 4, 9),
-    "tetra": CellKind(3, 4, 10),
-    "wedge": CellKind(3, 6, 13),
-    "pyramid": CellKind(3, 5, 14),
-    "line3": CellKind(1, 3, 21),
-    "triangle6": CellKind(2, 6, 22),
-    "quad8": CellKind(2, 8, 23),
-    "quad9": CellKind(2, 9, 28),
-    "tetra10": CellKind(3, 10, 24),
-    "wedge15": CellKind(3, 15, 26),
-    "pyramid13": CellKind(3, 13, 27),
-}
-
-
-@dataclass(frozen=True, eq=False)
-class Cells:
-    """Cells of another kind that a file holds beside its hexes; carried through, never computed with.
-
-    Parameters
-    ----------
-    kind : str
-        One of `CELL_KINDS`.
-    nodes : (k, width) int32
-        In the order of VTK.
-    data : mapping of name to (k, ...) array
-    sets : mapping of name to (j,) int array
-        Named groups of these cells.
-    """
-
-    kind: str
-    nodes: np.ndarray
-    data: Mapping[str, np.ndarray] = field(default_factory=dict)
-    sets: Mapping[str, np.ndarray] = field(default_factory=dict)
-
-    @property
-    def dimension(self) -> int:
-        """0 for vertices up to 3 for cells that fill space."""
-        return CELL_KINDS[self.kind].dimension
 
 
 class Target(Protocol):
@@ -239,7 +188,7 @@ class Mesh:
         """The surface that the boundary slides on where that is not the boundary itself; see `sliding_on`."""
         return self.__dict__.get("_target")
 
-    def sliding_on(self, surface: Target) -> Mesh:
+    def sliding_on(self, surface: Target, *, check: bool = True) -> Mesh:
         """The same mesh, whose boundary slides on another surface, such as `hexmend.read_surface` gives.
 
         Methods that let the boundary slide put its nodes on that surface first; others do as ever.
@@ -247,13 +196,16 @@ class Mesh:
         Parameters
         ----------
         surface : hexmend.surface.Skin
+        check : bool
+            Whether it has to be near; one that a mesh had before need not be looked at again.
 
         Raises
         ------
         MeshError
             Where the surface is far from the boundary.
         """
-        surface.check_near(self)
+        if check:
+            surface.check_near(self)
         copy = self._copy("fixed", "free")
         copy._set(_target=surface)
         return copy
@@ -310,38 +262,6 @@ def _usual_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
         lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
     kept = lengths.size - lengths.size // 10
     return float(np.partition(lengths, kept - 1)[:kept].mean())
-
-
-#: The largest coordinate and the least size of a mesh: beyond them fourth powers of lengths are no numbers.
-LARGEST, SMALLEST = 1e75, 1e-75
-
-
-def check_size(points: np.ndarray) -> None:
-    """Raise `MeshError` where lengths are so large, or so small, that volumes are beyond what numbers can be."""
-    if not len(points):
-        return
-    low, high = points.min(axis=0), points.max(axis=0)
-    far, size = max(-low.min(), high.max()), float((high - low).max())
-    if far > LARGEST:
-        raise MeshError(f"coordinates go up to {far:.3g}: expected {LARGEST:g} at most; choose a larger unit of length")
-    if 0 < size < SMALLEST:
-        raise MeshError(f"the mesh is {size:.3g} wide: expected {SMALLEST:g} at least; choose a smaller unit of length")
-
-
-def check_finite(points: np.ndarray) -> None:
-    """Raise `MeshError` naming the first node whose coordinates are not all finite."""
-    if not np.isfinite(points).all():
-        i = int(np.nonzero(~np.isfinite(points).all(axis=1))[0][0])
-        raise MeshError(f"node {i} (counted from 0) has the coordinates {points[i].tolist()}: expected finite numbers")
-
-
-def check_node_numbers(hexes: np.ndarray, n: int) -> None:
-    """Raise `MeshError` naming the first hex that uses a node which does not exist."""
-    if hexes.min() < 0 or hexes.max() >= n:
-        h = int(np.nonzero(((hexes < 0) | (hexes >= n)).any(axis=1))[0][0])
-        raise MeshError(
-            f"hex {h} (counted from 0) uses the nodes {hexes[h].tolist()}: expected numbers from 0 to {n - 1}"
-        )
 
 
 def _frozen(array: np.ndarray) -> np.ndarray:

@@ -49,7 +49,7 @@ class Resetting:
         self._layout = window.docks.state()
         self._inputs: WeakKeyDictionary[QWidget, object] = WeakKeyDictionary()
         for widget in window.findChildren(QWidget):
-            setting = _setting(widget)
+            setting = setting_of(widget)
             if setting is not None:
                 self._inputs[widget] = setting
 
@@ -113,7 +113,7 @@ class Resetting:
 
     def _put_back(self):
         for widget, setting in list(self._inputs.items()):
-            if shiboken6.isValid(widget) and _setting(widget) != setting:
+            if shiboken6.isValid(widget) and setting_of(widget) != setting:
                 _set(widget, setting)
         for view in self.window.findChildren(QAbstractItemView):
             if view.selectionModel() is not None:
@@ -171,7 +171,7 @@ def _close_others(window):
             one.close()
 
 
-def _setting(widget):
+def setting_of(widget):
     """What a hand has set in a widget; None where it cannot be set."""
     if isinstance(widget, QComboBox):
         return widget.currentText() if widget.isEditable() else widget.currentIndex()

@@ -16,7 +16,7 @@ from hexmend_app.canvas.view_keys import move_of
 from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.panes import Panes
 from hexmend_app.state.clip import ClipPlane
-from hexmend_app.state.eye import Stand
+from hexmend_app.state.eye import Journey, Stand
 from hexmend_app.widgets.style import explain
 
 #: Milliseconds of rest after which the fine still frame is drawn.
@@ -80,14 +80,25 @@ class CameraView(QWidget):
     @property
     def stand(self) -> Stand:
         """Where the camera stands."""
-        pose = Pose.of(self.viewport.camera)
-        return Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, self.up)
+        return self._stand(Pose.of(self.viewport.camera))
 
-    def stand_at(self, stand: Stand) -> None:
-        """Have the camera stand somewhere."""
+    @property
+    def journey(self) -> Journey:
+        """Where it has stood."""
+        before, after, remembered = self.travel.journey()
+        stands = (tuple(self._stand(pose) for pose in poses) for poses in (before, after))
+        return Journey(*stands, None if remembered is None else self._stand(remembered))
+
+    def stand_at(self, stand: Stand, journey: Journey | None = None) -> None:
+        """Have the camera stand somewhere; with a journey, as if it had come that way."""
         self.panes.eye.up = stand.axis
-        pose = Pose(stand.position, stand.focal, stand.up, stand.parallel, stand.scale)
-        self._lead(partial(pose.give, self.viewport.camera))
+        self._lead(partial(_pose(stand).give, self.viewport.camera))
+        if journey is not None:
+            before, after = map(_pose, journey.before), map(_pose, journey.after)
+            self.travel.resume(list(before), list(after), None if journey.left is None else _pose(journey.left))
+
+    def _stand(self, pose: Pose) -> Stand:
+        return Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, self.up)
 
     @property
     def up(self) -> str:
@@ -213,6 +224,10 @@ class CameraView(QWidget):
         move = move_of(event, self.panes.eye.up)
         if move is not None:
             self._lead(partial(move, self.viewport.camera))
+
+
+def _pose(stand: Stand) -> Pose:
+    return Pose(stand.position, stand.focal, stand.up, stand.parallel, stand.scale)
 
 
 class _Keys(QObject):

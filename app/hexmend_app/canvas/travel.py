@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 from vtkmodules.vtkRenderingCore import vtkCamera
@@ -105,6 +105,18 @@ class Travel(QObject):
         self._poses.clear()
         self._remembered = None
         self.arrive()
+        self.changed.emit()
+
+    def journey(self) -> tuple[list[Pose], list[Pose], Pose | None]:
+        """What there is to go back to and forward to, the oldest first, and what is remembered."""
+        before, after = self._poses.around(Pose.of(self._camera))
+        return before, after, self._remembered
+
+    def resume(self, before: Sequence[Pose], after: Sequence[Pose], remembered: Pose | None) -> None:
+        """Go on from where the camera is as if it had come this way."""
+        self.stop()
+        self._poses.restore(before, Pose.of(self._camera), after)
+        self._remembered = remembered
         self.changed.emit()
 
     def _settle(self) -> None:

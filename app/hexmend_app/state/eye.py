@@ -10,6 +10,9 @@ from PySide6.QtCore import QObject, Signal
 
 Vector = tuple[float, float, float]
 
+#: Places that the camera can go back or forward to, with the one where it stands.
+MOST = 50
+
 
 @dataclass(frozen=True)
 class Stand:
@@ -42,6 +45,27 @@ class Stand:
             raise ValueError(f"the axis {axis!r} is up: expected x, y or z")
 
 
+@dataclass(frozen=True)
+class Journey:
+    """Where the camera has stood, and is to come back to.
+
+    Parameters
+    ----------
+    before, after : tuple of Stand
+        What there is to go back to, and forward to; the oldest first.
+    left : Stand or None
+        Where it stood before something was isolated that still is.
+    """
+
+    before: tuple[Stand, ...] = ()
+    after: tuple[Stand, ...] = ()
+    left: Stand | None = None
+
+    def __post_init__(self) -> None:
+        if len(self.before) + len(self.after) >= MOST:
+            raise ValueError(f"the camera has stood in more than {MOST} places")
+
+
 class Eye(QObject):
     """Knows where the camera stands, and where it is to stand.
 
@@ -49,8 +73,12 @@ class Eye(QObject):
     ----------
     now : callable
         Gives where the camera stands, a Stand, or None where there is no view; who has the camera sets it.
+    travelled : callable
+        Gives its Journey; who has the camera sets it.
     wanted : Stand or None
         Where it is to stand as soon as there is a view of the open mesh.
+    journey : Journey
+        What is to lie behind it then, and before it.
 
     Signals
     -------
@@ -63,13 +91,15 @@ class Eye(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.now: Callable[[], Stand | None] = lambda: None
+        self.travelled: Callable[[], Journey] = Journey
         self.wanted: Stand | None = None
+        self.journey = Journey()
 
     def given(self) -> Stand | None:
         """What a session keeps."""
         return self.wanted or self.now()
 
-    def take(self, stand: Stand | None) -> None:
-        """Have the camera stand where a session has kept it."""
-        self.wanted = stand
+    def take(self, stand: Stand | None, journey: Journey) -> None:
+        """Have the camera stand where a session has kept it, with the way that it has come."""
+        self.wanted, self.journey = stand, journey
         self.called.emit()

@@ -70,7 +70,7 @@ class History:
         count = 1
         while (own := f"{title} ({count})" if count > 1 else title) in names:
             count += 1
-        record = Record(own, title, start, self.moment_of(start))
+        record = Record(own, title, start, self.moment_of(start), self._free_slot())
         self.records.append(record)
         self._moments[start] = Moment(record, 0)
         return record
@@ -130,7 +130,9 @@ class History:
         self.clear()
         for kept in data.records:
             parent = None if kept.parent is None else Moment(self.records[kept.parent[0]], kept.parent[1])
-            record = Record(kept.name, kept.title, kept.start, parent)
+            slot = self._free_slot() if kept.slot is None else kept.slot
+            record = Record(kept.name, kept.title, kept.start, parent, slot)
+            record.plotted = kept.plotted
             record.rows, record.result, record.end = [dict(row) for row in kept.rows], kept.result, kept.end
             record.message, record.pauses, record.advice = kept.message, dict(kept.pauses), kept.advice
             self.records.append(record)
@@ -190,6 +192,11 @@ class History:
             state = State.of(mesh.with_points(points))
         self._moments[state] = Moment(record, number)
         return state
+
+    def _free_slot(self) -> int:
+        """The least slot that no run has."""
+        taken = {record.slot for record in self.records}
+        return next(slot for slot in range(len(taken) + 1) if slot not in taken)
 
     def _thin(self) -> None:
         """Drop positions until they fit: each time those that leave the smallest gap for their age."""

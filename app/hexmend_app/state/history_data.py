@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from hexmend.advice import Advice
 from hexmend_app.state.document import State
+from hexmend_app.state.plain import since
 from hexmend_app.state.record import Offsets, Record
 
 #: Numbers that every iteration has, whatever the method tells besides.
@@ -31,17 +32,24 @@ class RecordData:
     pauses: tuple[tuple[int, str], ...]
     advice: Advice | None
     offsets: tuple[tuple[int, Offsets], ...]
+    slot: int | None = field(default=None, metadata=since(2))
+    plotted: bool = field(default=True, metadata=since(2))
 
     def __post_init__(self) -> None:
         numbers = [number for number, _ in self.offsets]
         if numbers != sorted(set(numbers)) or not set(numbers) <= set(range(1, len(self.rows))):
             raise ValueError(f"{self.name!r} keeps iterations that it has not made")
+        if (self.slot or 0) < 0:
+            raise ValueError(f"{self.name!r} has the slot {self.slot}")
         for at, row in enumerate(self.rows):
             figures = [row.get(name) for name in _FIGURES]
             if row.get("iteration") != at or not all(isinstance(one, int | float) for one in figures):
                 raise ValueError(f"iteration {at} of {self.name!r} lacks figures")
         if (self.result is None) != (self.end is None) or not 0 <= (self.result or 0) < len(self.rows):
             raise ValueError(f"{self.name!r} has no iteration {self.result}, which is its result")
+
+    def check(self) -> None:
+        """Raise `ValueError` unless its positions can be the run's; all are looked at, which is a worker's task."""
         nodes = self.start.mesh.n_nodes
         for one in {id(offsets.nodes): offsets for _, offsets in self.offsets}.values():
             inside = one.nodes.dtype == np.int32 and (
@@ -68,6 +76,11 @@ class HistoryData:
         for _, run, number in self.moments:
             self._check(run, number, len(self.records))
 
+    def check(self) -> None:
+        """Raise `ValueError` unless positions can be those of their runs."""
+        for record in self.records:
+            record.check()
+
     def _check(self, run: int, number: int, runs: int) -> None:
         if not 0 <= run < runs or not 0 <= number < len(self.records[run].rows):
             raise ValueError(f"there is no iteration {number} of run {run}")
@@ -88,6 +101,8 @@ def given(record: Record, at: Mapping[Record, int], offsets: Mapping[int, Offset
         tuple(record.pauses.items()),
         record.advice,
         tuple(sorted(offsets.items())),
+        record.slot,
+        record.plotted,
     )
 
 

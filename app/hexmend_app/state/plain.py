@@ -1,7 +1,8 @@
 """Values as plain data and back, by the types that dataclasses declare: what a session's file holds of the window.
 
 Dataclasses become tables of their fields, enumerations their values, tuples and sets lists. What comes back is of the
-declared types or is refused: a field that is unknown, missing, or of another kind is named with its place.
+declared types or is refused: a field that is unknown, missing, or of another kind is named with its place. A field
+that was added `since` a version is none of older files, and has its default then.
 """
 
 from __future__ import annotations
@@ -18,9 +19,16 @@ import numpy as np
 
 from hexmend.errors import HexmendError
 
+_SINCE = "since"
+
 
 class Misfit(HexmendError):
     """Data that is not of the declared type."""
+
+
+def since(version: int) -> dict[str, int]:
+    """The metadata of a dataclass's field that files have from a version on; for older ones it has its default."""
+    return {_SINCE: version}
 
 
 class Own(NamedTuple):
@@ -37,6 +45,8 @@ class Plain:
     ----------
     own : mapping of type to Own
         Types with a way of their own, as they are declared.
+    version : int, optional
+        Of the file that is read; by default the newest.
 
     Examples
     --------
@@ -51,8 +61,8 @@ class Plain:
     hexmend_app.state.plain.Misfit: structure has no field 'irregular'
     """
 
-    def __init__(self, own: Mapping[type, Own]):
-        self._own = own
+    def __init__(self, own: Mapping[type, Own], version: int | None = None):
+        self._own, self._version = own, version
 
     def data(self, value: Any, kind: Any) -> Any:
         """A value of a declared type as plain data."""
@@ -136,7 +146,7 @@ class Plain:
 
     def _made(self, data: Any, kind: type, where: str) -> Any:
         _check(data, dict, where)
-        fields = _fields(kind)
+        fields = _fields(kind, self._version)
         for name in [*fields, *data]:
             if (name in fields) != (name in data):
                 raise Misfit(f"{where} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
@@ -151,9 +161,10 @@ class Plain:
 
 
 @cache
-def _fields(kind: type) -> dict[str, Any]:
-    types = typing.get_type_hints(kind)
-    return {one.name: types[one.name] for one in dataclasses.fields(kind) if one.init}
+def _fields(kind: type, version: int | None = None) -> dict[str, Any]:
+    """Names and types of the fields that a dataclass has in a version; by default in the newest."""
+    types, own = typing.get_type_hints(kind), [one for one in dataclasses.fields(kind) if one.init]
+    return {one.name: types[one.name] for one in own if version is None or one.metadata.get(_SINCE, 0) <= version}
 
 
 def _check(data: Any, kind: type, where: str) -> None:

@@ -56,10 +56,15 @@ class Record:
         The break-points that it paused at, in words, by the number of the iteration.
     advice : Advice or None
         Why it ended and what to do, once it has.
+    slot : int
+        From 0; it keeps its colour while others come and go.
+    plotted : bool
+        Whether it is seen in charts.
     """
 
-    def __init__(self, name: str, title: str, start: State, parent: Moment | None):
-        self.name, self.title, self.start, self.parent = name, title, start, parent
+    def __init__(self, name: str, title: str, start: State, parent: Moment | None, slot: int = 0):
+        self.name, self.title, self.start, self.parent, self.slot = name, title, start, parent, slot
+        self.plotted = True
         self.rows: list[dict[str, Any]] = []
         self.result: int | None = None
         self.end: State | None = None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.chain import Chain
+from hexmend_app.state.choices import Choices
 from hexmend_app.state.classer import Classer
 from hexmend_app.state.commands import Commands
 from hexmend_app.state.comparison import Comparison
@@ -60,6 +61,7 @@ class Session(QObject):
     views : Views
     kept : KeptMoments
     eye : Eye
+    choices : Choices
     commands : Commands
     """
 
@@ -86,6 +88,7 @@ class Session(QObject):
         self.kept = KeptMoments(self)
         self.views = Views(self.document, self.kept, self)
         self.eye = Eye(self)
+        self.choices = Choices()
         self.commands = Commands(self)
         self.opener.loaded.connect(self.take)
         self.document.mesh_replaced.connect(self._on_another)
@@ -117,6 +120,8 @@ class Session(QObject):
             chain=self.chain.given(),
             breakpoints=self.smoothing.breakpoints,
             eye=self.eye.given(),
+            journey=self.eye.travelled(),
+            choices=self.choices.given(),
         )
 
     def take(self, data: SessionData, path: Path | None = None) -> None:
@@ -139,7 +144,8 @@ class Session(QObject):
         self.order.take(data.order)
         self.chain.restore(data.chain)
         self.smoothing.break_at(data.breakpoints)
-        self.eye.take(data.eye)
+        self.choices.take(data.choices)
+        self.eye.take(data.eye, data.journey)
 
     def shut_down(self) -> None:
         """End the threads, and wait for them."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +16,14 @@ from hexmend.quality import measure, summarise
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.state.chain import ChainData
+from hexmend_app.state.choices import ChoicesData
 from hexmend_app.state.comparison import ComparisonData
 from hexmend_app.state.document import DocumentData, State
-from hexmend_app.state.eye import Stand
+from hexmend_app.state.eye import Journey, Stand
 from hexmend_app.state.history import HistoryData
 from hexmend_app.state.kept import Kept
 from hexmend_app.state.order import OrderData
-from hexmend_app.state.plain import Misfit, Own, Plain
+from hexmend_app.state.plain import Misfit, Own, Plain, since
 from hexmend_app.state.selection import SelectionData
 from hexmend_app.state.timeline import TimelineData
 from hexmend_app.state.view import ViewData
@@ -48,6 +49,8 @@ class SessionData:
     chain: ChainData
     breakpoints: Breakpoints
     eye: Stand | None
+    journey: Journey = field(default=Journey(), metadata=since(2))
+    choices: ChoicesData = field(default=ChoicesData(), metadata=since(2))
 
     def __post_init__(self) -> None:
         mesh = self.document.now.mesh
@@ -124,10 +127,12 @@ def read(path: Path) -> SessionData:
         Mesh: Own(_none, lambda at: states(at).mesh),
         State: Own(_none, states),
         Smoother: Own(_none, _smoother),
-    })  # fmt: skip
+    }, stored.version)  # fmt: skip
     try:
-        return plain.value(stored.window, SessionData, "the window")
-    except (Misfit, MeshError) as error:
+        data = plain.value(stored.window, SessionData, "the window")
+        data.history.check()
+        return data
+    except (Misfit, MeshError, ValueError) as error:
         raise FileError(path, f"does not hold together: {error}", "Use an earlier copy, or open its mesh.") from None
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh import Cells, Mesh
+from hexmend.cells import Cells
+from hexmend.mesh import Mesh
 
 
 def with_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = None) -> Mesh:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
+from hexmend.cells import CELL_KINDS
 from hexmend.io.content import HEX_KINDS
-from hexmend.mesh import CELL_KINDS
 
 #: What the elements of a type are; prefixes such as DC (heat) and suffixes such as R (reduced integration) vary.
 _PATTERNS = (

@@ -13,7 +13,7 @@ import re
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
@@ -57,11 +57,22 @@ def write_archive(path: str | os.PathLike[str], format: str, version: int, data:
         archive.writestr(DESCRIPTION, json.dumps(description))
         for number, array in arrays.values():
             with archive.open(f"arrays/{number}.npy", "w", force_zip64=True) as member:
-                np.lib.format.write_array(member, array, version=(1, 0), allow_pickle=False)
+                _write(member, array)
 
 
-def read_archive(path: str | os.PathLike[str], format: str, version: int) -> Any:
-    """The tree that `write_archive` wrote.
+def _write(member: IO[bytes], array: np.ndarray) -> None:
+    """Write an array as .npy, large ones without a copy, so that other threads go on meanwhile."""
+    if not array.flags.c_contiguous or not array.nbytes:
+        np.lib.format.write_array(member, array, version=(1, 0), allow_pickle=False)
+        return
+    np.lib.format.write_array_header_1_0(member, np.lib.format.header_data_from_array_1_0(array))
+    data = memoryview(array.reshape(-1).view(np.uint8))
+    for at in range(0, len(data), _AT_ONCE):
+        member.write(data[at : at + _AT_ONCE])
+
+
+def read_archive(path: str | os.PathLike[str], format: str, version: int) -> tuple[int, Any]:
+    """The version and the tree that `write_archive` wrote.
 
     Parameters
     ----------
@@ -81,8 +92,8 @@ def read_archive(path: str | os.PathLike[str], format: str, version: int) -> Any
         with zipfile.ZipFile(path) as archive:
             members = _members(path, archive)
             description = json.loads(archive.read(DESCRIPTION))
-            tree = _checked(path, description, format, version)
-            return _decoded(tree, _Arrays(path, archive, members))
+            number, tree = _checked(path, description, format, version)
+            return number, _decoded(tree, _Arrays(path, archive, members))
     except (zipfile.BadZipFile, EOFError) as error:
         raise FileError(path, f"is damaged or not whole: {_small(error)}", _REMEDY) from None
     except RecursionError:
@@ -125,8 +136,8 @@ def _members(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
     return members
 
 
-def _checked(path: Path, description: Any, format: str, version: int) -> Any:
-    """The tree of a description of the format, in a version that is known."""
+def _checked(path: Path, description: Any, format: str, version: int) -> tuple[int, Any]:
+    """The version, which is known, and the tree of a description of the format."""
     if not isinstance(description, dict) or description.get("format") != format:
         raise FileError(path, f"is no {format}", _NOT_OURS)
     number = description.get("version")
@@ -138,7 +149,7 @@ def _checked(path: Path, description: Any, format: str, version: int) -> Any:
     if unknown or "data" not in description:
         what = f"has an unknown field {min(unknown)[:80]!r}" if unknown else "has no data"
         raise FileError(path, what, "Use a newer Hexmend." if unknown else _REMEDY)
-    return description["data"]
+    return number, description["data"]
 
 
 def _encoded(value: Any, arrays: dict[int, tuple[int, np.ndarray]]) -> Any:

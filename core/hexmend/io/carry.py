@@ -8,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.hexahedron import VOXEL_ORDER
 from hexmend.io.content import HEX_KINDS, Block, Content, joined
 from hexmend.io.content import from_mesh as content_of
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.pins import with_marks
-from hexmend.mesh import CELL_KINDS, Mesh
+from hexmend.mesh import Mesh
 
 HEXAHEDRON, VOXEL, QUAD, PIXEL = 12, 11, 9, 8
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.io.cgns_elements import FACE_OF, MIXED, ORDER, POLYGONS, POLYHEDRA, TYPES
 from hexmend.io.cgns_tree import Node
 from hexmend.io.cgns_zone import DAMAGED, Zone, add, conditions, coordinates, family, location_of, results, sizes
 from hexmend.io.content import HEX_KINDS, Block
-from hexmend.mesh import CELL_KINDS
 
 
 def unstructured(node: Node) -> Zone:

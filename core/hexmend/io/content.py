@@ -10,10 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS, Cells
 from hexmend.errors import FileError
 from hexmend.hexahedron import EDGES
 from hexmend.io.pins import marks_in
-from hexmend.mesh import CELL_KINDS, Cells, Mesh, check_node_numbers
+from hexmend.mesh import Mesh
+from hexmend.mesh_checks import check_node_numbers
 from hexmend.second_order import SHARES
 
 #: Kinds of hexes, and how many nodes they have; in the order of VTK's types 12, 25 and 29.

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, ID, Block, Content, joined, joined_sets
 from hexmend.io.exodus_elements import FACE_OF_SIDE, FAMILIES, ORDER, PINS
 from hexmend.io.exodus_ids import kept
 from hexmend.io.exodus_store import Store, opened
+from hexmend.io.exodus_values import DAMAGED, Values, with_columns
 from hexmend.io.pins import FIXED
-from hexmend.mesh import CELL_KINDS
-
-_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
-_COMPONENT = re.compile(r"(.+)_(x|1)$", re.IGNORECASE)
 
 
 def content(path: Path) -> Content:
@@ -38,7 +34,7 @@ class _Reader:
         self.n_nodes = store.dimensions["num_nodes"]
         self.n_elements = store.dimensions.get("num_elem", 0)
         steps = store.dimensions.get("time_step", 0)
-        self.last = max(0, steps - 1)
+        self.values = Values(path, store, max(0, steps - 1))
         if steps > 1 and any(f"name_{what}_var" in store for what in ("nod", "elem")):
             self.notes.append(f"Of {steps:,} time steps the last is read.")
 
@@ -48,7 +44,7 @@ class _Reader:
         node_sets, pinned = self.node_sets()
         node_data = self.variables("nod", "", self.n_nodes)
         if "node_num_map" in self.store:
-            node_data[ID] = self.whole("node_num_map", self.n_nodes)
+            node_data[ID] = self.values.whole("node_num_map", self.n_nodes)
         self.element_sets(blocks, numbers)
         hexes = [part for block, part in zip(blocks, numbers, strict=True) if block.kind in HEX_KINDS]
         side_sets = self.side_sets(np.concatenate(hexes) if hexes else np.empty(0, np.int64))
@@ -68,23 +64,23 @@ class _Reader:
     def points(self) -> np.ndarray:
         width = self.store.dimensions.get("num_dim", 3)
         if not 1 <= width <= 3:
-            raise FileError(self.path, f"num_dim is {width}: expected 1 to 3", _DAMAGED)
+            raise FileError(self.path, f"num_dim is {width}: expected 1 to 3", DAMAGED)
         if "coord" in self.store:
-            rows = self.array("coord", width, self.n_nodes)
+            rows = self.values.array("coord", width, self.n_nodes)
         else:
             missing = [name for name in "xyz"[:width] if f"coord{name}" not in self.store]
             if missing:
-                raise FileError(self.path, f"has no coordinates coord{missing[0]}", _DAMAGED)
-            rows = [self.array("coord" + name, self.n_nodes) for name in "xyz"[:width]]
+                raise FileError(self.path, f"has no coordinates coord{missing[0]}", DAMAGED)
+            rows = [self.values.array("coord" + name, self.n_nodes) for name in "xyz"[:width]]
         points = np.zeros((self.n_nodes, 3))  # as many as have been read
         points[:, :width] = np.column_stack(list(rows))
         return points
 
     def blocks(self) -> tuple[list[Block], list[np.ndarray]]:
         """Blocks of cells, and the numbers of their cells in the file, from 0."""
-        ids = self.ids("eb_prop1", "num_el_blk")
-        names = self.words("eb_names") if "eb_names" in self.store else []
-        id_map = self.whole("elem_num_map", self.n_elements) if "elem_num_map" in self.store else None
+        ids = self.values.ids("eb_prop1", "num_el_blk")
+        names = self.values.words("eb_names") if "eb_names" in self.store else []
+        id_map = self.values.whole("elem_num_map", self.n_elements) if "elem_num_map" in self.store else None
         blocks, numbers, of_ids, called, first = [], [], [], [], 0
         for k, number in enumerate(ids, 1):
             count = self.store.dimensions.get(f"num_el_in_blk{k}", 0)
@@ -102,7 +98,7 @@ class _Reader:
             numbers.append(cells)
             of_ids.append(number)
         if first != self.n_elements:  # which all numbers of elements rest on
-            raise FileError(self.path, f"has {self.n_elements} elements, but its blocks {first}", _DAMAGED)
+            raise FileError(self.path, f"has {self.n_elements} elements, but its blocks {first}", DAMAGED)
         kinds = [block.kind for block in blocks]
         if not any(names) and any(kinds.count(kind) > 1 for kind in HEX_KINDS):  # which tell materials apart
             for block, number in zip(blocks, of_ids, strict=True):
@@ -124,12 +120,12 @@ class _Reader:
         if kind is None and (not family or width < widths[0]):
             self.notes.append(f"{count:,} cells of type {type_ or 'unnamed'} in block {number} are left out.")
             return None
-        nodes = self.whole(variable, count, width) - 1
+        nodes = self.values.whole(variable, count, width) - 1
         if nodes.min() < 0 or nodes.max() >= self.n_nodes:
             raise FileError(
                 self.path,
                 f"block {number} uses the nodes {nodes.min() + 1} to {nodes.max() + 1}: expected 1 to {self.n_nodes}",
-                _DAMAGED,
+                DAMAGED,
             )
         if kind is None:
             self.notes.append(f"Cells of type {type_} with {width} nodes in block {number} are read by their corners.")
@@ -140,8 +136,8 @@ class _Reader:
         width = self.store.dimensions.get(f"num_att_in_blk{k}", 0)
         if not width or f"attrib{k}" not in self.store:
             return {}
-        values = self.array(f"attrib{k}", count, width)
-        names = self.words(f"attrib_name{k}") if f"attrib_name{k}" in self.store else []
+        values = self.values.array(f"attrib{k}", count, width)
+        names = self.values.words(f"attrib_name{k}") if f"attrib_name{k}" in self.store else []
         return {
             (names[j] if j < len(names) and names[j] else f"attribute {j + 1}"): np.ascontiguousarray(values[:, j])
             for j in range(width)
@@ -149,14 +145,14 @@ class _Reader:
 
     def node_sets(self) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
         """Sets of nodes by name, and pins: the set that is marked as such, else what sets called "fixed" hold."""
-        ids = self.ids("ns_prop1", "num_node_sets")
+        ids = self.values.ids("ns_prop1", "num_node_sets")
         marked = "ns_prop2" in self.store and self.store.attribute("ns_prop2", "name") == PINS
-        marks = self.whole("ns_prop2", len(ids)) if marked else None
+        marks = self.values.whole("ns_prop2", len(ids)) if marked else None
         answer, pinned = {}, None
         for k, name in enumerate(self.names("ns", ids, "node set"), 1):
             if f"node_ns{k}" not in self.store:
                 continue
-            members = self.members(f"node_ns{k}", f"num_nod_ns{k}", self.n_nodes, "nodes")
+            members = self.values.members(f"node_ns{k}", f"num_nod_ns{k}", self.n_nodes, "nodes")
             if name.lower() == FIXED if marks is None else marks[k - 1]:
                 pinned = np.zeros(self.n_nodes, bool) if pinned is None else pinned
                 pinned[members] = True
@@ -166,11 +162,11 @@ class _Reader:
 
     def element_sets(self, blocks: list[Block], numbers: list[np.ndarray]) -> None:
         """Add the sets of elements to the blocks that their members are in."""
-        ids = self.ids("els_prop1", "num_elem_sets")
+        ids = self.values.ids("els_prop1", "num_elem_sets")
         for k, name in enumerate(self.names("els", ids, "element set"), 1):
             if f"elem_els{k}" not in self.store:
                 continue
-            members = self.members(f"elem_els{k}", f"num_ele_els{k}", self.n_elements, "elements")
+            members = self.values.members(f"elem_els{k}", f"num_ele_els{k}", self.n_elements, "elements")
             for block, cells in zip(blocks, numbers, strict=True):
                 inside = members[(members >= cells[0]) & (members <= cells[-1])] - cells[0]
                 if inside.size:
@@ -178,13 +174,13 @@ class _Reader:
 
     def side_sets(self, hexes: np.ndarray) -> dict[str, np.ndarray]:
         """Sides of hexes by name; `hexes` are the elements that are hexes, ascending."""
-        ids = self.ids("ss_prop1", "num_side_sets")
+        ids = self.values.ids("ss_prop1", "num_side_sets")
         answer = {}
         for k, name in enumerate(self.names("ss", ids, "side set"), 1):
             if f"elem_ss{k}" not in self.store or f"side_ss{k}" not in self.store:
                 continue
-            elements = self.members(f"elem_ss{k}", f"num_side_ss{k}", self.n_elements, "elements")
-            sides = self.whole(f"side_ss{k}", len(elements))
+            elements = self.values.members(f"elem_ss{k}", f"num_side_ss{k}", self.n_elements, "elements")
+            sides = self.values.whole(f"side_ss{k}", len(elements))
             place = np.searchsorted(hexes, elements).clip(0, max(0, len(hexes) - 1))
             of_hex = hexes[place] == elements if len(hexes) else np.zeros(len(elements), bool)
             if not of_hex.all():
@@ -201,56 +197,16 @@ class _Reader:
         if f"name_{what}_var" not in self.store or not self.store.dimensions.get("time_step"):
             return {}
         found = {}
-        for v, name in enumerate(self.words(f"name_{what}_var"), 1):
+        for v, name in enumerate(self.values.words(f"name_{what}_var"), 1):
             if f"vals_{what}_var{v}{place}" in self.store:
-                found[name] = self.array(f"vals_{what}_var{v}{place}", count)
+                found[name] = self.values.array(f"vals_{what}_var{v}{place}", count)
             elif what == "nod" and "vals_nod_var" in self.store:
-                found[name] = self.array("vals_nod_var", len(self.words("name_nod_var")), count)[v - 1]
-        return _joined(found)
-
-    # Kinds of variables
-
-    def array(self, name: str, *shape: int) -> np.ndarray:
-        values = self.store.array(name, self.last)
-        if values.dtype.kind not in "iuf" or values.shape != shape:
-            raise FileError(
-                self.path, f"variable {name!r} holds {values.dtype} {values.shape}: expected numbers {shape}", _DAMAGED
-            )
-        return values
-
-    def whole(self, name: str, *shape: int) -> np.ndarray:
-        values = self.array(name, *shape)
-        if values.dtype.kind == "f":
-            raise FileError(self.path, f"variable {name!r} holds {values.dtype}: expected whole numbers", _DAMAGED)
-        return values.astype(np.int64)
-
-    def members(self, name: str, dimension: str, bound: int, what: str) -> np.ndarray:
-        """Numbers of nodes or elements, from 0."""
-        members = self.whole(name, self.store.dimensions.get(dimension, 0)) - 1
-        if members.size and (members.min() < 0 or members.max() >= bound):
-            raise FileError(
-                self.path,
-                f"{name!r} names the {what} {members.min() + 1} to {members.max() + 1}: expected 1 to {bound}",
-                _DAMAGED,
-            )
-        return members
-
-    def ids(self, name: str, dimension: str) -> list[int]:
-        count = self.store.dimensions.get(dimension, 0)
-        if count > len(self.store):  # each has a variable at least
-            raise FileError(self.path, f"{dimension} is {count}, of {len(self.store)} variables", _DAMAGED)
-        return self.whole(name, count).tolist() if name in self.store else list(range(1, count + 1))
-
-    def words(self, name: str) -> list[str]:
-        values = self.store.array(name, self.last)
-        if values.dtype.kind != "S" or values.ndim != 2:
-            return []
-        rows = [bytes(row.tobytes()).split(b"\0")[0] for row in values]
-        return [row.decode("utf-8", errors="replace").strip() for row in rows]
+                found[name] = self.values.array("vals_nod_var", len(self.values.words("name_nod_var")), count)[v - 1]
+        return with_columns(found)
 
     def names(self, sort: str, ids: list[int], what: str) -> list[str]:
         """A name for each id of a sort of sets ("ns"): that of the file, or one made of the id."""
-        words = self.words(f"{sort}_names") if f"{sort}_names" in self.store else []
+        words = self.values.words(f"{sort}_names") if f"{sort}_names" in self.store else []
         words = [words[k] if k < len(words) and words[k] else f"{what} {number}" for k, number in enumerate(ids)]
         names = [
             word if words.count(word) == 1 else f"{word} {number}" for word, number in zip(words, ids, strict=True)
@@ -273,23 +229,4 @@ def _by_kind(blocks: list[Block]) -> list[Block]:
                 joined_sets([block.sets for block in parts], lengths),
             )
         )
-    return answer
-
-
-def _joined(found: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Arrays of which those called a_x a_y a_z, or a_1 a_2 ..., are one with columns."""
-    left, answer = dict(found), {}
-    while left:
-        name = next(iter(left))
-        match = _COMPONENT.match(name)
-        parts = [name]
-        if match:
-            start, mark = match.groups()
-            ends = ["x", "y", "z"] if mark in "xX" else [str(k) for k in range(1, len(left) + 1)]
-            parts = [start + "_" + (end.upper() if mark == "X" else end) for end in ends]
-            parts = parts[: next((k for k, part in enumerate(parts) if part not in left), len(parts))]
-            if len(parts) < (3 if mark in "xX" else 2) or start in found:
-                parts = [name]
-        arrays = [left.pop(part) for part in parts]
-        answer[match[1] if len(parts) > 1 else name] = np.column_stack(arrays) if len(parts) > 1 else arrays[0]
     return answer

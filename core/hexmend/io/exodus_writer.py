@@ -12,7 +12,7 @@ import numpy as np
 from hexmend.io.content import ID, Block, hex_blocks, unused
 from hexmend.io.exodus_elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.exodus_ids import IDS, ids_of
-from hexmend.io.netcdf3 import Writer
+from hexmend.io.netcdf3_write import Writer
 from hexmend.io.pins import FIXED, held_by_pins
 from hexmend.mesh import Mesh
 

@@ -9,11 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.numbering import places
-from hexmend.mesh import CELL_KINDS, Mesh
+from hexmend.mesh import Mesh
 
 #: Gmsh's number of every kind of cell that is read.
 KINDS = {

@@ -8,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.med_content import KINDS, ORDER, names_of
 from hexmend.io.med_write import cannot, write
-from hexmend.mesh import CELL_KINDS, Mesh
+from hexmend.mesh import Mesh
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 #: Bytes that one of the file may mean, and bytes that are never too many.

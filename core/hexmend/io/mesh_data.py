@@ -7,19 +7,28 @@ from typing import Any
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS, Cells
 from hexmend.errors import MeshError
-from hexmend.mesh import CELL_KINDS, Cells, Mesh, check_node_numbers
+from hexmend.mesh import Mesh, Target
+from hexmend.mesh_checks import check_finite, check_node_numbers, check_size
 
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
-_FIELDS = {"points", "hexes", "surface", "pinned", "mid_nodes", "cells", "name", "notes", *_TABLES}
+#: The fields of a mesh, by the version of sessions that they are in from then on.
+_SINCE = dict.fromkeys(("points", "hexes", "surface", "pinned", "mid_nodes", "cells", "name", "notes", *_TABLES), 1) | {
+    "target": 2
+}
+#: What is set mesh by mesh; all else is shared by those that have the same.
+_OWN = {"points", "surface", "mid_nodes"}
 
 
 def mesh_data(mesh: Mesh) -> dict[str, Any]:
-    """Everything that a mesh is and carries; `surface` is where its boundary slides."""
+    """Everything that a mesh is and carries; `surface` and `target` are where its boundary slides."""
+    target = mesh.target
     return {
         "points": mesh.points,
         "hexes": mesh.hexes,
         "surface": mesh.surface,
+        "target": target and {"points": target.points, "faces": target.faces, "name": target.name},
         "pinned": mesh.pinned,
         "mid_nodes": mesh.mid_nodes,
         "cells": [{"kind": c.kind, "nodes": c.nodes, "data": c.data, "sets": c.sets} for c in mesh.cells],
@@ -30,11 +39,19 @@ def mesh_data(mesh: Mesh) -> dict[str, Any]:
 
 
 class Meshes:
-    """Makes meshes of plain data; those with the same arrays of hexes share one topology."""
+    """Makes meshes of plain data; those with the same arrays of hexes share one topology.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    version : int
+        Of the session that they are from.
+    """
+
+    def __init__(self, version: int):
+        self._fields = {name for name, since in _SINCE.items() if since <= version}
         self._bare: dict[int, Mesh] = {}  # by their array of hexes
-        self._carriers: dict[tuple, Mesh] = {}  # with all but points and nodes of second order
+        self._carriers: dict[tuple, Mesh] = {}  # with all but what is of each mesh alone
+        self._targets: dict[tuple, Target] = {}
 
     def mesh(self, data: Any) -> Mesh:
         """The mesh that `mesh_data` describes.
@@ -44,7 +61,7 @@ class Meshes:
         MeshError
             For unknown or missing fields, and for values that cannot be a mesh's.
         """
-        check_fields("a mesh", data, _FIELDS)
+        check_fields("a mesh", data, self._fields)
         points, surface = (_array(data, name, "f", (-1, 3)) for name in ("points", "surface"))
         carrier, mid_nodes = self._carrier(data, points), data["mid_nodes"]
         mesh = carrier.with_points(surface).keeping_surface().with_points(points)
@@ -57,10 +74,21 @@ class Meshes:
         bare = self._bare.get(id(hexes))
         if bare is None or bare.n_nodes != len(points):
             bare = self._bare[id(hexes)] = Mesh(points, hexes)
-        key = (id(bare), _key({name: data[name] for name in _FIELDS - {"points", "surface", "mid_nodes"}}))
+        key = (id(bare), _key({name: data[name] for name in sorted(self._fields - _OWN)}))
         if key not in self._carriers:
-            self._carriers[key] = bare.replace(**_carried(data, bare))
+            carrier = bare.replace(**_carried(data, bare))
+            target = self._target(data.get("target"))
+            self._carriers[key] = carrier if target is None else carrier.sliding_on(target, check=False)
         return self._carriers[key]
+
+    def _target(self, data: Any) -> Target | None:
+        """The surface that the boundary slides on where that is not the boundary itself."""
+        if data is None:
+            return None
+        key = _key(data)
+        if key not in self._targets:
+            self._targets[key] = _skin(data)
+        return self._targets[key]
 
 
 def check_fields(what: str, data: Any, known: set[str]) -> None:
@@ -104,6 +132,22 @@ def _carried(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
         "name": data["name"],
         "notes": tuple(data["notes"]),
     }
+
+
+def _skin(data: Any) -> Target:
+    from hexmend.surface import Skin  # not before it is needed: commands start without it
+
+    check_fields("the surface that the boundary slides on", data, {"points", "faces", "name"})
+    points, faces, name = data["points"], data["faces"], data["name"]
+    width = faces.shape[1] if isinstance(faces, np.ndarray) and faces.ndim == 2 else 0
+    if width not in (3, 4) or not len(faces) or not isinstance(name, str):
+        raise MeshError("the surface that the boundary slides on has no triangles or quads, or no name")
+    points, faces = _array(data, "points", "f", (-1, 3)), _array(data, "faces", "i", (-1, width))
+    check_finite(points)
+    check_size(points)
+    if faces.min() < 0 or faces.max() >= len(points):
+        raise MeshError(f"a face of {name!r} has a corner that is not from 0 to {len(points) - 1}")
+    return Skin(np.asarray(points, np.float64), np.ascontiguousarray(faces, np.int32), name)
 
 
 def _array(data: Mapping[str, Any], name: str, kind: str, shape: tuple[int, ...]) -> np.ndarray:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, ID, Block, Content, from_mesh
 from hexmend.io.content import to_mesh as mesh_of
@@ -17,7 +18,7 @@ from hexmend.io.nastran_bulk import Bulk
 from hexmend.io.numbering import element_numbers, ids_lost, node_numbers, places
 from hexmend.io.reduced import middles_lost, reduced
 from hexmend.io.source import shown, text_of
-from hexmend.mesh import CELL_KINDS, Mesh
+from hexmend.mesh import Mesh
 
 #: What the elements of a name are, of first and second order.
 _KINDS = {

@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.io.content import HEX_KINDS, Content
 from hexmend.io.format import Holds
-from hexmend.mesh import CELL_KINDS, Mesh
+from hexmend.mesh import Mesh
 
 #: What is left of a kind of cell without its last nodes.
 _LESS = {

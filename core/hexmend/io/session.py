@@ -17,7 +17,7 @@ from hexmend.io.format import FORMATS, Format
 from hexmend.mesh import Mesh
 
 #: The suffix of sessions, and the number of what is written; lower ones can be read.
-SUFFIX, VERSION = ".hexmend", 1
+SUFFIX, VERSION = ".hexmend", 2
 #: Meshes of one session: changes, runs and what they are compared with.
 MOST = 10_000
 
@@ -36,11 +36,14 @@ class Stored:
         Which of them was shown.
     window : object
         Plain data with arrays, as `write_archive` takes it.
+    version : int
+        Of the file: fields that are newer are not in it.
     """
 
     meshes: tuple[Mesh, ...]
     now: int
     window: Any
+    version: int = VERSION
 
 
 def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int, window: Any) -> None:
@@ -72,10 +75,10 @@ def read_session(path: str | os.PathLike[str]) -> Stored:
     """
     from hexmend.io.mesh_data import Meshes
 
-    data = _data(path)
+    version, data = _data(path)
     try:
-        make, now = Meshes(), _number(data)
-        return Stored(tuple(make.mesh(one) for one in data["meshes"]), now, data["window"])
+        make, now = Meshes(version), _number(data)
+        return Stored(tuple(make.mesh(one) for one in data["meshes"]), now, data["window"], version)
     except MeshError as error:
         raise _unfit(path, error) from None
 
@@ -84,14 +87,15 @@ def _read(path: Path) -> Mesh:
     """The mesh that was shown."""
     from hexmend.io.mesh_data import Meshes
 
-    data = _data(path)
+    version, data = _data(path)
     try:
-        return Meshes().mesh(data["meshes"][_number(data)])
+        return Meshes(version).mesh(data["meshes"][_number(data)])
     except MeshError as error:
         raise _unfit(path, error) from None
 
 
-def _data(path: str | os.PathLike[str]) -> Any:
+def _data(path: str | os.PathLike[str]) -> tuple[int, Any]:
+    """The version of a session and what is in it."""
     from hexmend.io.archive import read_archive
     from hexmend.io.files import check_readable
 

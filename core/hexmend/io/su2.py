@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.cells import CELL_KINDS
 from hexmend.io.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.decimals import blocks as parts_of
@@ -15,7 +16,7 @@ from hexmend.io.decimals import lines
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.reduced import middles_lost, reduced
 from hexmend.io.source import Source, shown, text_of
-from hexmend.mesh import CELL_KINDS, Mesh
+from hexmend.mesh import Mesh
 
 #: What the elements of a number are; these and no others has the format.
 KINDS = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hex", 13: "wedge", 14: "pyramid"}

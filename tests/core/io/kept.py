@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh import Cells, Mesh
+from hexmend.cells import Cells
+from hexmend.mesh import Mesh
 from hexmend.second_order import MID_PLACES, SHARES
 from tests.core.grids import grid, scrambled
 

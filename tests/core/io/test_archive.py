@@ -26,7 +26,7 @@ trees = st.recursive(leaves, lambda inner: st.lists(inner, max_size=3) | st.dict
 def test_plain_data_is_read_as_it_was_written(tree, tmp_path_factory):
     path = tmp_path_factory.mktemp("tree") / "a.zip"
     write_archive(path, KIND, 1, tree)
-    assert read_archive(path, KIND, 1) == tree
+    assert read_archive(path, KIND, 1) == (1, tree)
 
 
 @pytest.mark.parametrize("array", [
@@ -42,7 +42,7 @@ def test_plain_data_is_read_as_it_was_written(tree, tmp_path_factory):
 ])  # fmt: skip
 def test_arrays_are_read_bit_for_bit(array, tmp_path):
     write_archive(tmp_path / "a.zip", KIND, 1, [array])
-    (back,) = read_archive(tmp_path / "a.zip", KIND, 1)
+    _, (back,) = read_archive(tmp_path / "a.zip", KIND, 1)
     np.testing.assert_array_equal(back, array.astype(str) if array.dtype == object else array)
     assert back.dtype == array.dtype or array.dtype == object
     assert not back.flags.writeable
@@ -51,7 +51,7 @@ def test_arrays_are_read_bit_for_bit(array, tmp_path):
 def test_an_array_in_two_places_is_one_array_again(tmp_path):
     shared, other = np.zeros(1000), np.zeros(1000)
     write_archive(tmp_path / "a.zip", KIND, 1, {"a": shared, "b": [shared, other]})
-    back = read_archive(tmp_path / "a.zip", KIND, 1)
+    _, back = read_archive(tmp_path / "a.zip", KIND, 1)
     assert back["a"] is back["b"][0]
     assert back["b"][1] is not back["a"]
     assert (tmp_path / "a.zip").stat().st_size < 18_000

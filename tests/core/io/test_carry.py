@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.mesh import CELL_KINDS
 from hexmend.second_order import MID_PLACES
 
 vtk = pytest.importorskip("vtk")

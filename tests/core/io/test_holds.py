@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cells import Cells
 from hexmend.errors import FileError
 from hexmend.io import FORMATS
 from hexmend.io.format import Holds
-from hexmend.mesh import Cells, Mesh
+from hexmend.mesh import Mesh
 from hexmend.second_order import MID_PLACES
 from tests.core.grids import grid
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.mesh import Cells, Mesh
+from hexmend.cells import Cells
+from hexmend.mesh import Mesh
 from hexmend.second_order import MID_PLACES
 from tests.core.grids import grid
 

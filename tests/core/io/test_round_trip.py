@@ -7,10 +7,11 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from hexmend import io
+from hexmend.cells import Cells
 from hexmend.gallery import make
 from hexmend.io import FORMATS
 from hexmend.io.format import Holds
-from hexmend.mesh import Cells, Mesh
+from hexmend.mesh import Mesh
 from tests.core.grids import grid, scrambled
 
 WAYS = [(one.suffixes[0], encoding) for one in FORMATS.values() for encoding in one.encodings]

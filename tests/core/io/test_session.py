@@ -8,12 +8,15 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cells import Cells
 from hexmend.errors import FileError
+from hexmend.gallery import make
 from hexmend.hexahedron import UNIT_CUBE
 from hexmend.io.archive import read_archive, write_archive
-from hexmend.io.session import SUFFIX, read_session, write_session
-from hexmend.mesh import Cells, Mesh
+from hexmend.io.session import SUFFIX, VERSION, read_session, write_session
+from hexmend.mesh import Mesh
 from hexmend.second_order import MID_EDGES
+from hexmend.surface import Skin
 
 KIND = "Hexmend session"
 
@@ -82,6 +85,59 @@ def test_meshes_that_shared_arrays_share_them_again(tmp_path):
     assert other.surface is one.points
 
 
+def test_the_surface_that_a_boundary_slides_on_is_there_again(tmp_path):
+    mesh = make("cube", size=27)
+    skin = Skin(mesh.points + 0.01, mesh.topology.boundary_faces, "body.stl")
+    opened = mesh.sliding_on(skin)
+    moved = opened.with_points(opened.points + 5)  # far from it: what a session had, it has again
+    write_session(tmp_path / "a.hexmend", [mesh, opened, moved], 1, None)
+    bare, one, other = read_session(tmp_path / "a.hexmend").meshes
+    assert bare.target is None
+    assert one.target is other.target
+    assert one.target.name == "body.stl"
+    np.testing.assert_array_equal(one.target.points, skin.points)
+    np.testing.assert_array_equal(one.target.faces, skin.faces)
+    assert one.topology is bare.topology
+    np.testing.assert_array_equal(io.read(tmp_path / "a.hexmend").target.points, skin.points)
+
+
+@pytest.mark.parametrize(("change", "said"), [
+    ({"faces": np.array([[0, 1, 2, 8]])}, "a face of 'a' has a corner that is not from 0 to 7"),
+    ({"faces": np.array([[0, 1]])}, "no triangles or quads"),
+    ({"faces": np.zeros((0, 3), int)}, "no triangles or quads"),
+    ({"faces": np.array([[0.0, 1, 2]])}, "faces has the shape"),
+    ({"points": np.full((8, 3), np.inf)}, "expected finite numbers"),
+    ({"name": 7}, "or no name"),
+    ({"colour": 7}, "the surface that the boundary slides on has an unknown field 'colour'"),
+])  # fmt: skip
+def test_what_cannot_be_a_surface_is_refused(change, said, tmp_path):
+    path = tmp_path / "a.hexmend"
+    write_session(path, [rich()], 0, None)
+    _, data = read_archive(path, KIND, VERSION)
+    data["meshes"][0]["target"] = {"points": UNIT_CUBE, "faces": np.array([[0, 1, 2, 3]]), "name": "a"} | change
+    write_archive(path, KIND, VERSION, data)
+    with pytest.raises(FileError, match=said):
+        io.read(path)
+
+
+def test_a_session_of_the_first_version_is_read(tmp_path):
+    """It holds no surface that the boundary slides on; with one it is refused, as no such file was ever written."""
+    path = tmp_path / "a.hexmend"
+    write_session(path, [rich()], 0, None)
+    _, data = read_archive(path, KIND, VERSION)
+    del data["meshes"][0]["target"]
+    write_archive(path, KIND, 1, data)
+    assert_same(read_session(path).meshes[0], rich())
+    assert read_session(path).version == 1
+    write_archive(path, KIND, VERSION, data)
+    with pytest.raises(FileError, match="a mesh has no field 'target'"):
+        io.read(path)
+    data["meshes"][0]["target"] = None
+    write_archive(path, KIND, 1, data)
+    with pytest.raises(FileError, match="a mesh has an unknown field 'target'"):
+        io.read(path)
+
+
 def test_a_session_is_read_as_the_mesh_that_was_shown(tmp_path):
     opened = rich()
     moved = opened.with_points(opened.points * 2)
@@ -113,9 +169,9 @@ def test_a_session_is_read_as_the_mesh_that_was_shown(tmp_path):
 def test_what_cannot_be_a_mesh_is_refused(change, said, tmp_path):
     path = tmp_path / "a.hexmend"
     write_session(path, [rich()], 0, None)
-    data = read_archive(path, KIND, 1)
+    _, data = read_archive(path, KIND, VERSION)
     change(data)
-    write_archive(path, KIND, 1, data)
+    write_archive(path, KIND, VERSION, data)
     for read in (io.read, read_session):
         with pytest.raises(FileError, match=said) as error:
             read(path)
@@ -123,8 +179,9 @@ def test_what_cannot_be_a_mesh_is_refused(change, said, tmp_path):
 
 
 def test_a_newer_session_says_what_to_do(tmp_path):
-    write_archive(tmp_path / "a.hexmend", KIND, 2, {})
-    with pytest.raises(FileError, match=r"is of version 2: this Hexmend reads up to 1\. Use a newer Hexmend"):
+    write_archive(tmp_path / "a.hexmend", KIND, VERSION + 1, {})
+    said = rf"is of version {VERSION + 1}: this Hexmend reads up to {VERSION}\. Use a newer Hexmend"
+    with pytest.raises(FileError, match=said):
         io.read(tmp_path / "a.hexmend")
 
 

@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend.cells import Cells
 from hexmend.gallery import GALLERY, make
 from hexmend.io import read, write
-from hexmend.mesh import Cells, Mesh
+from hexmend.mesh import Mesh
 from hexmend.surface import Kind, boundary_of, classify
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, wavy

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, Feature, Host, Seen
 from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.eye import Stand
+from hexmend_app.state.eye import Journey, Stand
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -37,6 +37,7 @@ class FeatureCamera(Feature):
         self._seen = Seen()
         self.session.selection.visited.connect(self._fly)
         self.session.eye.now = self._stand
+        self.session.eye.travelled = self._journey
 
     def actions(self) -> Sequence[Action]:
         """Fit, the directions, back and forward, what is up, and how depth is drawn."""
@@ -113,8 +114,8 @@ class FeatureCamera(Feature):
         Where a session says where the camera is to stand, it does once the session's mesh is drawn.
         """
         if self.session.eye.wanted is not None and self._draws:
-            self.canvas.stand_at(self.session.eye.wanted)
-            self.session.eye.wanted = None
+            self.canvas.stand_at(self.session.eye.wanted, self.session.eye.journey)
+            self.session.eye.wanted, self.session.eye.journey = None, Journey()
         isolated = self.session.view.look.isolation is not None
         if self.canvas is not None and self._seen.another("isolated", isolated):
             if isolated:
@@ -154,6 +155,10 @@ class FeatureCamera(Feature):
     def _stand(self) -> Stand | None:
         """Where the camera stands."""
         return self.canvas.stand if self._draws else None
+
+    def _journey(self) -> Journey:
+        """Where it has stood."""
+        return self.canvas.journey if self._draws else self.session.eye.journey
 
     def _ready(self) -> bool:
         return self.canvas is not None

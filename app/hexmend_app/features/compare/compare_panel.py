@@ -8,8 +8,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
-from hexmend_app.features.compare.comparison_table import INITIAL, METHOD, VIEW, ComparisonModel, Entry
+from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, Entry
 from hexmend_app.scene.palette import CHOSEN, FRAME, ON_CHOSEN
+from hexmend_app.state.choices import CompareChoices
 from hexmend_app.widgets.element_table import shape_table
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.style import MUTED, dress, explain, icon, smaller, tabular, tint
@@ -139,6 +140,18 @@ class ComparePanel(QWidget):
         self._model.fill(entries, full, busy)
         self._fit_columns()
         self._enable()
+
+    def choices(self) -> CompareChoices:
+        """What is set."""
+        header = self._table.horizontalHeader()
+        descending = header.sortIndicatorOrder() == Qt.SortOrder.DescendingOrder
+        return CompareChoices(frozenset(self._model.ticks), KEYS[header.sortIndicatorSection()], descending)
+
+    def set_choices(self, choices: CompareChoices) -> None:
+        """Set all of it."""
+        self._model.tick(choices.ticked)
+        order = Qt.SortOrder.DescendingOrder if choices.descending else Qt.SortOrder.AscendingOrder
+        self._table.sortByColumn(KEYS.index(choices.sorted_by), order)
 
     def _fit_columns(self) -> None:
         """Make columns as wide as what is in them: the dock is narrow."""

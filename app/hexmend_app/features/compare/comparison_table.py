@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +16,9 @@ from hexmend.smoothers import METHODS
 from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
 
 METHOD, VIEW, _FIRST = 0, 1, 2
+
+#: What columns are known by.
+KEYS = ("method", "view", *(figure.key for figure in LINES))
 
 #: What the row of the mesh as it was is called.
 INITIAL = "initial"
@@ -140,6 +143,13 @@ class ComparisonModel(QAbstractTableModel):
         if column == METHOD:  # those that have run first
             return not entry.record, title_of(entry.name)
         return entry.shown if column == VIEW else entry.record.get(LINES[column - _FIRST].key)
+
+    def tick(self, names: Iterable[str]) -> None:
+        """Have these methods run, and no others."""
+        self.ticks = set(names)
+        if self.entries:
+            self.dataChanged.emit(self.index(0, METHOD), self.index(len(self.entries) - 1, METHOD))
+        self.ticked.emit()
 
     def rowCount(self, parent: QModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else len(self.entries)

@@ -39,6 +39,7 @@ class FeatureCompare(Feature):
         panel.wipe_toggled.connect(self._views.set_wiping)
         panel.save_requested.connect(self.ask)
         panel.offer_changed.connect(host.refresh_soon)
+        session.choices.offer("compare", panel.choices, panel.set_choices)
 
     def actions(self) -> Sequence[Action]:
         """Compare, and end that."""

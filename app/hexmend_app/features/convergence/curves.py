@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,12 +108,6 @@ def beginning(record: Record) -> tuple[float, float]:
         iteration += number
         seconds += record.rows[number]["seconds"]
     return iteration, seconds
-
-
-def free_slot(taken: Iterable[int]) -> int:
-    """The least slot that no run has."""
-    taken = set(taken)
-    return next(slot for slot in range(len(taken) + 1) if slot not in taken)
 
 
 def thinned(x: np.ndarray, y: np.ndarray, most: int = 2000) -> tuple[np.ndarray, np.ndarray]:

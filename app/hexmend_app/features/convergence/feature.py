@@ -8,7 +8,7 @@ from pathlib import Path
 from superqt.utils import QSignalThrottler
 
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
-from hexmend_app.features.convergence.curves import Columns, Curve, beginning, free_slot
+from hexmend_app.features.convergence.curves import Columns, Curve, beginning
 from hexmend_app.features.convergence.file import write_convergence
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.history import Record
@@ -31,8 +31,6 @@ class FeatureConvergence(Feature):
         timeline = self._timeline = session.timeline
         self._history = session.history
         self._columns: dict[Record, Columns] = {}
-        self._slots: dict[Record, int] = {}
-        self._hidden: set[Record] = set()
         self._seen = Seen()
         panel = self.panel = ConvergencePanel()
         self._soon = QSignalThrottler(parent=panel)
@@ -43,6 +41,7 @@ class FeatureConvergence(Feature):
         panel.forget_requested.connect(timeline.forget)
         panel.picked.connect(timeline.go_soon)
         panel.save_requested.connect(self.ask)
+        session.choices.offer("charts", panel.choices, panel.set_choices)
 
     def panels(self) -> Sequence[Panel]:
         """The charts."""
@@ -71,16 +70,13 @@ class FeatureConvergence(Feature):
             self._soon.throttle()
 
     def _on_toggled(self, record: Record, on: bool) -> None:
-        (self._hidden.discard if on else self._hidden.add)(record)
+        record.plotted = on
         self._show()
 
     def _show(self) -> None:
         records = self._history.records
         self._columns = {record: self._columns.get(record) or Columns(record) for record in records}
-        self._hidden &= set(records)
-        self._slots = {record: slot for record, slot in self._slots.items() if record in self._columns}
         for record in records:
-            self._slots.setdefault(record, free_slot(self._slots.values()))
             self._columns[record].grow()
         self.panel.set_curves([self._curve(record) for record in records if len(self._columns[record])])
         self._mark()
@@ -88,9 +84,9 @@ class FeatureConvergence(Feature):
     def _curve(self, record: Record) -> Curve:
         return Curve(
             self._columns[record],
-            self._slots[record],
+            record.slot,
             (0.0, 0.0) if self.panel.from_zero.isChecked() else beginning(record),
-            shown=record not in self._hidden,
+            shown=record.plotted,
             current=record is self._timeline.record,
             going=self._smoothing.busy and record is self._smoothing.record,
             kept=lambda: self._history.kept(record),

@@ -22,6 +22,7 @@ from hexmend_app.features.convergence.curves import Curve
 from hexmend_app.features.convergence.plot import ConvergencePlot
 from hexmend_app.features.convergence.run_legend import RunLegend
 from hexmend_app.features.convergence.words import describe
+from hexmend_app.state.choices import ChartChoices
 from hexmend_app.state.history import Record
 from hexmend_app.widgets.menu_button import MenuButton
 from hexmend_app.widgets.scrolled import scrolled
@@ -166,6 +167,20 @@ class ConvergencePanel(QWidget):
         self._runs.setMaximumHeight(_UNBOUNDED if beside else min(2, len(self.curves)) * row)
 
     # What is plotted
+
+    def choices(self) -> ChartChoices:
+        """What is set."""
+        shown = tuple(key for key, action in self.charts.items() if action.isChecked())
+        return ChartChoices(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time)
+
+    def set_choices(self, choices: ChartChoices) -> None:
+        """Set all of it."""
+        for key, action in self.charts.items():
+            action.setChecked(key in choices.shown)
+        self.log.setChecked(choices.logarithmic)
+        self.from_zero.setChecked(choices.from_zero)
+        self.axis.set_value("time" if choices.by_time else "iteration")
+        self._redraw()
 
     @property
     def by_time(self) -> bool:

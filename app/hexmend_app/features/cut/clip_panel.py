@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QWidg
 from hexmend_app.features.cut.box_page import BoxPage
 from hexmend_app.features.cut.plane_page import PlanePage
 from hexmend_app.features.cut.plane_row import PlaneRow
+from hexmend_app.state.choices import CutChoices
 from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, PlaneClip
 from hexmend_app.widgets.segmented import Segmented
 from hexmend_app.widgets.style import explain
@@ -160,6 +161,21 @@ class ClipPanel(QWidget):
     def set_handles(self, shown: bool) -> None:
         """Show whether the plane or the box is drawn in the view; without a signal."""
         self._handles.setChecked(shown)
+
+    def choices(self) -> CutChoices:
+        """What is cut along, or would be."""
+        return CutChoices(self._planes, self._box, self._kind.value() == "box")
+
+    def set_choices(self, choices: CutChoices) -> None:
+        """Propose the same; what is cut stays as it is."""
+        on, boxed = self._on.isChecked(), self._kind.value() == "box"
+        if not on or boxed:
+            self._planes = choices.planes
+        if not on or not boxed:
+            self._box = choices.box
+        if not on:
+            self._kind.set_value("box" if choices.boxed else "planes")
+        self._refresh()
 
     def clip(self) -> Clip | None:
         """The cut shown, or None while it is off."""

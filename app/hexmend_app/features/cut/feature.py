@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.cut.clip_panel import ClipPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
+from hexmend_app.state.choices import CutChoices
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -27,6 +28,8 @@ class FeatureCut(Feature):
         self.panel.plane_chosen.connect(view.choose_plane)
         self.panel.handles_changed.connect(view.set_handles)
         self.panel.snap_changed.connect(view.set_snap)
+        self._proposed: CutChoices | None = None  # by a session: after the mesh, for which cuts are proposed anew
+        self.session.choices.offer("cut", self.panel.choices, self._propose)
         self.inside = InsidePanel()
         self.inside.peel_changed.connect(lambda layers: view.change(peel=layers))
         self.inside.shrink_changed.connect(lambda share: view.change(shrink=share))
@@ -134,9 +137,15 @@ class FeatureCut(Feature):
             points = mesh.points[mesh.topology.used]
             low, high = points.min(axis=0), points.max(axis=0)
             self.panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
+        if self._proposed is not None:
+            self.panel.set_choices(self._proposed)
+            self._proposed = None
         self.inside.set_look(view.look, view.rings)
         if self.canvas is not None:
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
+
+    def _propose(self, choices: CutChoices) -> None:
+        self._proposed = choices
 
     def _switch(self, on: bool) -> None:
         if on != (self._view.look.clip is not None):

@@ -42,6 +42,7 @@ class FeatureHistogram(Feature):
         panel.removed.connect(self._kept.remove)
         panel.save_requested.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
+        self.session.choices.offer("histogram", panel.head.choices, panel.head.set_choices)
 
     def panels(self) -> Sequence[Panel]:
         """The histogram."""

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QSpinBox, QTo
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.bins import BINS, FEWEST, MOST
+from hexmend_app.state.choices import HistogramChoices
 from hexmend_app.widgets.menu_button import MenuButton
 from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.segmented import Segmented
@@ -125,6 +126,17 @@ class HistogramHead(QWidget):
     def log(self) -> bool:
         """Whether heights go by powers of ten."""
         return self.scale.value() == "log"
+
+    def choices(self) -> HistogramChoices:
+        """What is set besides the metric."""
+        return HistogramChoices(self.log, self.cumulative.isChecked(), self.bins.value())
+
+    def set_choices(self, choices: HistogramChoices) -> None:
+        """Set all of it, and say so."""
+        self.scale.set_value("log" if choices.log else "linear")
+        self.cumulative.setChecked(choices.cumulative)
+        self.bins.setValue(choices.bins)
+        self.scale_changed.emit()
 
     def show_metric(self, name: str, as_colours: bool) -> None:
         """Show which metric is drawn, and whether it is that of the colours by itself; without a signal."""

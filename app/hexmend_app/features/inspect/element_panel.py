@@ -181,6 +181,10 @@ class ElementPanel(QWidget):
         """Whether the corners' qualities are wanted in the view."""
         return self._in_view.isChecked()
 
+    def set_corners_in_view(self, on: bool) -> None:
+        """Want the corners' qualities in the view, or not."""
+        self._in_view.setChecked(on)
+
     def show_element(self, one: Element | None, tags: Sequence[str] = ()) -> None:
         """Show an element and the tags that it has, or how to choose one."""
         self._stack.setCurrentIndex(0 if one is None else 1)

@@ -48,6 +48,8 @@ class FeatureInspect(Feature):
         panel.corners_toggled.connect(host.refresh_soon)
         panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
         panel.pin_toggled.connect(session.commands.pin)
+        session.choices.offer("worst", self.worst_list.choices, self.worst_list.set_choices)
+        session.choices.offer("corners", lambda: panel.corners_in_view, panel.set_corners_in_view)
 
     def actions(self) -> Sequence[Action]:
         """Through the list, and back."""

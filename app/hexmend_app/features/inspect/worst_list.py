@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked, worst
+from hexmend_app.state.choices import WorstChoices
 from hexmend_app.state.measured import values
 from hexmend_app.widgets.element_table import shape_table
 from hexmend_app.widgets.metrics import described, metrics_offered
@@ -168,6 +169,15 @@ class WorstList(QWidget):
         layout.addLayout(head)
         layout.addWidget(self._table, 1)
         layout.addWidget(self._text)
+
+    def choices(self) -> WorstChoices:
+        """What is set."""
+        return WorstChoices(self._metric.currentData(), self.isolates)
+
+    def set_choices(self, choices: WorstChoices) -> None:
+        """Set all of it."""
+        self._metric.setCurrentIndex(self._metric.findData(choices.metric))
+        self._alone.setChecked(choices.isolates)
 
     # What is listed
 

@@ -41,6 +41,7 @@ class FeatureNode(Feature):
         panel.node_chosen.connect(lambda node: self._selection.choose(self._selection.hex, node))
         panel.patch_toggled.connect(self._on_patch)
         panel.requested.connect(self._go)
+        session.choices.offer("patch", lambda: panel.patch_alone, self._take_patch)
 
     def actions(self) -> Sequence[Action]:
         """Explain a node, and step through a sweep."""
@@ -201,6 +202,11 @@ class FeatureNode(Feature):
             self._view.end_isolation()
         elif self._shown is not None:
             self._isolate(self._shown)
+
+    def _take_patch(self, on: bool) -> None:
+        """What is isolated is the node's patch, as a session has kept it, or is not."""
+        self._isolation = self._view.look.isolation if on else None
+        self.panel.set_patch(on)
 
     def _isolate(self, step: NodeStep) -> None:
         self._isolation = _isolation(step)

@@ -39,6 +39,7 @@ class FeatureSmooth(Feature):
         panel.stop_requested.connect(smoothing.stop)
         panel.reset_requested.connect(commands.reset)
         panel.breakpoint_form.changed.connect(smoothing.break_at)
+        session.choices.offer("steps", lambda: panel.steps, panel.set_steps)
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 

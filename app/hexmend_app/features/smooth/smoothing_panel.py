@@ -182,6 +182,15 @@ class SmoothingPanel(QWidget):
         tint(self._sentence, role)
         self._sentence.setText(sentence)
 
+    @property
+    def steps(self) -> int:
+        """How many iterations a step makes."""
+        return self._steps.value()
+
+    def set_steps(self, count: int) -> None:
+        """Set how many iterations a step makes."""
+        self._steps.setValue(count)
+
     def show_break_points(self) -> None:
         """Unfold what a run pauses at."""
         self._sections[-1].expand()
@@ -207,7 +216,7 @@ class SmoothingPanel(QWidget):
     def _step(self, stage: Stage) -> None:
         if self._state == "paused":
             self._change(stage)
-        self.step_requested.emit(stage, self._steps.value())
+        self.step_requested.emit(stage, self.steps)
 
     def _change(self, stage: Stage) -> None:
         """Tell what the rest of the run is to be done with, if that is something else."""

@@ -197,7 +197,7 @@ class StructurePanel(QWidget):
     def _show_locked(self) -> None:
         """How many elements are locked, and, once it is known, how many of them sliding can free."""
         locked, classes = self._counts[-1] if self._counts else 0, self._classes
-        entries = [(LOCKED, False, f"of {counted(locked, 'locked hex')}")] if locked else []
+        entries = [(LOCKED, False, f"of {counted(locked, 'hex')}")] if locked else []
         if locked and classes is not None and classes.locked == locked:
             entries.append((None, False, f"{classes.freed:,} freed by sliding"))
         self.layers["locked"].set_entries(entries)

@@ -27,6 +27,7 @@ class FeatureTags(Feature):
         panel.remove_requested.connect(commands.remove_tag)
         panel.renamed.connect(commands.rename_tag)
         panel.refused.connect(host.messages.show_info)
+        session.choices.offer("tag", lambda: panel.name, panel.set_name)
 
     def actions(self) -> Sequence[Action]:
         """Tag what is chosen."""

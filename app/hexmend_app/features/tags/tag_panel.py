@@ -131,6 +131,10 @@ class TagPanel(QWidget):
         """The name of the tag that elements are given; "" while there is none."""
         return self._name.currentText().strip()
 
+    def set_name(self, name: str) -> None:
+        """Set the name of the tag."""
+        self._name.setCurrentText(name)
+
     @property
     def can_toggle(self) -> bool:
         """Whether there is a hex to tag, and a name for it."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from hexmend_app.scene.camera.pose import Pose
+from collections.abc import Sequence
 
-#: Views that are remembered.
-MOST = 50
+from hexmend_app.scene.camera.pose import Pose
+from hexmend_app.state.eye import MOST
 
 
 class Poses:
@@ -35,6 +35,16 @@ class Poses:
         """Forget all."""
         self._all.clear()
         self._at = -1
+
+    def around(self, pose: Pose) -> tuple[list[Pose], list[Pose]]:
+        """What there would be to go back to, and forward to, if the camera came to rest in a pose; the oldest first."""
+        if self._all and pose.looks_like(self._all[self._at]):
+            return self._all[: self._at], self._all[self._at + 1 :]
+        return self._all[: self._at + 1][1 - self._most :], []
+
+    def restore(self, before: Sequence[Pose], pose: Pose, after: Sequence[Pose]) -> None:
+        """Be in a pose, with those before it and after it."""
+        self._all, self._at = [*before, pose, *after], len(before)
 
     @property
     def can_go_back(self) -> bool:

@@ -6,7 +6,7 @@ import pytest
 from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
 from hexmend_app.features.convergence.charts import CHARTS
-from hexmend_app.features.convergence.curves import Columns, Curve, beginning, free_slot, thinned
+from hexmend_app.features.convergence.curves import Columns, Curve, beginning, thinned
 from hexmend_app.state.document import State
 from hexmend_app.state.history import History, Moment, Record
 from tests.core.grids import grid, scrambled
@@ -72,11 +72,6 @@ def test_a_branch_begins_where_it_left_its_parent():
     assert curve.nearest(5.6, by_time=False) == 1
     assert curve.nearest(-3, by_time=False) == 0
     assert curve.nearest(curve.x(by_time=True)[2] + 1, by_time=True) == 2
-
-
-def test_the_least_slot_that_is_free_is_taken():
-    assert free_slot([]) == 0
-    assert free_slot([0, 1, 3]) == 2
 
 
 @pytest.mark.parametrize("count", [3, 2000, 2001, 12345])

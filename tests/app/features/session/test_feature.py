@@ -8,6 +8,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
 from hexmend.io.archive import read_archive, write_archive
+from hexmend.io.session import VERSION
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.run.breakpoints import Breakpoints
@@ -236,9 +237,9 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
 def test_a_session_that_is_damaged_is_refused_and_what_is_open_stays(window, qtbot, tmp_path):
     path = tmp_path / "work.hexmend"
     window.features["session"].save(path)
-    description = read_archive(path, "Hexmend session", 1)
+    _, description = read_archive(path, "Hexmend session", VERSION)
     description["window"]["view"]["look"]["colour"] = "red"
-    write_archive(path, "Hexmend session", 1, description)
+    write_archive(path, "Hexmend session", VERSION, description)
     now = window.session.document.now
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)

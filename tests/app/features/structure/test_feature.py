@@ -11,7 +11,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit
 
 from hexmend import gallery, io
-from hexmend.mesh import Cells, Mesh
+from hexmend.cells import Cells
+from hexmend.mesh import Mesh
 from hexmend.structure import structure
 from hexmend.surface import Kind
 from hexmend_app.features.structure.structure_panel import StructurePanel
@@ -108,7 +109,7 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     assert texts(panel, "irregular") == ["counting…"]
     assert "Being counted" in panel.layers["sharp"].box.toolTip()
     assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
-    assert texts(panel, "locked") == ["of 2 locked hexes"]
+    assert texts(panel, "locked") == ["of 2 hexes"]
 
 
 def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
@@ -225,7 +226,7 @@ def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
     window.refresh()
     classes = window.session.classer.classes
     said = texts(window.features["structure"].panel, "locked")
-    assert said == [f"of {classes.locked} locked hexes", f"{classes.freed} freed by sliding"]
+    assert said == [f"of {classes.locked} hexes", f"{classes.freed} freed by sliding"]
 
 
 def test_the_original_surface_is_that_of_the_opened_mesh(five):

@@ -1,0 +1,221 @@
+"""What panels are set to, and the way of the camera, are in the session: another window that opens it is the same."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableView, QWidget
+
+from hexmend.io.archive import read_archive, write_archive
+from hexmend.io.session import VERSION
+from hexmend_app.state.choices import CHARTS
+from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.widgets.section import Section
+from tests.app.conftest import close, made
+from tests.app.driving import key, named, open_and_wait, tick, walk_to
+from tests.app.features.session.test_feature import run
+from tests.app.resetting import setting_of
+from tests.app.test_resetting import known, live
+from tests.patience import PATIENCE
+
+#: What there is to compare of two windows besides their widgets, and what of it is a run's, or of the place of panels.
+_KEPT = ("session.", "camera ", "look that", "hexes that", "action ")
+_NOT_KEPT = (
+    "session.classer", "session.order.begun", "session.smoothing.record", "session.smoothing.advice", "session.smoothing.work",
+    "session.smoothing.phase", "action panel", "action drawer",
+)  # fmt: skip
+#: Explanations that are unfolded, and lists of a wipe that there is not.
+_UNSEEN = ("Explain", "View at the left", "View at the right")
+
+
+@pytest.fixture
+def other_window(qtbot, mesh_file, fresh_window):
+    """A second window."""
+    window = made(qtbot, mesh_file)
+    yield window
+    close(window)
+
+
+def at_rest(window, qtbot):
+    window.refresh()
+    qtbot.waitUntil(lambda: window.canvas.travel.at_rest, timeout=PATIENCE)
+    window.messages.clear()
+    window.refresh()
+
+
+def seen(window, qtbot):
+    """All of a window that a session has to restore: its state, and what every widget is set to."""
+    at_rest(window, qtbot)
+    lines = [one for one in known(window, qtbot) if one.startswith(_KEPT) and not one.startswith(_NOT_KEPT)]
+    for widget in window.findChildren(QWidget):
+        folds = isinstance(widget, QTabBar | QScrollBar) or isinstance(widget.parent(), Section)
+        setting = None if folds or widget.accessibleName() in _UNSEEN else setting_of(widget)
+        if setting is not None:
+            lines.append(f"{type(widget).__name__} {widget.accessibleName()}: {setting}")
+    return sorted(lines)
+
+
+def saved(window, tmp_path):
+    path = tmp_path / "work.hexmend"
+    assert window.features["session"].save(path)
+    return path
+
+
+def test_a_window_that_opens_a_session_is_as_the_one_that_saved_it(fresh_window, other_window, qtbot, tmp_path):
+    """Everything that a hand can set has been set to something else."""
+    window, other = fresh_window, other_window
+    live(window, qtbot)
+    compare = window.features["compare"].panel
+    table = named(compare, QTableView, "Comparison of methods")
+    table.sortByColumn(3, Qt.SortOrder.DescendingOrder)
+    ticked = table.model().index(1, 0)
+    table.model().setData(ticked, Qt.CheckState.Checked, Qt.ItemDataRole.CheckStateRole)
+    for record in window.session.history.records[:1]:
+        window.features["convergence"].panel.toggled.emit(record, False)
+    at_rest(window, qtbot)
+    path = saved(window, tmp_path)
+    choices, journey = window.session.choices.given(), window.session.eye.travelled()
+    before = seen(window, qtbot)
+    open_and_wait(qtbot, other, path)
+    at_rest(other, qtbot)
+    assert other.session.eye.travelled() == journey
+    assert other.session.choices.given() == choices
+    assert [r.plotted for r in other.session.history.records] == [r.plotted for r in window.session.history.records]
+    assert [r.slot for r in other.session.history.records] == [r.slot for r in window.session.history.records]
+    assert seen(other, qtbot) == before
+
+
+def test_the_ways_back_and_forward_are_gone_again(window, qtbot, tmp_path):
+    stands = []
+    for direction in ("+x", "-y", "+z"):
+        window.canvas.look_along(direction)
+        at_rest(window, qtbot)
+        stands.append(window.canvas.stand)
+    key(window, Qt.Key.Key_Left, Qt.KeyboardModifier.AltModifier)
+    at_rest(window, qtbot)
+    path = saved(window, tmp_path)
+    window.canvas.look_along("iso")
+    open_and_wait(qtbot, window, path)
+    at_rest(window, qtbot)
+    assert window.canvas.stand == stands[1]
+    for action, stand in (("view_forward", stands[2]), ("view_back", stands[1]), ("view_back", stands[0])):
+        assert window.action(action).isEnabled()
+        window.action(action).trigger()
+        at_rest(window, qtbot)
+        assert window.canvas.stand.position == pytest.approx(stand.position)
+    window.action("view_forward").trigger()
+    assert window.action("view_forward").isEnabled()
+
+
+def test_esc_flies_back_to_where_it_was_before_something_was_isolated(window, qtbot, tmp_path):
+    at_rest(window, qtbot)
+    before = window.canvas.stand
+    key(window, Qt.Key.Key_N)  # isolates the worst, and flies there
+    at_rest(window, qtbot)
+    path = saved(window, tmp_path)
+    open_and_wait(qtbot, window, path)
+    at_rest(window, qtbot)
+    assert window.canvas.stand.position != pytest.approx(before.position)
+    key(window, Qt.Key.Key_Escape)
+    at_rest(window, qtbot)
+    assert window.canvas.stand.position == pytest.approx(before.position)
+
+
+def test_the_patch_of_a_node_stays_alone_and_goes_with_the_node(window, qtbot, tmp_path):
+    key(window, Qt.Key.Key_D)
+    panel = window.features["node"].panel
+    box = named(panel, QCheckBox, "Patch alone")
+    qtbot.waitUntil(lambda: bool(panel.figures.isVisible()), timeout=PATIENCE)
+    tick(box)
+    isolation = window.session.view.look.isolation
+    assert isolation is not None
+    path = saved(window, tmp_path)
+    tick(box)
+    open_and_wait(qtbot, window, path)
+    at_rest(window, qtbot)
+    assert box.isChecked()
+    assert window.session.view.look.isolation == isolation
+    mesh, chosen = window.session.document.now.mesh, window.session.selection
+    another = next(int(n) for n in mesh.hexes[chosen.hex] if mesh.free[n] and n != chosen.node)
+    chosen.choose(chosen.hex, another)
+    window.refresh()
+    qtbot.waitUntil(lambda: window.session.view.look.isolation != isolation, timeout=PATIENCE)
+    assert box.isChecked()
+
+
+def test_a_cut_that_is_off_is_proposed_as_it_was(window, qtbot, tmp_path, mesh_file):
+    view = window.session.view
+    box = BoxClip((0.1, 0.1, 0.1), (0.4, 0.4, 0.4), crinkle=False)
+    for clip in (PlaneClip.at((1, 2, 3), (0.5, 0.5, 0.5)), box):
+        view.set_clip(clip)
+        window.refresh()
+    view.set_clip(None)
+    window.refresh()
+    path = saved(window, tmp_path)
+    open_and_wait(qtbot, window, mesh_file)
+    window.refresh()
+    open_and_wait(qtbot, window, path)
+    window.refresh()
+    assert view.look.clip is None
+    window.action("cut").trigger()
+    assert view.look.clip == box
+
+
+def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot, tmp_path):
+    """Such a file knows nothing of choices, of colours of runs, nor of the way of the camera."""
+    run(window, qtbot, "laplacian")
+    path = saved(window, tmp_path)
+    _, data = read_archive(path, "Hexmend session", VERSION)
+    for mesh in data["meshes"]:
+        del mesh["target"]
+    for name in ("choices", "journey"):
+        del data["window"][name]
+    for record in data["window"]["history"]["records"]:
+        del record["slot"], record["plotted"]
+    write_archive(path, "Hexmend session", 1, data)
+    window.features["convergence"].panel.log.setChecked(False)
+    choices = window.session.choices.given()
+    open_and_wait(qtbot, window, path)
+    at_rest(window, qtbot)
+    assert window.session.choices.given() == choices
+    assert [(record.slot, record.plotted) for record in window.session.history.records] == [(0, True)]
+    assert not window.canvas.can_go_back
+    write_archive(path, "Hexmend session", VERSION, data)
+    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
+        window.features["open"].open(path)
+
+
+@pytest.mark.parametrize(("part", "field", "value", "said"), [
+    ("charts", "shown", ["objective", "taste"], "there is no chart 'taste'"),
+    ("worst", "metric", "taste", "there is no metric 'taste'"),
+    ("compare", "ticked", ["taste"], "there is no method 'taste'"),
+    ("compare", "sorted_by", "taste", "there is no column 'taste'"),
+    ("histogram", "bins", "many", "the window.choices.histogram.bins is of another kind"),
+    ("cut", "colour", 1, "the window.choices.cut has an unknown field 'colour'"),
+])  # fmt: skip
+def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, field, value, said):
+    path = saved(window, tmp_path)
+    _, data = read_archive(path, "Hexmend session", VERSION)
+    data["window"]["choices"][part][field] = value
+    write_archive(path, "Hexmend session", VERSION, data)
+    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
+        window.features["open"].open(path)
+    assert said in window.messages.messages()[-1][2]
+
+
+def test_the_charts_of_sessions_are_those_that_are_offered(window):
+    assert tuple(window.features["convergence"].panel.charts) == CHARTS
+
+
+def test_the_list_of_the_worst_follows_the_session(window, qtbot, tmp_path):
+    listed = window.features["inspect"].worst_list
+    window.show_panel("worst")
+    box = named(listed, QComboBox, "Worst by")
+    walk_to(window, box, "volume")
+    elements = listed.elements.tolist()
+    path = saved(window, tmp_path)
+    walk_to(window, box, "q")
+    open_and_wait(qtbot, window, path)
+    window.refresh()
+    assert box.currentData() == "volume"
+    assert listed.elements.tolist() == elements

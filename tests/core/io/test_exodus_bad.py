@@ -1,0 +1,64 @@
+"""ExodusII files that are cut, lie about their size, or are none: one clear error each."""
+
+import struct
+
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from tests.core.grids import grid
+
+
+def test_every_cut_of_a_file_is_refused(tmp_path):
+    io.write(tmp_path / "good.exo", grid(2))
+    data = (tmp_path / "good.exo").read_bytes()
+    for length in range(4, len(data), 37):
+        (tmp_path / "cut.exo").write_bytes(data[:length])
+        with pytest.raises(FileError, match=r"cut\.exo: "):
+            io.read(tmp_path / "cut.exo")
+
+
+def test_counts_larger_than_the_file_are_refused_before_anything_is_allocated(tmp_path):
+    io.write(tmp_path / "good.exo", grid(2))
+    data = (tmp_path / "good.exo").read_bytes()
+    place = data.index(b"num_nodes") + 12
+    (tmp_path / "bad.exo").write_bytes(data[:place] + struct.pack(">i", 2**31 - 1) + data[place + 4 :])
+    with pytest.raises(FileError, match="the file ends at byte"):
+        io.read(tmp_path / "bad.exo")
+
+
+def test_dimensions_on_hdf5_that_nothing_fills_are_refused(tmp_path):
+    """HDF5 keeps an array of any size that nobody has written to in no space at all."""
+    netCDF4 = pytest.importorskip("netCDF4")
+    for name, dimension in (
+        ("nodes.exo", "num_nodes"),
+        ("blocks.exo", "num_el_blk"),
+        ("elements.exo", "num_el_in_blk1"),
+    ):
+        with netCDF4.Dataset(tmp_path / name, "w") as file:
+            lengths = {
+                "num_nodes": 8,
+                "num_elem": 1,
+                "num_el_blk": 1,
+                "num_el_in_blk1": 1,
+                "num_nod_per_el1": 8,
+                "num_dim": 3,
+            }
+            for one, length in (lengths | {dimension: 2**40}).items():
+                file.createDimension(one, length)
+            for axis in "xyz":
+                file.createVariable(f"coord{axis}", "f8", ("num_nodes",))
+            file.createVariable("connect1", "i4", ("num_el_in_blk1", "num_nod_per_el1")).elem_type = "HEX8"
+        with pytest.raises(FileError, match=rf"{name}: .*(more than a file of its size holds|of \d+ variables)"):
+            io.read(tmp_path / name)
+
+
+def test_netcdf_that_is_no_exodus_is_not_called_damaged(tmp_path):
+    from scipy.io import netcdf_file
+
+    with netcdf_file(tmp_path / "weather.exo", "w") as file:
+        file.createDimension("lat", 3)
+        file.createVariable("t", "d", ("lat",))[:] = [1, 2, 3]
+    with pytest.raises(FileError, match="no dimension num_nodes") as caught:
+        io.read(tmp_path / "weather.exo")
+    assert "damaged" not in str(caught.value)
