@@ -1,4 +1,4 @@
-"""MED, the format of Salome and Code_Aster (.med): meshes in HDF5, groups by families."""
+"""MED, the format of Salome and Code_Aster (.med): meshes in HDF5, groups by families, data as fields."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ FORMATS.add(
         ("binary",),
         read,
         write,
-        holds=frozenset({*HELD, Holds.CELL_SETS, Holds.VERTICES}),
+        holds=frozenset({*HELD, Holds.CELL_SETS, Holds.VERTICES, Holds.NODE_DATA, Holds.HEX_DATA, Holds.PINS}),
         recognised=_recognised,
         cannot=cannot,
     ),

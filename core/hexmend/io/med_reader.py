@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, ID, Block, Content
-from hexmend.io.med_content import KINDS, ORDER, names_of
+from hexmend.io.med_content import DAMAGED, KINDS, NAMES, ORDER, most_bytes, names_of, taken
+from hexmend.io.med_fields import read_fields
 from hexmend.mesh import CELL_KINDS
-
-_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
-#: Bytes that one of the file may mean, and bytes that are never too many.
-_RATIO, _ALWAYS = 200, 1 << 26
 
 
 def content(path: Path) -> Content:
@@ -34,9 +32,9 @@ def _opened(path: Path) -> Iterator[Mapping]:
             yield file
     except (OSError, RuntimeError, LookupError, ValueError) as error:
         words = " ".join(str(error).strip("'\"").split())[:120]
-        raise FileError(path, f"cannot be read as HDF5 ({words})", _DAMAGED) from None
+        raise FileError(path, f"cannot be read as HDF5 ({words})", DAMAGED) from None
     except (TypeError, AttributeError, OverflowError):  # a link to nothing, an attribute of another kind
-        raise FileError(path, "holds parts that are not what MED puts there", _DAMAGED) from None
+        raise FileError(path, "holds parts that are not what MED puts there", DAMAGED) from None
 
 
 def _content(path: Path, file: Mapping) -> Content:
@@ -46,8 +44,6 @@ def _content(path: Path, file: Mapping) -> Content:
     notes = []
     if len(meshes) > 1:
         notes.append(f"Of {len(meshes)} meshes the first, {meshes[0]}, is read.")
-    if "CHA" in file and len(file["CHA"]):
-        notes.append(f"{len(file['CHA'])} fields are left out.")
     mesh = file["ENS_MAA"][meshes[0]]
     if int(mesh.attrs.get("TYP", 0)) != 0:
         raise FileError(path, f"the mesh {meshes[0]} is structured", "Export it as an unstructured mesh.")
@@ -56,15 +52,15 @@ def _content(path: Path, file: Mapping) -> Content:
     if "NOE" not in mesh:
         steps = [name for name in mesh if "NOE" in mesh[name]]
         if not steps:
-            raise FileError(path, f"the mesh {meshes[0]} has no nodes (no NOE)", _DAMAGED)
+            raise FileError(path, f"the mesh {meshes[0]} has no nodes (no NOE)", DAMAGED)
         if len(steps) > 1:
             notes.append(f"Of {len(steps)} steps of the mesh the first is read.")
         mesh = mesh[steps[0]]
     families = file["FAS"][meshes[0]] if "FAS" in file and meshes[0] in file["FAS"] else {}
 
-    coordinates = _taken(path, mesh["NOE"], "COO")
+    coordinates = taken(path, mesh["NOE"], "COO")
     if coordinates.ndim != 1 or coordinates.size % 3 or coordinates.dtype.kind != "f":
-        raise FileError(path, f"its {coordinates.size} coordinates are not three for each node", _DAMAGED)
+        raise FileError(path, f"its {coordinates.size} coordinates are not three for each node", DAMAGED)
     points = np.ascontiguousarray(coordinates.reshape(3, -1).T, np.float64)
     node_data = _ids(path, mesh["NOE"], len(points))
     node_sets = _sets(path, mesh["NOE"], len(points), families.get("NOEUD", {}))
@@ -76,17 +72,21 @@ def _content(path: Path, file: Mapping) -> Content:
             continue
         kind = KINDS[name]
         width = HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes
-        numbers = _taken(path, cells, "NOD")
+        numbers = taken(path, cells, "NOD")
         if numbers.ndim != 1 or numbers.size % width or numbers.dtype.kind not in "iu":
-            raise FileError(path, f"{name}/NOD holds {numbers.size} numbers: expected {width} a cell", _DAMAGED)
+            raise FileError(path, f"{name}/NOD holds {numbers.size} numbers: expected {width} a cell", DAMAGED)
         nodes = numbers.astype(np.int64).reshape(width, -1).T - 1
         if nodes.size and (nodes.min() < 0 or nodes.max() >= len(points)):
             wrong = int(nodes[(nodes < 0) | (nodes >= len(points))][0]) + 1
-            raise FileError(path, f"{name}/NOD names the node {wrong}: expected 1 to {len(points)}", _DAMAGED)
+            raise FileError(path, f"{name}/NOD names the node {wrong}: expected 1 to {len(points)}", DAMAGED)
         nodes = nodes[:, ORDER[kind]] if kind in ORDER else np.ascontiguousarray(nodes)
         blocks.append(Block(kind, nodes, _ids(path, cells, len(nodes)), _sets(path, cells, len(nodes), groups)))
     if left:
         notes.append(f"Cells of the kinds {', '.join(left)} are left out.")
+    counts = {"NOE": len(points), **{f"MAI.{NAMES[block.kind]}": len(block) for block in blocks}}
+    fields = read_fields(path, file, meshes[0], counts, notes)
+    blocks = [replace(block, data={**fields[f"MAI.{NAMES[block.kind]}"], **block.data}) for block in blocks]
+    node_data = {**fields["NOE"], **node_data}
     blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
     return Content(points, tuple(blocks), node_data, node_sets, notes=tuple(notes))
 
@@ -94,9 +94,9 @@ def _content(path: Path, file: Mapping) -> Content:
 def _ids(path: Path, group: Mapping, count: int) -> dict[str, np.ndarray]:
     if "NUM" not in group:
         return {}
-    numbers = _taken(path, group, "NUM")
+    numbers = taken(path, group, "NUM")
     if numbers.shape != (count,) or numbers.dtype.kind not in "iu":
-        raise FileError(path, f"{group.name}/NUM holds {numbers.size} numbers: expected {count}", _DAMAGED)
+        raise FileError(path, f"{group.name}/NUM holds {numbers.size} numbers: expected {count}", DAMAGED)
     return {ID: numbers.astype(np.int64)}
 
 
@@ -104,30 +104,19 @@ def _sets(path: Path, group: Mapping, count: int, families: Mapping) -> dict[str
     """Sets of nodes or cells by the groups of their families."""
     if "FAM" not in group:
         return {}
-    family = _taken(path, group, "FAM")
+    family = taken(path, group, "FAM")
     if family.shape != (count,) or family.dtype.kind not in "iu":
-        raise FileError(path, f"{group.name}/FAM holds {family.size} numbers: expected {count}", _DAMAGED)
+        raise FileError(path, f"{group.name}/FAM holds {family.size} numbers: expected {count}", DAMAGED)
     order = np.argsort(family, kind="stable")
     in_order, found, spent = family[order], {}, 0
     for one in families.values():
         if "GRO" not in one:
             continue
         begin, end = np.searchsorted(in_order, [number := int(one.attrs["NUM"]), number + 1])
-        names = names_of(_taken(path, one["GRO"], "NOM")) if end > begin else []
+        names = names_of(taken(path, one["GRO"], "NOM")) if end > begin else []
         spent += len(names) * int(end - begin)
-        if spent > max(_ALWAYS, _RATIO * path.stat().st_size):
-            raise FileError(path, "its groups have far more members than so small a file can mean", _DAMAGED)
+        if spent > most_bytes(path):
+            raise FileError(path, "its groups have far more members than so small a file can mean", DAMAGED)
         for name in names:
             found.setdefault(name, []).append(order[begin:end])
     return {name: np.sort(np.concatenate(members)) for name, members in found.items()}
-
-
-def _taken(path: Path, group: Mapping, name: str) -> np.ndarray:
-    """An array of the file, once it is known that it is not far larger than the file."""
-    if name not in group:
-        raise FileError(path, f"{group.name} has no {name}", _DAMAGED)
-    values = group[name]
-    base = values.dtype.itemsize
-    if int(np.prod(values.shape, dtype=object)) * base > max(_ALWAYS, _RATIO * path.stat().st_size):
-        raise FileError(path, f"{group.name}/{name} is announced larger than so small a file can mean", _DAMAGED)
-    return np.asarray(values[()])
