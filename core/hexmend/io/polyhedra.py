@@ -1,4 +1,4 @@
-"""Cells given by their faces, as OpenVolumeMesh has them: those that are hexes, wedges, pyramids or tetrahedra.
+"""Cells given by their faces, as OpenVolumeMesh and CGNS have them: hexes, wedges, pyramids and tetrahedra.
 
 A face is a loop of nodes, and a cell a list of faces, each of which it sees from inside as the loop says, or turned.
 The first face of the right width is a cell's base, whose corners come first; from each of them one edge rises::
