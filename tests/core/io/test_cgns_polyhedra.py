@@ -9,7 +9,6 @@ from hexmend.errors import FileError
 from hexmend.io.polyhedra import LOOPS, faces_of
 from hexmend.quality import summarise
 from tests.core.grids import grid
-
 from tests.core.io.cgns_files import cgns, condition, section, unstructured
 
 
