@@ -2,8 +2,9 @@
 
 Use: python scripts/fuzz_readers.py [--cases N] [--seed S] [--meshes FOLDER] [FORMAT ...]
 
-For each format the meshes of FOLDER (by default that of the variable HEXMEND_MESHES) and some that Hexmend writes are
-spoilt: bits and bytes changed, numbers made huge or negative, parts cut out, doubled, exchanged, the end cut off.
+For each format the meshes of FOLDER (by default that of the variable HEXMEND_MESHES) and some that Hexmend or VTK
+writes are spoilt: bits and bytes changed, numbers made huge or negative, parts cut out, doubled, exchanged, the end cut
+off. Of a file that names others beside it, any of them is.
 Prints a line a format; exit status 1 where anything but a mesh or a clear error came of a file, which is kept.
 """
 
@@ -19,6 +20,9 @@ import sys
 import tempfile
 import warnings
 from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -75,25 +79,74 @@ def spoilt(data: bytes, random: np.random.Generator) -> bytes:
     return data
 
 
-def seeds(format: Format, meshes: Path | None) -> list[tuple[str, bytes]]:
-    """Sound files of a format: their suffixes and contents."""
+@dataclass(frozen=True)
+class Seed:
+    """A sound file: its suffix and content, and those of the files beside it that it names."""
+
+    suffix: str
+    data: bytes
+    beside: Mapping[str, bytes] = field(default_factory=dict)
+
+
+def seeds(format: Format, meshes: Path | None) -> list[Seed]:
+    """Sound files of a format."""
     found = []
     for path in sorted(meshes.iterdir()) if meshes else ():
         if path.suffix.lower() in format.suffixes and path.stat().st_size <= LARGEST:
-            found.append((path.suffix, path.read_bytes()))
+            found.append(Seed(path.suffix, path.read_bytes()))
     if format.write is not None:
         with tempfile.TemporaryDirectory() as folder:
             for encoding in format.encodings:
                 for k, mesh in enumerate(_meshes()):
                     path = Path(folder) / f"{k}{format.suffixes[0]}"
                     io.write(path, mesh, encoding=encoding)
-                    found.append((format.suffixes[0], path.read_bytes()))
+                    found.append(Seed(format.suffixes[0], path.read_bytes()))
     if format.name == "session":  # which holds more than a mesh, so that no mesh is written as one
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "session.hexmend"
             write_session(path, _meshes(), 1, {"look": [0.5, None]})
-            found.append((path.suffix, path.read_bytes()))
+            found.append(Seed(path.suffix, path.read_bytes()))
+    if format.name in BY_VTK and find_spec("pyvista"):
+        with tempfile.TemporaryDirectory() as folder:
+            for k, mesh in enumerate(_meshes()):
+                path = Path(folder) / f"{k}{format.suffixes[0]}"
+                BY_VTK[format.name](path, _grid(mesh))
+                pieces = {one.name: one.read_bytes() for one in path.parent.glob(f"{path.stem}_*")}
+                found.append(Seed(path.suffix, path.read_bytes(), pieces))
     return found
+
+
+def _write_pvtu(path: Path, grid: object) -> None:
+    from vtkmodules.vtkIOParallelXML import vtkXMLPUnstructuredGridWriter
+
+    writer = vtkXMLPUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetFileName(str(path))
+    writer.Write()
+
+
+def _write_vtkhdf(path: Path, grid: object) -> None:
+    from vtkmodules.vtkIOHDF import vtkHDFWriter
+
+    writer = vtkHDFWriter()
+    writer.SetInputData(grid)
+    writer.SetFileName(str(path))
+    writer.SetCompressionLevel(4)
+    writer.Write()
+
+
+#: How files of a format that Hexmend does not write are made.
+BY_VTK = {"pvtu": _write_pvtu, "vtkhdf": _write_vtkhdf}
+
+
+def _grid(mesh: Mesh) -> object:
+    """The mesh as VTK has it."""
+    import pyvista
+
+    grid = pyvista.UnstructuredGrid({12: mesh.hexes.astype(np.int64)}, mesh.points)
+    grid.cell_data.update(mesh.hex_data)
+    grid.point_data["velocity"] = mesh.points + 1
+    return grid
 
 
 def _meshes() -> list[Mesh]:
@@ -109,6 +162,8 @@ def attempt(path: Path) -> str:
         io.read(path)
     except HexmendError as error:
         text = str(error)
+        if "its reader fails" in text:  # an exception that a child's reader did not expect
+            return text
         return "error" if path.name in text and "\n" not in text else f"an error without the file's name: {text!r}"
     except TooLong:
         return f"more than {SECONDS} s"
@@ -125,15 +180,23 @@ def fuzz(format: Format, cases: int, seed: int, meshes: Path | None, kept: Path)
     """Read so many spoilt files of a format; those that go wrong are kept in a folder."""
     random, found, counts = np.random.default_rng(seed), seeds(format, meshes), Counter()
     for case in range(cases if found else 0):
-        suffix, data = found[int(random.integers(len(found)))]
-        path = kept / f"{format.name}-{seed}-{case}{suffix}"
-        path.write_bytes(spoilt(data, random))
+        one = found[int(random.integers(len(found)))]
+        place = kept / f"{format.name}-{seed}-{case}" if one.beside else kept
+        place.mkdir(exist_ok=True)
+        path = place / f"{format.name}-{seed}-{case}{one.suffix}"
+        written = [path, *(place / name for name in one.beside)]
+        bad = int(random.integers(len(written)))
+        for k, (file, data) in enumerate(zip(written, (one.data, *one.beside.values()), strict=True)):
+            file.write_bytes(spoilt(data, random) if k == bad else data)
         came = attempt(path)
         counts[came] += 1
-        if came in ("mesh", "error"):
-            path.unlink()
-        else:
+        if came not in ("mesh", "error"):
             print(f"{path}: {came}", file=sys.stderr, flush=True)
+            continue
+        for file in written:
+            file.unlink()
+        if one.beside:
+            place.rmdir()
     return counts
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -117,11 +117,15 @@ def to_content(path: Path, grid: Grid) -> Content:
 
 def from_mesh(mesh: Mesh) -> Grid:
     """The grid that holds a mesh, hexahedra first; sets are arrays named "set:...", pins one named "fixed"."""
-    content = content_of(mesh)
+    return of_content(replace(content_of(mesh), node_data=with_marks(mesh)))
+
+
+def of_content(content: Content) -> Grid:
+    """The grid of a content's blocks and arrays, one behind the other; sets are arrays named "set:..."."""
     lengths = [len(block) for block in content.blocks]
-    node_data = with_marks(mesh)
+    node_data = dict(content.node_data)
     for name, members in content.node_sets.items():
-        node_data[_SET + name] = _mask(members, mesh.n_nodes)
+        node_data[_SET + name] = _mask(members, len(content.points))
     widths = np.concatenate([np.full(len(block), block.nodes.shape[1], np.int64) for block in content.blocks])
     return Grid(
         points=content.points,

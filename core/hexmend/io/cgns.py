@@ -25,11 +25,7 @@ def read(path: Path) -> Mesh:
         raise FileError(
             path, "is a CGNS file of the ADF kind", "pip install hexmend[app] reads it; or adf2hdf converts it."
         )
-    if not head.startswith(hdf5.MAGIC):
-        raise FileError(path, "is no CGNS file: it begins neither as HDF5 nor as ADF", "Name the mesh file.")
-    from hexmend.io.child import in_child
-
-    return to_mesh(path, in_child("hexmend.io.cgns_reader:content", path))
+    return to_mesh(path, hdf5.content_by("hexmend.io.cgns_reader:content", path))
 
 
 def recognised(head: bytes) -> bool:

@@ -6,7 +6,9 @@ import numpy as np
 
 from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
-from hexmend.io.cgns_elements import FACE_OF, MIXED, ORDER, POLYGONS, POLYHEDRA, TYPES
+from hexmend.io.cgns_elements import FACE_OF
+from hexmend.io.cgns_polyhedra import polyhedra
+from hexmend.io.cgns_section import Section
 from hexmend.io.cgns_tree import Node
 from hexmend.io.cgns_zone import DAMAGED, Zone, add, conditions, coordinates, family, location_of, results, sizes
 from hexmend.io.content import HEX_KINDS, Block
@@ -16,10 +18,11 @@ def unstructured(node: Node) -> Zone:
     """Read an unstructured zone."""
     n_nodes, n_cells = sizes(node, 1)[:2, 0].tolist()
     zone = Zone(node.name, family(node), coordinates(node, (n_nodes,)))
-    sections = sorted((_Section(one) for one in node.children("Elements_t")), key=lambda one: one.first)
+    sections = sorted((Section(one) for one in node.children("Elements_t")), key=lambda one: one.first)
     parts = [(part, section) for section in sections for part in section.parts(zone.notes)]
+    parts += polyhedra(sections, n_nodes, zone.notes)
     hexes = np.concatenate([numbers for (kind, _, numbers), _ in parts if kind in HEX_KINDS] or [np.empty(0, np.int64)])
-    several = sum(any(kind in HEX_KINDS for kind, _, _ in section.parts([])) for section in sections) > 1
+    several = len({section.name for (kind, _, _), section in parts if kind in HEX_KINDS}) > 1
     numbers_of = []
     for (kind, nodes, numbers), section in parts:
         if len(nodes) and (nodes.min() < 0 or nodes.max() >= n_nodes):
@@ -45,83 +48,7 @@ def unstructured(node: Node) -> Zone:
     return zone
 
 
-class _Section:
-    """A section of elements, whose numbers follow one another."""
-
-    def __init__(self, node: Node):
-        self.node, self.name = node, node.name
-        kind, span = node.numbers().ravel(), node.named("ElementRange")
-        span = span.numbers().ravel() if span is not None else np.empty(0, np.int64)
-        if kind.size < 1 or span.size != 2 or span[1] < span[0]:
-            raise FileError(node.path, f"section {node.name!r} has the kind {kind} and the range {span}", DAMAGED)
-        self.type, self.first, self.last = int(kind[0]), int(span[0]), int(span[1])
-        nodes = node.named("ElementConnectivity")
-        self.nodes = nodes.numbers().ravel() if nodes is not None else np.empty(0, np.int64)
-        self.parents = self._parents()
-
-    def __len__(self) -> int:
-        return self.last - self.first + 1
-
-    def parts(self, notes: list[str]) -> list[tuple[str, np.ndarray, np.ndarray]]:
-        """Kind, nodes from 0 in VTK's order, and numbers in the zone of the elements of each kind."""
-        if self.parents is not None and not self.nodes.any():
-            return []
-        if self.type == MIXED:
-            types, starts = self._mixed()
-        elif self.type in TYPES:
-            width = TYPES[self.type][1]
-            if self.nodes.size != len(self) * width:
-                raise FileError(
-                    self.node.path,
-                    f"section {self.name!r} has {len(self)} elements of {width} nodes, and {self.nodes.size} nodes",
-                    DAMAGED,
-                )
-            types, starts = np.full(len(self), self.type), width * np.arange(len(self))
-        else:
-            what = {POLYGONS: "polygons", POLYHEDRA: "polyhedra"}.get(self.type, f"elements of type {self.type}")
-            notes.append(f"{len(self):,} {what} of section {self.name!r} are left out.")
-            return []
-        answer = []
-        for number in dict.fromkeys(types.tolist()):
-            kind, width = TYPES[number]
-            chosen = np.flatnonzero(types == number)
-            rows = self.nodes[starts[chosen][:, None] + np.arange(width)] - 1
-            answer.append((kind, rows[:, ORDER[kind]] if kind in ORDER else rows, self.first + chosen))
-        return answer
-
-    def _mixed(self) -> tuple[np.ndarray, np.ndarray]:
-        """Types of the elements, and where the nodes of each begin."""
-        offsets, nodes = self.node.named("ElementStartOffset"), self.nodes
-        if offsets is not None:
-            starts = offsets.numbers().ravel()[:-1]
-            if len(starts) != len(self) or (len(starts) and (starts.min() < 0 or starts.max() >= nodes.size)):
-                raise FileError(self.node.path, f"section {self.name!r} has wrong ElementStartOffset", DAMAGED)
-        else:  # of versions before 4: one after the other
-            starts, place, flat = [], 0, nodes.tolist()
-            while len(starts) < len(self) and place < len(flat) and flat[place] in TYPES:
-                starts.append(place)
-                place += 1 + TYPES[flat[place]][1]
-            starts = np.array(starts, np.int64)
-        types = nodes[starts]
-        widths = np.array([TYPES.get(number, ("", nodes.size))[1] for number in types.tolist()], np.int64)
-        if len(starts) != len(self) or (len(starts) and (starts + 1 + widths > nodes.size).any()):
-            raise FileError(
-                self.node.path, f"section {self.name!r} names elements of types that are not known", DAMAGED
-            )
-        return types, starts + 1
-
-    def _parents(self) -> np.ndarray | None:
-        """The elements that each face belongs to, and which of their faces it is: (k, 2, 2), 0 where there is none."""
-        found = [self.node.named(name) for name in ("ParentElements", "ParentElementsPosition")]
-        if None in found:
-            found = [self.node.named("ParentData")]  # of versions before 3, both in one
-        if None in found:
-            return None
-        rows = np.concatenate([one.numbers().ravel() for one in found])
-        return rows.reshape(2, 2, -1).transpose(2, 1, 0) if rows.size == 4 * len(self) else None
-
-
-def _sides(section: _Section, which: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+def _sides(section: Section, which: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """Hexes and faces of some faces of a section; `hexes` are the numbers of the hexes in the zone."""
     parents = section.parents[which].reshape(-1, 2)
     order = np.argsort(hexes, kind="stable")
@@ -133,7 +60,7 @@ def _sides(section: _Section, which: np.ndarray, hexes: np.ndarray) -> np.ndarra
 
 
 def _add_condition(
-    zone: Zone, name: str, condition: Node, sections: list[_Section], numbers_of: list[np.ndarray], hexes: np.ndarray
+    zone: Zone, name: str, condition: Node, sections: list[Section], numbers_of: list[np.ndarray], hexes: np.ndarray
 ) -> None:
     """A boundary condition: a set of nodes, of elements, or of sides."""
     members = [
@@ -185,6 +112,7 @@ def _add_cell_data(zone: Zone, numbers_of: list[np.ndarray], data: dict[str, np.
         np.concatenate([own for own, is_solid in zip(numbers_of, solid, strict=True) if is_solid] or [[]])
     )
     if len(numbers) != n_cells:
+        zone.notes += ["Results of cells are left out, as some of the cells are."] if data else []
         return
     for block, own, is_solid in zip(zone.blocks, numbers_of, solid, strict=True):
         if is_solid:

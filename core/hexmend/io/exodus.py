@@ -19,9 +19,7 @@ def read(path: Path) -> Mesh:
         classic = file.read(3) == b"CDF"
     if classic:
         return to_mesh(path, content(path))
-    from hexmend.io.child import in_child
-
-    return to_mesh(path, in_child("hexmend.io.exodus_reader:content", path))
+    return to_mesh(path, hdf5.content_by("hexmend.io.exodus_reader:content", path))
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:

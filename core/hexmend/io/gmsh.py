@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.io.format import FORMATS, Format, Holds
-from hexmend.io.numbering import ids_lost
 from hexmend.mesh import Mesh
 
 
@@ -21,6 +20,13 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     from hexmend.io import gmsh_write
 
     gmsh_write.write(path, mesh, encoding)
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """What it cannot hold of what it holds as a rule, in words."""
+    from hexmend.io import gmsh_write
+
+    return gmsh_write.cannot(mesh)
 
 
 def _recognised(head: bytes) -> bool:
@@ -41,6 +47,6 @@ FORMATS.add(
         holds=frozenset({*HELD, Holds.VERTICES, Holds.CELL_SETS, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
         names=frozenset({"gmsh:physical"}),
         recognised=_recognised,
-        cannot=ids_lost,
+        cannot=cannot,
     ),
 )

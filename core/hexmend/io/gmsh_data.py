@@ -6,7 +6,6 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.io.content import ID
 from hexmend.io.decimals import blocks as parts_of
 from hexmend.io.decimals import lines
 from hexmend.io.gmsh_content import Data, Read
@@ -14,8 +13,8 @@ from hexmend.io.source import Source
 
 #: The sections, and what their rows belong to.
 DATA = {"$NodeData": "nodes", "$ElementData": "elements"}
-#: How many values a row may have.
-_WIDTHS = (1, 3, 9)
+#: How many values a row has in Gmsh's own files, and how many it may have in those of others.
+_WIDTHS, _WIDEST = (1, 3, 9), 1000
 
 
 def read_data(source: Source, order: str, key: str, result: Read) -> None:
@@ -24,8 +23,8 @@ def read_data(source: Source, order: str, key: str, result: Read) -> None:
     for _ in range(_count(source, key)):
         source.line()
     whole = [source.whole(source.line(), f"a number of {key}") for _ in range(_count(source, key))]
-    if not titles or len(whole) < 3 or whole[1] not in _WIDTHS:
-        raise source.error(f"{key} has not a name, a step, 1, 3 or 9 values a row, and a number of rows")
+    if not titles or len(whole) < 3 or not 1 <= whole[1] <= _WIDEST:
+        raise source.error(f"{key} has not a name, a step, 1 to {_WIDEST} values a row, and a number of rows")
     name, (step, width, count) = titles[0].strip('"'), whole[:3]
     if order:
         rows = source.binary(key, count, 1, [("tag", f"{order}i4"), ("values", f"{order}f8", (width,))])[:, 0]
@@ -76,20 +75,33 @@ class Writer:
         self.file.write((b"\n" if self.binary else b"") + b"$End%s\n" % name)
 
 
+def data_title(name: str, end: str) -> str:
+    """The name of data as the format can have it, with an end."""
+    return (" ".join(name.replace('"', "'").split()) or "unnamed") + end
+
+
+def width_of_row(values: np.ndarray) -> int:
+    """How many values a row of an array has."""
+    return int(np.prod(values.shape[1:], dtype=np.int64))
+
+
+def written_width(values: np.ndarray) -> int | None:
+    """How many values a row is written with, 1, 3 or 9; None for what is no number or has more than nine."""
+    width = width_of_row(values)
+    return next((one for one in _WIDTHS if 1 <= width <= one), None) if values.dtype.kind in "biuf" else None
+
+
 def write_data(out: Writer, key: str, name: str, tags: list[np.ndarray], data: list[np.ndarray]) -> None:
     """A section of data, in rows of 1, 3 or 9 values, of which some are 0 where there are fewer.
 
-    What is no number, has more than nine values a row, or is an id, is not written.
+    What is no number, or has more than nine values a row, is not written.
     """
     rows = [values.reshape(len(values), -1) for values in data]
-    widths = {values.shape[1] for values in rows}
-    if name == ID or len(widths) > 1 or not 1 <= max(widths) <= 9 or any(one.dtype.kind not in "biuf" for one in rows):
+    if len({one.shape[1] for one in rows}) > 1 or None in map(written_width, rows):
         return
     numbers, values = np.concatenate(tags), np.concatenate(rows).astype(np.float64)
-    missing = min(width for width in _WIDTHS if width >= max(widths)) - max(widths)
-    values = np.pad(values, ((0, 0), (0, missing)))
-    clean = " ".join(name.replace('"', "'").split())
-    head = f'{key}\n1\n"{clean}"\n1\n0\n3\n0\n{values.shape[1]}\n{len(values)}\n'
+    values = np.pad(values, ((0, 0), (0, written_width(values) - values.shape[1])))
+    head = f'{key}\n1\n"{name}"\n1\n0\n3\n0\n{values.shape[1]}\n{len(values)}\n'
     out.file.write(head.encode())
     if out.binary:
         packed = np.empty(len(values), [("tag", "<i4"), ("values", "<f8", (values.shape[1],))])

@@ -8,10 +8,11 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.io.content import Block, from_mesh, unused
+from hexmend.io.content import ID, Block, from_mesh, unused
 from hexmend.io.gmsh_content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
-from hexmend.io.gmsh_data import Writer, write_data
-from hexmend.io.numbering import combinations, element_numbers, node_numbers, runs
+from hexmend.io.gmsh_data import Writer, data_title, width_of_row, write_data, written_width
+from hexmend.io.names import distinct, renamed
+from hexmend.io.numbering import combinations, element_numbers, ids_lost, node_numbers, runs
 from hexmend.io.pins import with_marks
 from hexmend.mesh import Mesh
 
@@ -32,10 +33,38 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         _write_nodes(out, content.points, tags, next(tag for dimension, tag in entities if dimension == 3))
         numbers = element_numbers(content.blocks)
         _write_elements(out, content.blocks, of_block, numbers, tags)
-        for name, values in with_marks(mesh).items():
-            write_data(out, "$NodeData", name, [tags], [np.asarray(values)])
-        for name, parts in _alike(content.blocks).items():
-            write_data(out, "$ElementData", name, [numbers[k] for k in parts], list(parts.values()))
+        of_nodes, of_cells = with_marks(mesh), _alike(content.blocks)
+        titles = distinct(of_nodes, data_title)
+        for name, values in of_nodes.items():
+            if name != ID:
+                write_data(out, "$NodeData", titles[name], [tags], [np.asarray(values)])
+        titles = distinct(of_cells, data_title)
+        for name, parts in of_cells.items():
+            if name != ID:
+                write_data(out, "$ElementData", titles[name], [numbers[k] for k in parts], list(parts.values()))
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """Ids and names of sets that the format cannot have, and data of other widths than its own, in words."""
+    content = from_mesh(mesh)
+    left = ids_lost(mesh) + renamed(_titles(content.blocks))
+    for what, data in (("point data", [with_marks(mesh)]), ("cell data", [block.data for block in content.blocks])):
+        arrays = [(name, np.asarray(values)) for part in data for name, values in part.items() if name != ID]
+        lost = {name for name, values in arrays if written_width(values) is None}
+        wider = {name for name, values in arrays if written_width(values) not in (None, width_of_row(values))}
+        left += [f"{what} of more than 9 columns, or no numbers ({', '.join(sorted(lost))})"] if lost else []
+        left += renamed(distinct((name for name, _ in arrays), data_title), what)
+        left += [f"the width of {what}, filled up to 3 or 9 columns ({', '.join(sorted(wider))})"] if wider else []
+    return left
+
+
+def _titles(blocks: tuple[Block, ...]) -> dict[str, str]:
+    """Names of sets as groups can have them: with single spaces, and some letters."""
+
+    def form(name: str, end: str) -> str:
+        return (" ".join(name.split()) or "unnamed") + end
+
+    return distinct((name for block in blocks for name in block.sets), form)
 
 
 def _alike(blocks: tuple[Block, ...]) -> dict[str, dict[int, np.ndarray]]:
@@ -85,7 +114,10 @@ def _entities(
                 entities[dimension, tags[dimension, groups]] = list(groups)
             own.append(tags[dimension, groups])
         of_block.append(np.array(own, np.int64)[which])
-    named = {(dimension, number): name for (dimension, name), number in numbers.items() if unnamed(name) != number}
+    titles = _titles(blocks)
+    named = {
+        (dimension, number): titles[name] for (dimension, name), number in numbers.items() if unnamed(name) != number
+    }
     return entities, named, of_block
 
 
@@ -94,7 +126,7 @@ def _write_names(file: BinaryIO, groups: Mapping[tuple[int, int], str]) -> None:
         return
     file.write(b"$PhysicalNames\n%d\n" % len(groups))
     for (dimension, number), name in groups.items():
-        file.write(f'{dimension} {number} "{" ".join(name.split())}"\n'.encode())
+        file.write(f'{dimension} {number} "{name}"\n'.encode())
     file.write(b"$EndPhysicalNames\n")
 
 

@@ -8,11 +8,38 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.content import Content
 
 MAGIC = b"\x89HDF\r\n\x1a\n"
 
 #: Compressed arrays may be that many times the size of the file, and that many bytes whatever its size.
 _GROWTH, _ALWAYS = 100, 1 << 28
+
+
+def content_by(reader: str, path: Path) -> Content:
+    """What a reader makes of a file, in a process of its own, which the HDF5 library may end on a damaged one.
+
+    Parameters
+    ----------
+    reader : str
+        "module:function", as `hexmend.io.child.in_child` has it.
+    path : Path
+
+    Raises
+    ------
+    FileError
+        At once where the file is plainly none of HDF5; else as the reader does, or where it has no answer.
+    """
+    from hexmend.io.child import in_child
+
+    size, at = os.path.getsize(path), 0
+    with open(path, "rb") as file:
+        while file.read(len(MAGIC)) != MAGIC:  # before which a block of the program's own may stand
+            at = 2 * at or 512
+            if at >= size:
+                raise FileError(path, "is no HDF5 file", "Check its suffix, or write it again: it may be damaged.")
+            file.seek(at)
+    return in_child(reader, path)
 
 
 def open_file(path: Path) -> object:

@@ -1,146 +1,24 @@
-"""MED, the format of Salome and Code_Aster (.med): meshes in HDF5, groups by families."""
+"""MED, the format of Salome and Code_Aster (.med): meshes in HDF5, groups by families, data as fields."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
-
-from hexmend.cells import CELL_KINDS
-from hexmend.errors import FileError
-from hexmend.io.content import HEX_KINDS, ID, Block, Content
-from hexmend.io.content import to_mesh as mesh_of
+from hexmend.io import hdf5
+from hexmend.io.content import to_mesh
 from hexmend.io.format import FORMATS, Format, Holds
-from hexmend.io.med_content import KINDS, ORDER, names_of
 from hexmend.io.med_write import cannot, write
 from hexmend.mesh import Mesh
 
-_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
-#: Bytes that one of the file may mean, and bytes that are never too many.
-_RATIO, _ALWAYS = 200, 1 << 26
-
 
 def read(path: Path) -> Mesh:
-    """Read the first mesh of a file; groups of nodes and cells are sets."""
-    with _opened(path) as file:
-        content = _content(path, file)
-    return mesh_of(path, content)
-
-
-@contextmanager
-def _opened(path: Path) -> Iterator[Mapping]:
-    """The file; whatever HDF5 says against it becomes a `FileError`."""
-    import h5py
-
-    try:
-        with h5py.File(path, "r", track_order=True) as file:
-            yield file
-    except (OSError, RuntimeError, LookupError, ValueError) as error:
-        words = " ".join(str(error).strip("'\"").split())[:120]
-        raise FileError(path, f"cannot be read as HDF5 ({words})", _DAMAGED) from None
-    except (TypeError, AttributeError, OverflowError):  # a link to nothing, an attribute of another kind
-        raise FileError(path, "holds parts that are not what MED puts there", _DAMAGED) from None
-
-
-def _content(path: Path, file: Mapping) -> Content:
-    if "ENS_MAA" not in file or not len(file["ENS_MAA"]):
-        raise FileError(path, "holds no mesh (no ENS_MAA)", "Is it a MED file? Check its suffix.")
-    meshes = list(file["ENS_MAA"])
-    notes = []
-    if len(meshes) > 1:
-        notes.append(f"Of {len(meshes)} meshes the first, {meshes[0]}, is read.")
-    if "CHA" in file and len(file["CHA"]):
-        notes.append(f"{len(file['CHA'])} fields are left out.")
-    mesh = file["ENS_MAA"][meshes[0]]
-    if int(mesh.attrs.get("TYP", 0)) != 0:
-        raise FileError(path, f"the mesh {meshes[0]} is structured", "Export it as an unstructured mesh.")
-    if int(mesh.attrs.get("ESP", 3)) != 3:
-        raise FileError(path, f"the mesh {meshes[0]} is not in space", "Hexmend works in space.")
-    if "NOE" not in mesh:
-        steps = [name for name in mesh if "NOE" in mesh[name]]
-        if not steps:
-            raise FileError(path, f"the mesh {meshes[0]} has no nodes (no NOE)", _DAMAGED)
-        if len(steps) > 1:
-            notes.append(f"Of {len(steps)} steps of the mesh the first is read.")
-        mesh = mesh[steps[0]]
-    families = file["FAS"][meshes[0]] if "FAS" in file and meshes[0] in file["FAS"] else {}
-
-    coordinates = _taken(path, mesh["NOE"], "COO")
-    if coordinates.ndim != 1 or coordinates.size % 3 or coordinates.dtype.kind != "f":
-        raise FileError(path, f"its {coordinates.size} coordinates are not three for each node", _DAMAGED)
-    points = np.ascontiguousarray(coordinates.reshape(3, -1).T, np.float64)
-    node_data = _ids(path, mesh["NOE"], len(points))
-    node_sets = _sets(path, mesh["NOE"], len(points), families.get("NOEUD", {}))
-    groups = families.get("ELEME", {})
-    blocks, left = [], []
-    for name, cells in mesh["MAI"].items() if "MAI" in mesh else ():
-        if name not in KINDS:
-            left.append(name)
-            continue
-        kind = KINDS[name]
-        width = HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes
-        numbers = _taken(path, cells, "NOD")
-        if numbers.ndim != 1 or numbers.size % width or numbers.dtype.kind not in "iu":
-            raise FileError(path, f"{name}/NOD holds {numbers.size} numbers: expected {width} a cell", _DAMAGED)
-        nodes = numbers.astype(np.int64).reshape(width, -1).T - 1
-        if nodes.size and (nodes.min() < 0 or nodes.max() >= len(points)):
-            wrong = int(nodes[(nodes < 0) | (nodes >= len(points))][0]) + 1
-            raise FileError(path, f"{name}/NOD names the node {wrong}: expected 1 to {len(points)}", _DAMAGED)
-        nodes = nodes[:, ORDER[kind]] if kind in ORDER else np.ascontiguousarray(nodes)
-        blocks.append(Block(kind, nodes, _ids(path, cells, len(nodes)), _sets(path, cells, len(nodes), groups)))
-    if left:
-        notes.append(f"Cells of the kinds {', '.join(left)} are left out.")
-    blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
-    return Content(points, tuple(blocks), node_data, node_sets, notes=tuple(notes))
-
-
-def _ids(path: Path, group: Mapping, count: int) -> dict[str, np.ndarray]:
-    if "NUM" not in group:
-        return {}
-    numbers = _taken(path, group, "NUM")
-    if numbers.shape != (count,) or numbers.dtype.kind not in "iu":
-        raise FileError(path, f"{group.name}/NUM holds {numbers.size} numbers: expected {count}", _DAMAGED)
-    return {ID: numbers.astype(np.int64)}
-
-
-def _sets(path: Path, group: Mapping, count: int, families: Mapping) -> dict[str, np.ndarray]:
-    """Sets of nodes or cells by the groups of their families."""
-    if "FAM" not in group:
-        return {}
-    family = _taken(path, group, "FAM")
-    if family.shape != (count,) or family.dtype.kind not in "iu":
-        raise FileError(path, f"{group.name}/FAM holds {family.size} numbers: expected {count}", _DAMAGED)
-    order = np.argsort(family, kind="stable")
-    in_order, found, spent = family[order], {}, 0
-    for one in families.values():
-        if "GRO" not in one:
-            continue
-        begin, end = np.searchsorted(in_order, [number := int(one.attrs["NUM"]), number + 1])
-        names = names_of(_taken(path, one["GRO"], "NOM")) if end > begin else []
-        spent += len(names) * int(end - begin)
-        if spent > max(_ALWAYS, _RATIO * path.stat().st_size):
-            raise FileError(path, "its groups have far more members than so small a file can mean", _DAMAGED)
-        for name in names:
-            found.setdefault(name, []).append(order[begin:end])
-    return {name: np.sort(np.concatenate(members)) for name, members in found.items()}
-
-
-def _taken(path: Path, group: Mapping, name: str) -> np.ndarray:
-    """An array of the file, once it is known that it is not far larger than the file."""
-    if name not in group:
-        raise FileError(path, f"{group.name} has no {name}", _DAMAGED)
-    values = group[name]
-    base = values.dtype.itemsize
-    if int(np.prod(values.shape, dtype=object)) * base > max(_ALWAYS, _RATIO * path.stat().st_size):
-        raise FileError(path, f"{group.name}/{name} is announced larger than so small a file can mean", _DAMAGED)
-    return np.asarray(values[()])
+    """Read the first mesh of a file, in a process of its own, which the HDF5 library may end; groups are sets."""
+    return to_mesh(path, hdf5.content_by("hexmend.io.med_reader:content", path))
 
 
 def _recognised(head: bytes) -> bool:
     """HDF5 with a group of meshes or, where that stands further on, the general information of MED."""
-    return head.startswith(b"\x89HDF\r\n\x1a\n") and (b"ENS_MAA" in head or b"INFOS_GENERALES" in head)
+    return head.startswith(hdf5.MAGIC) and (b"ENS_MAA" in head or b"INFOS_GENERALES" in head)
 
 
 HELD = (Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER)
@@ -154,7 +32,7 @@ FORMATS.add(
         ("binary",),
         read,
         write,
-        holds=frozenset({*HELD, Holds.CELL_SETS, Holds.VERTICES}),
+        holds=frozenset({*HELD, Holds.CELL_SETS, Holds.VERTICES, Holds.NODE_DATA, Holds.HEX_DATA, Holds.PINS}),
         recognised=_recognised,
         cannot=cannot,
     ),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 import numpy as np
 
+from hexmend.errors import FileError
 from hexmend.io.names import distinct
 
 #: MED's names of the kinds of cells that are read.
@@ -20,6 +22,12 @@ NAMES = {kind: name for name, kind in KINDS.items()}
 GEOMETRIES = {
     "PO1": 1, "SE2": 102, "SE3": 103, "TR3": 203, "TR6": 206, "QU4": 204, "QU8": 208, "QU9": 209, "TE4": 304,
     "T10": 310, "PE6": 306, "P15": 315, "PY5": 305, "P13": 313, "HE8": 308, "H20": 320, "H27": 327,
+}  # fmt: skip
+
+#: The bit that stands for each kind in what a field says of its places.
+BITS = {
+    "PO1": 0, "SE2": 1, "SE3": 2, "TR3": 4, "TR6": 6, "QU4": 5, "QU8": 8, "QU9": 9, "TE4": 10, "T10": 14, "PE6": 12,
+    "P15": 17, "PY5": 11, "P13": 16, "HE8": 13, "H20": 19, "H27": 20,
 }  # fmt: skip
 
 _HEX20 = [0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17]
@@ -38,6 +46,26 @@ ORDER = {
 
 #: How many bytes the name of a group has.
 _WIDTH = 80
+
+DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
+#: Bytes that one of the file may mean, and bytes that are never too many.
+_RATIO, _ALWAYS = 200, 1 << 26
+
+
+def most_bytes(path: Path) -> int:
+    """How many bytes an array of the file may have."""
+    return max(_ALWAYS, _RATIO * path.stat().st_size)
+
+
+def taken(path: Path, group: Mapping, name: str) -> np.ndarray:
+    """An array of the file, once it is known that it is not far larger than the file."""
+    if name not in group:
+        raise FileError(path, f"{group.name} has no {name}", DAMAGED)
+    values = group[name]
+    base = values.dtype.itemsize
+    if int(np.prod(values.shape, dtype=object)) * base > most_bytes(path):
+        raise FileError(path, f"{group.name}/{name} is announced larger than so small a file can mean", DAMAGED)
+    return np.asarray(values[()])
 
 
 def names_of(values: np.ndarray) -> list[str]:

@@ -1,4 +1,4 @@
-"""Writes MED, version 4.1: one mesh, and a family for every combination of sets."""
+"""Writes MED, version 4.1: one mesh, a family for every combination of sets, and data as fields."""
 
 from __future__ import annotations
 
@@ -8,22 +8,23 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.content import ID, Block, Content, from_mesh
+from hexmend.io.content import ID, Block, Content, from_mesh, joined
 from hexmend.io.med_content import GEOMETRIES, NAMES, ORDER, bytes_of, titles_of
+from hexmend.io.med_fields import ALL, code_of, field_titles, write_fields
 from hexmend.io.names import renamed
 from hexmend.io.numbering import combinations
+from hexmend.io.pins import with_marks
 from hexmend.mesh import Mesh
 
 #: The step of a mesh that does not change: no number of a step, none of an iteration.
 _STEP = f"{-1:020d}{-1:020d}"
-_ALL = np.bytes_("MED_NO_PROFILE_INTERNAL")
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write the mesh under its name."""
     import h5py
 
-    content = _titled(from_mesh(mesh))
+    content = _titled(replace(from_mesh(mesh), node_data=with_marks(mesh)))
     title = "".join(c if c.isalnum() or c in "_-" else "_" for c in mesh.name)[:64] or "mesh"
     with h5py.File(path, "w", track_order=True) as file:
         _group(file, "INFOS_GENERALES", MAJ=4, MIN=1, REL=0)
@@ -38,7 +39,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         _group(families, "FAMILLE_ZERO", NUM=0)
 
         nodes = _group(step, "NOE", CGT=1, CGS=1)
-        nodes.attrs["PFL"] = _ALL
+        nodes.attrs["PFL"] = np.bytes_(ALL)
         count = len(content.points)
         _dataset(nodes, "COO", content.points.T.ravel(), count)
         _write_ids(nodes, content.node_data, count)
@@ -52,7 +53,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         for kind in dict.fromkeys(block.kind for block in content.blocks):
             blocks = [block for block in content.blocks if block.kind == kind]
             group = _group(cells, NAMES[kind], CGT=1, CGS=1, GEO=GEOMETRIES[NAMES[kind]])
-            group.attrs["PFL"] = _ALL
+            group.attrs["PFL"] = np.bytes_(ALL)
             rows = np.concatenate([block.nodes for block in blocks]).astype(np.int64) + 1
             rows = rows[:, np.argsort(ORDER[kind])] if kind in ORDER else rows
             _dataset(group, "NOD", rows.T.ravel(), len(rows))
@@ -65,19 +66,40 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
                     sets.setdefault(name, []).append(np.asarray(members, np.int64) + first)
                 first += len(block)
             if own is not None:  # kinds without sets too: MED's library takes the families of all or of none
-                joined = {name: np.concatenate(members) for name, members in sets.items()}
-                _dataset(group, "FAM", _write_families(own, known, joined, len(rows), -1), len(rows))
+                members_of = {name: np.concatenate(members) for name, members in sets.items()}
+                _dataset(group, "FAM", _write_families(own, known, members_of, len(rows), -1), len(rows))
+        write_fields(file, title, _fields(content))
 
 
 def cannot(mesh: Mesh) -> list[str]:
-    """Ids that are no whole numbers, and names too long, in words."""
+    """Ids that are no whole numbers, data that are no numbers, and names too long, in words."""
     content = from_mesh(mesh)
     left = []
     if ID in content.node_data and not _has_ids(content.node_data, len(content.points)):
         left.append("ids of nodes (no whole numbers)")
     if any(ID in block.data and not _has_ids(block.data, len(block)) for block in content.blocks):
         left.append("ids of elements (no whole numbers)")
-    return left + renamed(titles_of(_names(content)))
+    fields = _fields(replace(content, node_data=with_marks(mesh)))
+    for what, parts in (
+        ("point data", [fields["NOE"]]),
+        ("cell data", [part for place, part in fields.items() if place != "NOE"]),
+    ):
+        odd = sorted({name for part in parts for name, values in part.items() if code_of(values) is None})
+        left += [f"{what} that are no numbers ({', '.join(odd)})"] if odd else []
+    titles = field_titles(name for part in fields.values() for name in part)
+    return left + renamed(titles_of(_names(content))) + renamed(titles, "data")
+
+
+def _fields(content: Content) -> dict[str, dict[str, np.ndarray]]:
+    """Data without ids by the place of a field."""
+    answer = {"NOE": content.node_data}
+    for kind in dict.fromkeys(block.kind for block in content.blocks):
+        blocks = [block for block in content.blocks if block.kind == kind]
+        answer[f"MAI.{NAMES[kind]}"] = joined([block.data for block in blocks], [len(block) for block in blocks])
+    return {
+        place: {name: np.asarray(values) for name, values in part.items() if name != ID}
+        for place, part in answer.items()
+    }
 
 
 def _titled(content: Content) -> Content:

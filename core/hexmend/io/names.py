@@ -37,7 +37,7 @@ def distinct(names: Iterable[str], form: Callable[[str, str], str]) -> dict[str,
     return {name: answer[name] for name in names}
 
 
-def renamed(titles: dict[str, str]) -> list[str]:
-    """That some names are not written as they are, in words; nothing where all are."""
+def renamed(titles: dict[str, str], of: str = "sets") -> list[str]:
+    """That some names (of sets, or of what is said) are not written as they are, in words; nothing where all are."""
     other = sorted(name for name, title in titles.items() if name != title)
-    return [f"names of sets as they are ({', '.join(other)})"] if other else []
+    return [f"names of {of} as they are ({', '.join(other)})"] if other else []

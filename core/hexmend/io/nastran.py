@@ -9,25 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
-from hexmend.io.content import HEX_KINDS, ID, Block, Content, from_mesh
-from hexmend.io.content import to_mesh as mesh_of
+from hexmend.io.content import Block, from_mesh
 from hexmend.io.format import FORMATS, Format, Holds
-from hexmend.io.nastran_bulk import Bulk
-from hexmend.io.numbering import element_numbers, ids_lost, node_numbers, places
+from hexmend.io.numbering import element_numbers, ids_lost, node_numbers
 from hexmend.io.reduced import middles_lost, reduced
-from hexmend.io.source import shown, text_of
 from hexmend.mesh import Mesh
 
-#: What the elements of a name are, of first and second order.
-_KINDS = {
-    "CHEXA": ("hex", "hex20"), "CTETRA": ("tetra", "tetra10"), "CPENTA": ("wedge", "wedge15"),
-    "CPYRAM": ("pyramid", "pyramid13"), "CPYRA": ("pyramid", "pyramid13"), "CQUAD4": ("quad", ""),
-    "CQUADR": ("quad", ""), "CSHEAR": ("quad", ""), "CQUAD8": ("quad", "quad8"), "CQUAD": ("quad", "quad9"),
-    "CTRIA3": ("triangle", ""), "CTRIAR": ("triangle", ""), "CTRIA6": ("triangle", "triangle6"),
-    "CBAR": ("line", ""), "CBEAM": ("line", ""), "CROD": ("line", ""), "CTUBE": ("line", ""), "PLOTEL": ("line", ""),
-}  # fmt: skip
+#: What the elements of a kind are called.
 _NAMES = {
     "hex": "CHEXA", "hex20": "CHEXA", "tetra": "CTETRA", "tetra10": "CTETRA", "wedge": "CPENTA", "wedge15": "CPENTA",
     "pyramid": "CPYRAM", "pyramid13": "CPYRAM", "quad": "CQUAD4", "quad8": "CQUAD8", "quad9": "CQUAD",
@@ -44,72 +33,9 @@ _PROPERTY = re.compile(r"property ([1-9][0-9]{0,7})\Z")
 
 def read(path: Path) -> Mesh:
     """Read grid points and elements; the elements of a property are the set "property N"."""
-    bulk = Bulk(path, text_of(path).decode("latin-1").replace("\r\n", "\n").replace("\r", "\n"))
-    ids: list[int] = []
-    points: list[list[float]] = []
-    rows: dict[str, list[list[int]]] = {}
-    other: dict[str, int] = {}
-    partial = 0
-    for line, name, fields in bulk.cards():
-        if name in ("GRID", "GRDSET"):
-            if bulk.whole(fields[1], line, name):
-                raise bulk.error(
-                    f"{name} in line {line} is in the coordinate system {fields[1]}: expected 0, x, y and z",
-                    "Write the file with all grid points in the basic coordinate system.",
-                )
-            if name == "GRID":
-                ids.append(bulk.whole(fields[0], line, name))
-                points.append([bulk.real(word, line, name) for word in [*fields, ""][2:5]])
-        elif name in _KINDS:
-            kind, row, whole = _element(bulk, line, name, fields)
-            rows.setdefault(kind, []).append(row)
-            partial += not whole
-        elif name.startswith("INCLUDE"):
-            raise bulk.error(f"INCLUDE in line {line} takes what follows from another file", "Put its content there.")
-        elif name != "ENDDATA":
-            other[name] = other.get(name, 0) + 1
-    if not ids:
-        raise bulk.error("has no GRID", "Is it a file of Nastran's bulk data? Check its suffix.")
-    notes = []
-    if partial:
-        notes.append(f"{partial:,} elements have some of their mid-nodes only: they are read with their corners.")
-    if other:
-        words = ", ".join(f"{count:,} {shown(name)[1:-1]}" for name, count in list(other.items())[:6])
-        notes.append(f"Other cards ({words}{', ...' if len(other) > 6 else ''}) are left out.")
-    tags = np.array(ids, np.int64)
-    blocks = [_block(path, kind, np.array(rows[kind], np.int64), tags) for kind in rows]
-    blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
-    return mesh_of(path, Content(np.array(points), tuple(blocks), {ID: tags}, notes=tuple(notes)))
+    from hexmend.io import nastran_read
 
-
-def _element(bulk: Bulk, line: int, name: str, fields: list[str]) -> tuple[str, list[int], bool]:
-    """The kind of an element, its number, property and nodes, and whether it has all or none of its mid-nodes."""
-    small, large = _KINDS[name]
-    first = 1 if name == "PLOTEL" else 2
-    property = bulk.whole(fields[1], line, name) if first == 2 else 0
-    width = _width(small)
-    longest = _width(large) if large else width
-    nodes = [bulk.whole(word, line, name) for word in fields[first : first + longest]]
-    if len(nodes) < width or 0 in nodes[:width]:
-        raise bulk.error(
-            f"{name} in line {line} has {sum(map(bool, nodes[:width]))} nodes: expected {width}",
-            "Write the file again with the program that made it: it is damaged or cut short.",
-        )
-    more = sum(map(bool, nodes[width:]))
-    kind = large if large and more == longest - width else small
-    head = [bulk.whole(fields[0], line, name), property]
-    return kind, head + nodes[: longest if kind == large else width], kind == large or not more
-
-
-def _block(path: Path, kind: str, rows: np.ndarray, tags: np.ndarray) -> Block:
-    nodes = places(path, tags, rows[:, 2:], "node")
-    numbers = np.unique(rows[:, 1]).tolist()
-    sets = {f"property {number}": np.flatnonzero(rows[:, 1] == number) for number in numbers if number > 0}
-    return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: rows[:, 0].copy()}, sets)
-
-
-def _width(kind: str) -> int:
-    return HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes
+    return nastran_read.read(path)
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
+import numpy as np
+
 from hexmend.errors import FileError
+from hexmend.io.nastran_columns import Lines, Stretch
 from hexmend.io.source import shown
 
+#: The line, name and fields of a card.
+Card = tuple[int, str, list[str]]
+
+_BEGIN = re.compile(rb"^[ \t\v\f]*BEGIN", re.IGNORECASE | re.MULTILINE)
 _EXPONENT = re.compile(r"([0-9.])([+-])")
 
 #: Fields of a line behind its name: eight of 8 columns, or four of 16.
@@ -22,23 +29,35 @@ class Bulk:
     Parameters
     ----------
     path : Path
-    text : str
+    data : bytes
+        With "\\n" at the ends of lines.
     """
 
-    def __init__(self, path: Path, text: str):
-        self.path, self.text = path, text
+    def __init__(self, path: Path, data: bytes):
+        self.path, self.lines = path, Lines(data)
+        found = _BEGIN.search(data)
+        self._begin = int(np.searchsorted(self.lines.start, found.end(), "right")) if found else 0
 
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
         """The error to raise."""
         return FileError(self.path, problem, remedy)
 
-    def cards(self) -> Iterator[tuple[int, str, list[str]]]:
-        """The line, name and fields of each card, continuations joined; fields are stripped."""
-        lines = self.text.split("\n")
-        begin = next((k + 1 for k, line in enumerate(lines) if line.strip().upper().startswith("BEGIN")), 0)
+    def pieces(self, names: Collection[str]) -> Iterator[Card | Stretch]:
+        """The cards up to ENDDATA, in order: those of some names many at a time where they can be."""
+        at = self._begin
+        for stretch in self.lines.stretches(at, names):
+            for card in self.cards(at, stretch.first):
+                yield card
+                if card[1] == "ENDDATA":
+                    return
+            yield stretch
+            at = stretch.last
+        yield from self.cards(at, len(self.lines))
+
+    def cards(self, first: int, last: int) -> Iterator[Card]:
+        """The cards of some lines up to ENDDATA, continuations joined; fields are stripped."""
         where, name, fields = 0, "", []
-        for k in range(begin, len(lines)):
-            line = lines[k]
+        for k, line in enumerate(self.lines.text(first, last), first):
             if "$" in line:
                 line = line[: line.index("$")]
             if not line or line.isspace():
@@ -52,7 +71,7 @@ class Bulk:
                 yield where, name, fields
             where, name, fields = k + 1, head, own
             if name == "ENDDATA":
-                return
+                break
         if name:
             yield where, name, fields
 

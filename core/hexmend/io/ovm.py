@@ -1,5 +1,7 @@
 """OpenVolumeMesh's format in decimals (.ovm): polyhedra of half-faces, of which those of six quads are hexes.
 
+Cells have properties, of which those named "set:..." are sets, as in VTK's formats.
+
 Edge e is the half-edges 2e and, the other way, 2e + 1; face f the half-faces 2f and 2f + 1.
 """
 
@@ -10,9 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.content import Block, Content
-from hexmend.io.content import to_mesh as mesh_of
-from hexmend.io.format import FORMATS, Format
+from hexmend.io.carry import NUMBERS, WIDTHS, Grid, to_mesh
+from hexmend.io.format import FORMATS, Format, Holds
+from hexmend.io.ovm_write import cannot, write
+from hexmend.io.polyhedra import Lists, cells_of
 from hexmend.io.source import Source, shown, text_of
 from hexmend.mesh import Mesh
 
@@ -29,7 +32,7 @@ def read(path: Path) -> Mesh:
     if source.line().upper() != "OVM ASCII":
         raise source.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
     points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)
-    faces = cells = _Rows(np.zeros(0, np.int64), np.zeros(0, np.int64))
+    faces = cells = Lists(np.zeros(1, np.int64), np.zeros(0, np.int64))
     seen: set[str] = set()
     node_data: dict[str, np.ndarray] = {}
     cell_data: dict[str, np.ndarray] = {}
@@ -55,32 +58,38 @@ def read(path: Path) -> Mesh:
             raise source.error(f"{shown(key)} stands where a section should begin ({line})")
     if "POLYHEDRA" not in seen:
         raise source.error("ends without Polyhedra")
-    which, hexes = _hexes(edges, faces, cells)
-    others = len(cells) - len(which)
-    if others and len(which):
-        notes.append(f"{others:,} polyhedra that are no hexes are left out.")
-    elif others:
+    loops = Lists(faces.start, edges[faces.values >> 1, faces.values & 1])  # where each half-edge begins
+    found = cells_of(loops, Lists(cells.start, cells.values >> 1), (cells.values & 1) == 1)
+    others = len(cells) - sum(len(which) for which, _ in found.values())
+    if "hex" not in found and others:
         raise source.error(f"holds no hexahedra, but {others:,} other polyhedra", "Hexmend works on hexahedra only.")
-    block = Block("hex", hexes, {name: values[which] for name, values in cell_data.items()})
-    return mesh_of(path, Content(points, (block,), node_data, notes=tuple(notes)))
+    if others:
+        notes.append(f"{others:,} polyhedra of other kinds are left out.")
+    return to_mesh(path, _grid(points, found, node_data, cell_data, notes))
 
 
-class _Rows:
-    """Rows of different lengths: row k is values[start[k]:start[k] + length[k]]."""
+def _grid(
+    points: np.ndarray,
+    found: dict[str, tuple[np.ndarray, np.ndarray]],
+    node_data: dict[str, np.ndarray],
+    cell_data: dict[str, np.ndarray],
+    notes: list[str],
+) -> Grid:
+    """The grid of cells of some kinds: which they are, and their nodes."""
+    which = np.concatenate([np.zeros(0, np.int64), *(which for which, _ in found.values())])
+    types = np.concatenate([np.full(len(which), NUMBERS[kind]) for kind, (which, _) in found.items()] or [which])
+    return Grid(
+        points,
+        types,
+        np.concatenate([[0], np.cumsum([WIDTHS[number] for number in types.tolist()])]).astype(np.int64),
+        np.concatenate([np.zeros(0, np.int64), *(nodes.ravel() for _, nodes in found.values())]),
+        node_data,
+        {name: values[which] for name, values in cell_data.items()},
+        notes=tuple(notes),
+    )
 
-    def __init__(self, values: np.ndarray, start: np.ndarray):
-        self.values, self.start = values, start
-        self.length = values[start - 1] if len(start) else start
 
-    def __len__(self) -> int:
-        return len(self.start)
-
-    def of_length(self, length: int, which: np.ndarray) -> np.ndarray:
-        """Some rows, all of one length; (k, length)."""
-        return self.values[self.start[which][:, None] + np.arange(length)]
-
-
-def _rows(source: Source, name: str, limit: int) -> _Rows:
+def _rows(source: Source, name: str, limit: int) -> Lists:
     """Rows that each begin with how many numbers follow, which are from 0 to limit - 1."""
     count = _count(source, name)
     letter = _LETTER.search(source.data, source.pos)
@@ -94,29 +103,8 @@ def _rows(source: Source, name: str, limit: int) -> _Rows:
     inside = np.ones(values.size, bool)
     inside[np.array(starts, np.int64) - 1] = False
     _check(source, name, values[inside], limit)
-    return _Rows(values, np.array(starts, np.int64))
-
-
-def _hexes(edges: np.ndarray, faces: _Rows, cells: _Rows) -> tuple[np.ndarray, np.ndarray]:
-    """Cells that are hexes, (m,) int, and their corners, (m, 8)."""
-    six = np.flatnonzero(cells.length == 6)
-    sides = cells.of_length(6, six)  # half-faces
-    quads = (faces.length[sides >> 1] == 4).all(axis=1) if len(faces) else np.zeros(len(six), bool)
-    six, sides = six[quads], sides[quads]
-    around = faces.of_length(4, (sides >> 1).ravel())  # half-edges
-    corners = edges[around >> 1, around & 1].reshape(-1, 6, 4)  # where each of them begins
-    corners = np.where((sides & 1)[:, :, None] == 1, corners[:, :, ::-1], corners)  # seen from inside
-    begin, end = corners.reshape(-1, 24), np.roll(corners, -1, axis=2).reshape(-1, 24)
-    lower = corners[:, 0]
-    up = ~(end[:, :, None] == lower[:, None, :]).any(axis=2)
-    upper, right = np.zeros_like(lower), np.ones(len(lower), bool)
-    for k in range(4):
-        there = up & (begin == lower[:, k, None])  # the one edge from a lower corner to an upper one
-        right &= there.sum(axis=1) == 1
-        upper[:, k] = end[np.arange(len(end)), there.argmax(axis=1)]
-    hexes = np.concatenate([lower, upper], axis=1)
-    right &= (np.diff(np.sort(hexes, axis=1), axis=1) > 0).all(axis=1)
-    return six[right], hexes[right]
+    lengths = values[~inside]
+    return Lists(np.concatenate([[0], np.cumsum(lengths)]), values[inside])
 
 
 def _property(
@@ -154,4 +142,19 @@ def _recognised(head: bytes) -> bool:
     return head[:9].upper() == b"OVM ASCII"
 
 
-FORMATS.add("ovm", Format("ovm", "OpenVolumeMesh", (".ovm",), (), read, recognised=_recognised))
+HELD = (Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.PINS, Holds.OTHER_CELLS)
+
+FORMATS.add(
+    "ovm",
+    Format(
+        "ovm",
+        "OpenVolumeMesh",
+        (".ovm",),
+        ("ascii",),
+        read,
+        write,
+        holds=frozenset(HELD),
+        recognised=_recognised,
+        cannot=cannot,
+    ),
+)

@@ -14,6 +14,7 @@ from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.decimals import blocks as parts_of
 from hexmend.io.decimals import lines
 from hexmend.io.format import FORMATS, Format, Holds
+from hexmend.io.names import distinct, renamed
 from hexmend.io.reduced import middles_lost, reduced
 from hexmend.io.source import Source, shown, text_of
 from hexmend.mesh import Mesh
@@ -151,12 +152,13 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     Other sets, other cells and nodes of second order are left out.
     """
     content = reduced(from_mesh(mesh), NUMBERS)
+    titles = _titles(content)
     volumes = [block for block in content.blocks if block.kind == "hex" or CELL_KINDS[block.kind].dimension == 3]
     markers: dict[str, list[tuple[str, np.ndarray]]] = {}
     for block in content.blocks:
         if block.kind in ("triangle", "quad"):
             for name, members in block.sets.items():
-                markers.setdefault("_".join(name.split()), []).append((block.kind, block.nodes[members]))
+                markers.setdefault(titles[name], []).append((block.kind, block.nodes[members]))
     with open(path, "wb") as file:
         file.write(b"NDIME= 3\nNELEM= %d\n" % sum(map(len, volumes)))
         for block in volumes:
@@ -170,6 +172,21 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             file.write(f"MARKER_TAG= {name}\nMARKER_ELEMS= {count}\n".encode())
             for kind, nodes in groups:
                 _write_cells(file, kind, nodes)
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """Names that markers cannot have, and mid-nodes, in words."""
+    return renamed(_titles(reduced(from_mesh(mesh), NUMBERS))) + middles_lost(mesh, NUMBERS)
+
+
+def _titles(content: Content) -> dict[str, str]:
+    """Names of markers: words of one piece without %, which begins a comment."""
+
+    def form(name: str, end: str) -> str:
+        return "_".join((name.replace("%", " ") + end).split()) or "unnamed"
+
+    boundary = [block for block in content.blocks if block.kind in ("triangle", "quad")]
+    return distinct((name for block in boundary for name in block.sets), form)
 
 
 def _write_cells(file: object, kind: str, nodes: np.ndarray) -> None:
@@ -196,6 +213,6 @@ FORMATS.add(
         write,
         holds=frozenset({Holds.OTHER_CELLS, Holds.CELL_SETS}),
         recognised=_recognised,
-        cannot=lambda mesh: middles_lost(mesh, NUMBERS),
+        cannot=cannot,
     ),
 )

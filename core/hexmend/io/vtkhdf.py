@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io import hdf5
 from hexmend.io.allowance import Allowance
 from hexmend.io.carry import Grid, to_content
 from hexmend.io.content import Content, to_mesh
@@ -23,12 +24,11 @@ from hexmend.mesh import Mesh
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 #: Chunks that any file may have; and what one takes at least, in bytes: its entry in the index.
 _CHUNKS, _CHUNK = 1000, 24
-_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def read(path: Path) -> Mesh:
-    """Read a VTKHDF file, its parts put together without their ghost cells."""
-    return to_mesh(path, content(path))
+    """Read a VTKHDF file, in a process of its own; its parts are put together without their ghost cells."""
+    return to_mesh(path, hdf5.content_by("hexmend.io.vtkhdf:content", path))
 
 
 def content(path: Path) -> Content:
@@ -206,6 +206,6 @@ FORMATS.add(
         (".vtkhdf",),
         (),
         read,
-        recognised=lambda head: head.startswith(_SIGNATURE) and b"VTKHDF" in head,
+        recognised=lambda head: head.startswith(hdf5.MAGIC) and b"VTKHDF" in head,
     ),
 )

@@ -179,3 +179,30 @@ def test_data_called_fixed_of_some_nodes_fix_these_alone(tmp_path):
     assert np.flatnonzero(mesh.pinned).tolist() == [13]
     io.write(tmp_path / "b.vtu", mesh)
     assert np.flatnonzero(io.read(tmp_path / "b.vtu").pinned).tolist() == [13]
+
+
+def test_data_of_any_width_are_read(tmp_path):
+    mesh = grid(1)
+    io.write(tmp_path / "a.msh", mesh, encoding="ascii")
+    rows = "".join(f"{k} {' '.join(str(k * j) for j in range(12))}\n" for k in range(1, 9))
+    with open(tmp_path / "a.msh", "a") as file:
+        file.write(f'$NodeData\n1\n"many"\n1\n0\n3\n0\n12\n8\n{rows}$EndNodeData\n')
+    np.testing.assert_array_equal(io.read(tmp_path / "a.msh").node_data["many"], np.outer(range(1, 9), range(12)))
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "binary"])
+def test_data_of_other_widths_than_gmsh_s_are_filled_up_or_left_out_and_that_is_said(encoding, tmp_path):
+    data = {"two": np.ones((8, 2)), "six": np.full((8, 6), 6), "ten": np.ones((8, 10)), "tensor": np.ones((8, 3, 3))}
+    mesh = grid(1).replace(node_data={**data, "a b": np.zeros(8), "a  b": np.ones(8)}, hex_data={"word": ["x"]})
+    assert io.left_out(tmp_path / "a.msh", mesh) == [
+        "point data of more than 9 columns, or no numbers (ten)",
+        "names of point data as they are (a  b)",
+        "the width of point data, filled up to 3 or 9 columns (six, two)",
+        "cell data of more than 9 columns, or no numbers (word)",
+    ]
+    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
+    back = io.read(tmp_path / "a.msh").node_data
+    assert back["six"][0].tolist() == [6] * 6 + [0] * 3
+    assert {name: values.shape for name, values in back.items() if name != "id"} == {
+        "two": (8, 3), "six": (8, 9), "tensor": (8, 9), "a b": (8,), "a b 2": (8,)
+    }  # fmt: skip

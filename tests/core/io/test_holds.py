@@ -178,10 +178,10 @@ def test_data_of_one_name_and_other_widths_are_all_kept(name, encoding, tmp_path
     if Holds.HEX_DATA not in FORMATS[name].holds:
         return
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
-    mesh = beside("quad", grid(2).topology.boundary_faces[:2], data={"h": np.arange(6.0).reshape(2, 3)})
+    mesh = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]], data={"h": np.arange(3.0)[None]})
     io.write(path, mesh.replace(hex_data={"h": np.arange(8.0)}), encoding=encoding)
     back = io.read(path)
     np.testing.assert_array_equal(back.hex_data["h"], np.arange(8.0))
-    (quads,) = back.cells
-    kept = [values for values in quads.data.values() if np.shape(values) == (2, 3)]
-    np.testing.assert_array_equal(kept, [np.arange(6.0).reshape(2, 3)])
+    (tetra,) = back.cells
+    kept = [values for values in tetra.data.values() if np.shape(values) == (1, 3)]
+    np.testing.assert_array_equal(kept, [np.arange(3.0)[None]])

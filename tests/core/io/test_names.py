@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cells import Cells
 from hexmend.io.names import distinct
 from tests.core.grids import grid
 
@@ -34,3 +35,23 @@ def test_sets_of_like_names_stay_apart(suffix, names, tmp_path):
     back = io.read(tmp_path / f"a{suffix}")
     for found in (back.hex_sets, back.node_sets):
         assert sorted(rows.tolist() for rows in found.values()) == [[k] for k in range(len(names))]
+
+
+@pytest.mark.parametrize(
+    ("suffix", "names"),
+    [
+        (".msh", ["a b", "a  b", " a b"]),
+        (".msh", [" ", "unnamed"]),
+        (".su2", ["a b", "a_b", "a%b"]),
+        (".su2", ["in", "in %", "in\t"]),
+    ],
+)
+def test_groups_and_markers_of_like_names_stay_apart(suffix, names, tmp_path):
+    mesh = grid(2)
+    quads = mesh.topology.boundary_faces[: len(names)]
+    mesh = mesh.replace(cells=(Cells("quad", quads, {}, {name: np.array([k]) for k, name in enumerate(names)}),))
+    assert any(said.startswith("names of sets as they are") for said in io.left_out(tmp_path / f"a{suffix}", mesh))
+    io.write(tmp_path / f"a{suffix}", mesh)
+    (back,) = io.read(tmp_path / f"a{suffix}").cells
+    members = [back.nodes[rows].tolist() for rows in back.sets.values()]
+    assert sorted(members) == sorted([row.tolist()] for row in quads)

@@ -1,0 +1,31 @@
+"""Formats on HDF5: what is none is refused at once, and what is one is read in a process of its own."""
+
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.io import child
+
+h5py = pytest.importorskip("h5py")
+SUFFIXES = (".med", ".vtkhdf", ".cgns", ".exo")
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_what_is_no_hdf5_file_is_refused_without_another_process(suffix, tmp_path, monkeypatch):
+    monkeypatch.setattr(child, "in_child", lambda reader, path: pytest.fail("a process was started"))
+    path = tmp_path / f"a{suffix}"
+    path.write_bytes(b"\x89HDF\r\n" + bytes(range(256)) * 8)
+    with pytest.raises(FileError, match="is no HDF5 file"):
+        io.read(path)
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@pytest.mark.parametrize("block", [0, 1024])
+def test_a_library_that_ends_takes_only_its_own_process_along(suffix, block, tmp_path, monkeypatch):
+    path = tmp_path / f"a{suffix}"
+    with h5py.File(path, "w", userblock_size=block) as file:
+        file["a"] = 1
+    (tmp_path / "h5py.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(FileError, match="ends the library that reads it"):
+        io.read(path)
