@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.carry import KINDS, WIDTHS
 from hexmend.io.cgns import ADF
+from hexmend.io.cgns_reader import JOINED_BY
 from hexmend.io.cgns_structured import hexes_between
 from hexmend.io.child import in_child
 from hexmend.io.content import Block, Content, joined, to_mesh
@@ -39,7 +40,7 @@ def content(path: Path) -> Content:
         )
     notes = ["Of a CGNS file of the ADF kind, boundary conditions are left out; adf2hdf makes a file that has them."]
     if len(zones) > 1:
-        notes.append(f"{len(zones)} zones are one mesh, and not joined where they meet.")
+        notes.append(f"{len(zones)} zones are one mesh; VTK does not tell where they meet. {JOINED_BY}")
     points, blocks, data, first = [], [], [], 0
     for name, zone in zones:
         here = _array(zone.GetPoints().GetData()).astype(np.float64)

@@ -18,6 +18,10 @@ from hexmend.io.content import HEX_KINDS, Block, Content, joined
 MEETING = 1e-5
 
 
+#: What joins zones of which nothing says where they meet.
+JOINED_BY = "hexmend repair --only coincident-nodes joins them where their faces lie on one another."
+
+
 def content(path: Path) -> Content:
     """What a CGNS file holds."""
     with hdf5.open_file(path) as file:
@@ -31,7 +35,7 @@ def content(path: Path) -> Content:
         notes.append(
             f"{len(zones)} zones are one mesh, joined at {len(points) - len(kept):,} nodes."
             if pairs
-            else f"{len(zones)} zones are one mesh; the file does not say where they meet, and they are not joined."
+            else f"{len(zones)} zones are one mesh; the file does not say where they meet. {JOINED_BY}"
         )
     blocks, node_sets, side_sets, before = [], {}, {}, 0
     for k, zone in enumerate(zones):
