@@ -17,7 +17,7 @@ help:
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
 	@echo "make docs              write anew what in docs is generated: tables, reference, drawings"
 	@echo "make site              build docs as a site: build/site/index.html"
-	@echo "make wheel             build a wheel and the sources' archive, and try the wheel: dist/"
+	@echo "make wheel             build the sources' archive and a wheel of it, and try that: dist/"
 	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
 	@echo "Add PYTHON=/path/to/python3 (3.11 to 3.13) to choose the Python of a new environment."
@@ -63,6 +63,7 @@ site: $(VENV)/.site
 
 wheel: $(VENV)/.wheel
 	@scripts/wheel $(BIN)
+	@scripts/debian-packages
 	@scripts/try-wheel "$(PYTHON)" dist/*.whl
 
 pins:
