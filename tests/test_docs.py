@@ -48,7 +48,8 @@ def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, 
 
 def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
     text = (DOCS / "tutorial.md").read_text(encoding="utf-8")
-    commands = [line.split()[1:] for line in re.findall(r"^hexmend .+", text, re.MULTILINE)]
+    listed = "".join(re.findall(r"^```\n(.*?)^```", text, re.DOTALL | re.MULTILINE))
+    commands = [line.split()[1:] for line in re.findall(r"^hexmend .+", listed, re.MULTILINE)]
     assert {words[0] for words in commands} == {"gallery", "info", "smooth", "compare", "render"}
     monkeypatch.chdir(tmp_path)
     assert [main(words) for words in commands] == [0] * len(commands)
