@@ -6,7 +6,7 @@ BIN    := $(VENV)/bin
 MESH   ?=
 CXX_SOURCES = $(shell find core/native -name "*.cpp" -o -name "*.hpp")
 
-.PHONY: help run test lint format bench study docs pins wheel clean
+.PHONY: help run test lint format bench study docs site pins wheel clean
 .NOTPARALLEL:
 
 help:
@@ -15,8 +15,9 @@ help:
 	@echo "make lint              check the style;  make format  mends it"
 	@echo "make bench             measure speed and memory"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
-	@echo "make docs              write the tables, the figures of the mathematics and the page of keys anew"
-	@echo "make wheel             build a wheel and the sources' archive, and try the wheel: dist/"
+	@echo "make docs              write anew what in docs is generated: tables, reference, drawings"
+	@echo "make site              build docs as a site: build/site/index.html"
+	@echo "make wheel             build the sources' archive and a wheel of it, and try that: dist/"
 	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
 	@echo "Add PYTHON=/path/to/python3 (3.11 to 3.13) to choose the Python of a new environment."
@@ -50,11 +51,19 @@ study: $(VENV)/.app $(VENV)/.kernels
 
 docs: $(VENV)/.app $(VENV)/.kernels
 	@$(BIN)/python scripts/tables.py
+	@$(BIN)/python scripts/write_reference.py
 	@$(BIN)/python scripts/draw_method_figures.py docs
+	@$(BIN)/python scripts/draw_floors.py
 	@QT_QPA_PLATFORM=offscreen $(BIN)/python scripts/write_keys.py
+
+# Warnings are errors, as mkdocs.yml says (with --quiet they would not be); the variable keeps an advertisement out.
+site: $(VENV)/.site
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
+	@echo "hexmend: the site begins at build/site/index.html"
 
 wheel: $(VENV)/.wheel
 	@scripts/wheel $(BIN)
+	@scripts/debian-packages
 	@scripts/try-wheel "$(PYTHON)" dist/*.whl
 
 pins:
@@ -66,7 +75,11 @@ $(VENV)/.app: pyproject.toml constraints.txt scripts/environment
 	@touch $@
 
 $(VENV)/.test: pyproject.toml constraints.txt scripts/environment
-	@scripts/environment "$(PYTHON)" $(VENV) app,build,test
+	@scripts/environment "$(PYTHON)" $(VENV) app,build,site,test
+	@touch $(VENV)/.app $(VENV)/.site $@
+
+$(VENV)/.site: pyproject.toml constraints.txt scripts/environment
+	@scripts/environment "$(PYTHON)" $(VENV) app,build,site
 	@touch $(VENV)/.app $@
 
 $(VENV)/.wheel: pyproject.toml constraints.txt scripts/environment

@@ -1,4 +1,4 @@
-"""Writes the tables of methods, metrics, formats and memory into README.md and docs, between marks; a test compares.
+"""Writes the tables of methods, metrics, formats, limits and memory into docs, between marks; a test compares.
 
 Use: python scripts/tables.py
 """
@@ -11,7 +11,9 @@ from pathlib import Path
 
 from hexmend.io import FORMATS
 from hexmend.io.format import Holds
-from hexmend.quality import METRICS
+from hexmend.optimise import Stop
+from hexmend.parameters import declared
+from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import amount, needed
 from hexmend.smoothers import METHODS
 
@@ -27,6 +29,12 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines).replace("| --- ", "|---").replace("|--- |", "|---|")
 
 
+def parameters(of: type) -> str:
+    """A table of the parameters that a class declares."""
+    rows = ((f"`{one.name}`", f"`{_shown(one.default)}`", one.range, one.unit, one.help) for one in declared(of))
+    return table(("name", "default", "values", "unit", "what"), rows)
+
+
 def methods() -> str:
     """The methods, the default first."""
     order = sorted(METHODS.values(), key=lambda method: method.name != "mend")
@@ -35,13 +43,24 @@ def methods() -> str:
 
 def metrics() -> str:
     """The metrics, those of the thesis first."""
-    order = sorted(METRICS.values(), key=lambda metric: ("q", "scaled-jacobian", metric.name).index(metric.name))
     which = {1: "higher", -1: "lower", 0: "–"}
     rows = (
         (f"`{one.name}`", one.formula, _range(one.full_range), _range(one.acceptable), which[one.better])
-        for one in order
+        for one in _metrics()
     )
     return table(("name", "formula", "range", "acceptable", "better"), rows)
+
+
+def meanings() -> str:
+    """What a bad value of each metric means."""
+    return table(
+        ("name", "title", "", "from"), ((f"`{one.name}`", one.title, one.meaning, one.source) for one in _metrics())
+    )
+
+
+def stops() -> str:
+    """When a stage of a recipe ends."""
+    return parameters(Stop)
 
 
 def formats() -> str:
@@ -71,8 +90,10 @@ def memory() -> str:
 
 #: Which table stands in which file.
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
-    "methods": ("README.md", methods),
-    "metrics": ("docs/method.md", metrics),
+    "methods": ("docs/methods.md", methods),
+    "metrics": ("docs/metrics.md", metrics),
+    "meanings": ("docs/metrics.md", meanings),
+    "stops": ("docs/recipes.md", stops),
     "formats": ("docs/formats.md", formats),
     "memory": ("docs/performance.md", memory),
 }
@@ -90,6 +111,15 @@ def written(name: str, text: str) -> str:
     if len(place.findall(text)) != 1:
         raise ValueError(f"there are {len(place.findall(text))} places for the table of {name}: expected one")
     return place.sub(lambda found: found[1] + TABLES[name][1]() + found[2], text)
+
+
+def _metrics() -> list[Metric]:
+    """Those of the thesis first."""
+    return sorted(METRICS.values(), key=lambda metric: ("q", "scaled-jacobian", metric.name).index(metric.name))
+
+
+def _shown(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool) else f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _range(ends: tuple[float, float]) -> str:

@@ -1,10 +1,13 @@
-"""The pages of docs: their pictures are there, and none stands there that no page shows."""
+"""The pages of docs: their pictures are there and small, none is left over, and what the tutorial says can be done."""
 
 import importlib.util
 import re
 from pathlib import Path
 
 import pytest
+
+from hexmend import io
+from hexmend.cli.main import main
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 PAGES = sorted(DOCS.glob("*.md"))
@@ -21,9 +24,14 @@ def test_pictures_of_a_page_are_there(page):
         assert (DOCS / file).is_file(), f"{page.name} shows {file}, which is not there"
 
 
+@pytest.mark.parametrize("picture", sorted(DOCS.glob("*.*g*")), ids=lambda picture: picture.name)
+def test_a_picture_is_small(picture):
+    assert picture.stat().st_size < 300_000
+
+
 def test_no_picture_is_left_over():
     shown = {file for page in PAGES for file in PICTURES.findall(page.read_text(encoding="utf-8"))}
-    assert {path.name for path in DOCS.iterdir() if path.suffix in (".png", ".svg")} <= shown
+    assert {path.name for path in DOCS.iterdir() if path.suffix in (".gif", ".png", ".svg")} <= shown
 
 
 def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, capsys):
@@ -36,3 +44,21 @@ def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, 
             assert (folder / file).stat().st_size < 100_000
         texts = [re.findall(r"<!-- (.+?) -->", (at / file).read_text(encoding="utf-8")) for at in (tmp_path, DOCS)]
         assert texts[0] == texts[1], f"{file}: run make docs"
+
+
+def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
+    text = (DOCS / "tutorial.md").read_text(encoding="utf-8")
+    listed = "".join(re.findall(r"^```\n(.*?)^```", text, re.DOTALL | re.MULTILINE))
+    commands = [line.split()[1:] for line in re.findall(r"^hexmend .+", listed, re.MULTILINE)]
+    assert {words[0] for words in commands} == {"gallery", "info", "smooth", "compare", "render"}
+    monkeypatch.chdir(tmp_path)
+    assert [main(words) for words in commands] == [0] * len(commands)
+    for words in commands:
+        for file in re.findall(r"\S+\.(?:vtu|png|json)", " ".join(words)):
+            assert (tmp_path / file).is_file()
+    said = capsys.readouterr().out
+    for figure in re.findall(r"[\d,]+(?= hexes| of them inverted| iterations)", text):
+        assert figure in said
+    (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    exec(compile(program, "tutorial.md", "exec"), {})
+    assert io.read("mended.vtu").n_hexes == io.read("bridge.vtu").n_hexes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import logging
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Generic, TypeVar
@@ -10,6 +11,8 @@ from typing import Generic, TypeVar
 from hexmend.errors import ParameterError
 
 T = TypeVar("T")
+
+log = logging.getLogger(__name__)
 
 
 class Registry(Mapping[str, T], Generic[T]):
@@ -70,3 +73,26 @@ class Registry(Mapping[str, T], Generic[T]):
                 add, self._others = self._others, None
                 add()
         return self._entries
+
+
+def load_others(group: str, kind: str, take: Callable[[str, object], object]) -> None:
+    """Load what other distributions add; what cannot be loaded or taken is told of, and the others go on.
+
+    Parameters
+    ----------
+    group : str
+        The entry-point group.
+    kind : str
+        What an entry is called in a message.
+    take : callable
+        Given each entry's name and what it names; raises for what is not wanted.
+    """
+    from importlib.metadata import entry_points  # which reads what is said of every distribution there is
+
+    for entry in sorted(entry_points(group=group), key=lambda entry: entry.name):
+        try:
+            take(entry.name, entry.load())
+        except (Exception, SystemExit) as error:  # whatever is wrong with it, the rest of the program is not to blame
+            of = entry.dist.name if entry.dist else "an unknown distribution"
+            said = " ".join(f"{type(error).__name__}: {error}".split())
+            log.warning("hexmend: the %s %s of %s is left out: %s", kind, entry.name, of, said)

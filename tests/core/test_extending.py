@@ -1,18 +1,21 @@
-"""Methods of other distributions: the example of docs/extending.md, as one that is installed, and what is wrong with some."""
+"""What other distributions add: the examples of docs/extending.md, as installed ones, and what is wrong with some."""
 
 import json
 import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
+import numpy as np
 import pytest
 
 from hexmend import gallery, io
+from hexmend.hexahedron import UNIT_CUBE
+from hexmend.mesh import Mesh
+from tests.core.grids import grid
+from tests.examples import example
 
-TEXT = (Path(__file__).resolve().parents[2] / "docs/extending.md").read_text(encoding="utf-8")
-EXAMPLE, _ = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
+EXAMPLE = example("A method")
 PROGRAM = """
 import json, sys
 from hexmend.cli.main import main
@@ -30,8 +33,8 @@ def installed(tmp_path):
     info.mkdir(parents=True)
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: my-methods\nVersion: 1.0\n")
 
-    def install(entries, **modules):
-        (info / "entry_points.txt").write_text(f"[hexmend.smoothers]\n{entries}\n")
+    def install(entries, group="smoothers", **modules):
+        (info / "entry_points.txt").write_text(f"[hexmend.{group}]\n{entries}\n")
         for name, text in modules.items():
             (site / f"{name}.py").write_text(text, encoding="utf-8")
         path = os.pathsep.join(filter(None, [str(site), os.environ.get("PYTHONPATH", "")]))
@@ -119,3 +122,58 @@ def test_who_names_a_method_of_hexmend_does_not_wait_for_others(installed, tmp_p
     assert done.returncode == 2
     assert "did you mean laplacian?" in done.stderr
     assert "odd of my-methods" in done.stderr
+
+
+SHEARED = UNIT_CUBE @ [[1, 0, 0], [1, 1, 0], [0, 0, 1]]  # SᵀS has 2 and 1 on its diagonal, 1 beside it, and 1
+ODDY = 4 + 1 + 1 + 1 + 1 - (2 + 1 + 1) ** 2 / 3
+
+
+def test_a_metric_is_one_like_any_other(installed, tmp_path):
+    mesh = tmp_path / "mesh.vtu"
+    io.write(mesh, Mesh(np.vstack([UNIT_CUBE, SHEARED + 5]), np.arange(16).reshape(2, 8)))
+    run = installed("oddy = my_metric:ODDY", "metrics", my_metric=example("A metric"))
+    done = run(["info", mesh, "--metrics", "--json"])
+    assert (done.returncode, done.stderr) == (0, "")
+    oddy = json.loads(done.stdout)["metrics"]["oddy"]
+    assert np.allclose([oddy["min"], oddy["max"]], [0, ODDY])
+
+
+def test_a_format_is_one_like_any_other(installed, tmp_path):
+    mesh, plain, other, back = (tmp_path / name for name in ("mesh.vtu", "mesh.hexes", "plain.txt", "back.vtu"))
+    io.write(mesh, gallery.make("cube", size=64, scramble=0.2))
+    run = installed("plain = my_format:PLAIN", "formats", my_format=example("A format"))
+    smooth = ["--method", "laplacian", "--max-iterations", 0]
+    done = run(["smooth", mesh, "-o", plain, *smooth])
+    assert (done.returncode, done.stderr) == (0, "")
+    plain.rename(other)  # whatever its suffix
+    done = run(["smooth", other, "-o", back, *smooth])
+    assert (done.returncode, done.stderr) == (0, "")
+    assert np.array_equal(io.read(back).points, io.read(mesh).points)
+    assert np.array_equal(io.read(back).hexes, io.read(mesh).hexes)
+
+
+@pytest.mark.parametrize(("text", "complaint"), [
+    ("hexes 8 1\n0 0 0\n", "is no plain mesh: 1 rows stand below its first line"),
+    ("hexes 1 1\n0 0 0\n0 0 0 0 0 0 0 9\n", "numbers from 0 to 0"),
+    ("hexes 8\n", "is no plain mesh"),
+])  # fmt: skip
+def test_a_spoilt_file_of_the_format_is_one_clear_line(installed, tmp_path, text, complaint):
+    path = tmp_path / "mesh.hexes"
+    path.write_text(text)
+    done = installed("plain = my_format:PLAIN", "formats", my_format=example("A format"))(["info", path])
+    assert done.returncode == 3
+    (line,) = done.stderr.splitlines()
+    assert line.startswith(f"hexmend: {path.name}: ")
+    assert complaint in line
+
+
+@pytest.mark.parametrize(("group", "words"), [
+    ("metrics", ["info", "{mesh}", "--metrics"]),
+    ("formats", ["info", "{mesh}.nothing"]),
+])  # fmt: skip
+def test_what_is_no_metric_or_format_is_left_out_in_a_line(installed, tmp_path, group, words):
+    mesh = tmp_path / "mesh.vtu"
+    io.write(mesh, grid(1))
+    (tmp_path / "mesh.vtu.nothing").write_text("nothing")
+    done = installed("odd = my_module:x", group, my_module="x = 3")([word.format(mesh=mesh) for word in words])
+    assert f"the {group[:-1]} odd of my-methods is left out: TypeError: 3 is no hexmend." in done.stderr

@@ -229,7 +229,7 @@ def test_single_hexes_and_many_agree():
 
 
 def test_the_documentation_lists_every_metric_as_it_is_declared():
-    text = (Path(__file__).resolve().parents[2] / "docs/method.md").read_text(encoding="utf-8")
+    text = (Path(__file__).resolve().parents[2] / "docs/metrics.md").read_text(encoding="utf-8")
     better = {1: "higher", -1: "lower", 0: "–"}
     for name, metric in METRICS.items():
         ranges = (
@@ -237,4 +237,4 @@ def test_the_documentation_lists_every_metric_as_it_is_declared():
             for low, high in (metric.full_range, metric.acceptable)
         )
         row = f"| `{name}` | {metric.formula.replace('|', chr(92) + '|')} | {' | '.join(ranges)} | {better[metric.better]} |"
-        assert row in text, f"docs/method.md has no line\n{row}"
+        assert row in text, f"docs/metrics.md has no line\n{row}"

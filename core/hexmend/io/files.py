@@ -114,12 +114,20 @@ def left_out(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
 
 def readable_suffixes() -> tuple[str, ...]:
     """Suffixes of the files that `read` understands, with the dot."""
-    return tuple(suffix for format in FORMATS.values() for suffix in format.suffixes)
+    return _suffixes(_every_format())
 
 
 def writable_suffixes() -> tuple[str, ...]:
     """Suffixes of the files that `write` makes, with the dot."""
-    return tuple(suffix for format in FORMATS.values() if format.write for suffix in format.suffixes)
+    return _suffixes(format for format in _every_format() if format.write)
+
+
+def _every_format() -> tuple[Format, ...]:
+    return *FORMATS.values(), *further()
+
+
+def _suffixes(formats: Iterable[Format]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(suffix for format in formats for suffix in format.suffixes))
 
 
 #: What to do about a mesh that is none, and about one of which coordinates are no numbers.
@@ -148,19 +156,20 @@ def _format_of(path: Path) -> Format:
             return format
         if not named and path.suffix.lower() in format.suffixes:
             return format
-    return named[0] if named else _unknown(path, "read", FORMATS.values())
+    return named[0] if named else _unknown(path, "read", _every_format())
 
 
 def _writer(path: Path) -> Format:
-    formats = [format for format in FORMATS.values() if format.write]
-    for format in formats:
-        if path.suffix.lower() in format.suffixes:
-            return format
-    return _unknown(path, "write", formats)
+    for formats in (FORMATS.values, further):  # other distributions' are looked for where none of ours writes it
+        for format in formats():
+            if format.write and path.suffix.lower() in format.suffixes:
+                return format
+    return _unknown(path, "write", [format for format in _every_format() if format.write])
 
 
 def _unknown(path: Path, verb: str, formats: Iterable[Format]) -> NoReturn:
-    known = ", ".join(f"{suffix} ({format.title})" for format in formats for suffix in format.suffixes)
+    titles = {suffix: format.title for format in reversed(tuple(formats)) for suffix in reversed(format.suffixes)}
+    known = ", ".join(f"{suffix} ({title})" for suffix, title in reversed(titles.items()))
     problem = f"the suffix {path.suffix!r} is unknown" if path.suffix else "the name has no suffix"
     raise FileError(path, problem, f"Hexmend can {verb} {known}.")
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import logging
 from functools import cache
 
 from hexmend.io.format import Format
-
-log = logging.getLogger(__name__)
+from hexmend.registry import load_others
 
 #: Entries name a `Format`.
 GROUP = "hexmend.formats"
@@ -16,15 +14,12 @@ GROUP = "hexmend.formats"
 @cache
 def further() -> tuple[Format, ...]:
     """Those formats, looked for once; one that cannot be loaded is told of, and the others go on."""
-    from importlib.metadata import entry_points  # which reads what is said of every distribution there is
+    found: list[Format] = []
 
-    found = []
-    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
-        try:
-            format = entry.load()
-            if isinstance(format, Format):
-                found.append(format)
-        except (Exception, SystemExit) as error:  # whatever is wrong with it, the rest of the program is not to blame
-            said = " ".join(f"{type(error).__name__}: {error}".split())
-            log.warning("hexmend: the format %s is left out: %s", entry.name, said)
+    def take(name: str, format: object) -> None:
+        if not isinstance(format, Format):
+            raise TypeError(f"{format!r} is no hexmend.io.Format")
+        found.append(format)
+
+    load_others(GROUP, "format", take)
     return tuple(found)

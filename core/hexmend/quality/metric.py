@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.quality.measure import ElementQuality
-from hexmend.registry import Registry
+from hexmend.registry import Registry, load_others
 
 #: Values (m,) from points (n, 3), hexes (m, 8) and the figures measured of them.
 Values = Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]
@@ -86,4 +86,19 @@ def by_kernel(kernel: Callable[..., None], rows: int, row: int, worst: float) ->
     return of
 
 
-METRICS: Registry[Metric] = Registry("metric")
+#: The entry-point group through which other distributions add theirs: entries name a `Metric`.
+GROUP = "hexmend.metrics"
+
+
+def add_third_parties() -> None:
+    """Load the metrics of other distributions."""
+    load_others(GROUP, "metric", _take)
+
+
+def _take(name: str, metric: object) -> None:
+    if not isinstance(metric, Metric):
+        raise TypeError(f"{metric!r} is no hexmend.quality.Metric")
+    METRICS.add(metric.name, metric)
+
+
+METRICS: Registry[Metric] = Registry("metric", add_third_parties)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from abc import ABC, abstractmethod
 from collections.abc import Generator
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import Parametrised, declared
 from hexmend.quality import ElementQuality
-from hexmend.registry import Registry
+from hexmend.registry import Registry, load_others
 
 #: What a smoother's `steps` gives.
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
@@ -85,8 +84,6 @@ class Smoother(Parametrised, ABC):
         return {"name": cls.name, "title": cls.title, "help": cls.help, "source": cls.source, "parameters": parameters}
 
 
-log = logging.getLogger(__name__)
-
 S = TypeVar("S", bound=type[Smoother])
 
 #: The entry-point group through which other distributions add theirs: entries name a module or a smoother's class.
@@ -94,18 +91,13 @@ GROUP = "hexmend.smoothers"
 
 
 def add_third_parties() -> None:
-    """Load the smoothers of other distributions; one that cannot be loaded is told of, and the others go on."""
-    from importlib.metadata import entry_points
+    """Load the smoothers of other distributions."""
+    load_others(GROUP, "method", _take)
 
-    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
-        try:
-            found = entry.load()  # a module announces its smoothers itself, by `method`
-            if isinstance(found, type) and found not in METHODS.values():
-                method(found)
-        except (Exception, SystemExit) as error:  # whatever is wrong with it, the rest of the program is not to blame
-            of = entry.dist.name if entry.dist else "an unknown distribution"
-            said = " ".join(f"{type(error).__name__}: {error}".split())
-            log.warning("hexmend: the method %s of %s is left out: %s", entry.name, of, said)
+
+def _take(name: str, found: object) -> None:
+    if isinstance(found, type) and found not in METHODS.values():  # a module announces its smoothers itself
+        method(found)
 
 
 METHODS: Registry[type[Smoother]] = Registry("method", add_third_parties)

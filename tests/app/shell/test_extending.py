@@ -1,23 +1,25 @@
-"""The feature of docs/extending.md, as a folder that is added: menu, palette, page of keys and window have it."""
+"""The feature and the metric of docs/extending.md: menu, palette, page of keys, window and pictures have them."""
 
 from __future__ import annotations
 
-import re
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
+from PySide6.QtWidgets import QComboBox
 
 import hexmend_app.features
 from hexmend import gallery
+from hexmend.cli.main import main
+from hexmend.io import write
 from hexmend.quality import METRICS
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.window import Window
 from hexmend_app.state.document import State
+from tests.examples import example
 
-TEXT = (Path(__file__).resolve().parents[3] / "docs/extending.md").read_text(encoding="utf-8")
-_, EXAMPLE = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
+EXAMPLE = example("A feature of the viewer")
 
 
 @pytest.fixture
@@ -58,3 +60,25 @@ def test_a_folder_is_enough(with_folder, cube):
 def cube():
     """A mesh."""
     return gallery.make("cube", size=64)
+
+
+@pytest.fixture
+def with_metric(monkeypatch):
+    """The metric of the page is among the others."""
+    module = {}
+    exec(compile(example("A metric"), "extending.md", "exec"), module)
+    monkeypatch.setattr(METRICS, "_entries", {**METRICS, "oddy": module["ODDY"]})
+
+
+def test_a_metric_is_in_the_lists_and_colours_pictures(with_metric, with_folder, tmp_path):
+    boxes = [box for box in with_folder.findChildren(QComboBox) if box.accessibleName() == "Metric"]
+    assert boxes
+    assert all(box.findData("oddy") >= 0 for box in boxes)
+    write(tmp_path / "mesh.vtu", gallery.make("cube", size=64, scramble=0.3))
+    pictures = []
+    for name in ("q", "oddy"):
+        path = tmp_path / f"{name}.png"
+        words = ["render", str(tmp_path / "mesh.vtu"), "-o", str(path), "--metric", name, "--no-bar"]
+        assert main([*words, "--size", "300x200", "--colour-range", "0,1"]) == 0
+        pictures.append(np.asarray(Image.open(path).convert("RGB"), float))
+    assert np.abs(pictures[0] - pictures[1]).mean() > 5

@@ -1,0 +1,83 @@
+"""What `make site` does beside what MkDocs does: formulas as MathML, titles in links, no need of a network.
+
+Formulas stand in the pages as `$...$` and `$$...$$`, which GitHub shows too; the extension arithmatex marks them. Links
+that are called as their file is, `[keys.md](keys.md)`, are called as the page is.
+"""
+
+from __future__ import annotations
+
+import html
+import re
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from latex2mathml.converter import convert
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File, Files
+
+_ROOT = Path(__file__).resolve().parents[1]
+_BY_FILE = re.compile(r"\[([\w-]+\.md)\]\((\1(?:#[\w-]*)?)\)")
+_FORMULA = re.compile(r'<(span|div) class="arithmatex">(.*?)</\1>', re.DOTALL)
+#: The bars of norms, and slashes, that would be set apart like operators between words.
+_CLOSE = re.compile(r"<mo[^>]*>(&#x0007C;|&#x0002F;|\||/)</mo>")
+_REMOTE = re.compile(r"""<(?:script|img|iframe|source)[^>]+src=["']?(?:https?:)?//|<link[^>]+stylesheet[^>]+//""")
+
+
+def on_files(files: Files, config: Any) -> Files:
+    """Add the program's icon and the letters of formulas."""
+    ziamath = Path(find_spec("ziamath").origin).parent  # not imported: only its font is wanted
+    added = {
+        "icon.svg": _ROOT / "resources/icon.svg",
+        "fonts/math.ttf": ziamath / "fonts/STIXTwoMath-Regular.ttf",
+    }
+    for name, path in added.items():
+        files.append(File.generated(config, name, abs_src_path=str(path)))
+    return files
+
+
+def on_page_markdown(markdown: str, config: Any, **_: Any) -> str:
+    """Call links by the titles of their pages."""
+    titles = {file: title for part in config["nav"] for entry in _entries(part) for title, file in entry.items()}
+
+    def titled(found: re.Match[str]) -> str:
+        return f"[{titles.get(found[1], found[1])}]({found[2]})"
+
+    return _BY_FILE.sub(titled, markdown)
+
+
+def _entries(part: dict[str, list[Any]]) -> list[dict[str, str]]:
+    return [entry for entries in part.values() for entry in entries if isinstance(entry, dict)]
+
+
+def on_page_content(page_html: str, page: Any, **_: Any) -> str:
+    """Put MathML in the place of formulas.
+
+    Raises
+    ------
+    PluginError
+        For a formula that cannot be read.
+    """
+
+    def mathml(found: re.Match[str]) -> str:
+        tex = html.unescape(found[2].strip())[2:-2]  # between \( and \), or \[ and \]
+        try:
+            made = convert(tex, display="block" if found[1] == "div" else "inline")
+        except Exception as error:  # of whatever kind: latex2mathml has many
+            raise PluginError(f"{page.file.src_uri}: the formula {tex!r} cannot be read: {error!r}") from None
+        return _CLOSE.sub(r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>', made)
+
+    return _FORMULA.sub(mathml, page_html)
+
+
+def on_post_page(output: str, page: Any, **_: Any) -> str:
+    """Let no page need a network.
+
+    Raises
+    ------
+    PluginError
+        For a page that would fetch a script, a style or a picture from elsewhere.
+    """
+    if remote := _REMOTE.search(output):
+        raise PluginError(f"{page.file.src_uri}: fetches from elsewhere: {remote[0]!r}")
+    return output

@@ -1,0 +1,106 @@
+"""Writes the pages of the reference that are made of what the program declares; a test compares.
+
+docs/methods.md: every method with its parameters. docs/commands.md: every command with its options. What stands above
+the mark in these files is written by hand, or by scripts/tables.py.
+
+Use: python scripts/write_reference.py
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from tables import parameters, table
+
+from hexmend.cli.main import commands
+from hexmend.parameters import declared
+from hexmend.smoothers import METHODS, Smoother
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+MARK = "<!-- written by make docs from here on -->\n"
+
+
+def methods() -> Iterator[str]:
+    """A section for each method, the default first."""
+    for one in sorted(METHODS.values(), key=lambda method: method.name != "mend"):
+        yield from _method(one)
+
+
+def _method(one: type[Smoother]) -> Iterator[str]:
+    yield f"## {one.name}"
+    yield f"**{one.title}.** {one.help} *{one.source}.*"
+    yield parameters(one) if declared(one) else "It has no parameters."
+
+
+def every_command() -> Iterator[str]:
+    """A section for each command: what it does, and its options."""
+    for name, load in commands().items():
+        command = load()
+        parser = argparse.ArgumentParser(prog=f"hexmend {name}", allow_abbrev=False, add_help=False)
+        command.arguments(parser)
+        yield f"## {name}"
+        yield command.help
+        yield f"```\n{_usage(parser)}\n```"
+        shown = (one for one in parser._actions if one.help is not argparse.SUPPRESS)
+        rows = [(_option(one), _help(one)) for one in shown]
+        yield table(("option", "what"), rows) if rows else "It has no options."
+
+
+def _usage(parser: argparse.ArgumentParser) -> str:
+    """What has to be named; options beside."""
+    needed = [one for one in parser._actions if one.required or not one.option_strings]
+    words = [_word(one) for one in sorted(needed, key=lambda one: bool(one.option_strings))]
+    optional = [] if len(needed) == len(parser._actions) else ["[OPTION]..."]
+    return " ".join([parser.prog, *words, *optional])
+
+
+def _word(one: argparse.Action) -> str:
+    name = _value(one)
+    if one.option_strings:
+        return f"{one.option_strings[0]} {name}".strip()
+    return {"?": f"[{name}]", "*": f"[{name}]...", "+": f"{name}..."}.get(str(one.nargs), name)
+
+
+def _value(one: argparse.Action) -> str:
+    if one.nargs == 0:
+        return ""
+    if one.choices is not None and one.metavar is None:
+        return "{" + ",".join(map(str, one.choices)) + "}"
+    return str(one.metavar or one.dest.upper())
+
+
+def _option(one: argparse.Action) -> str:
+    return ", ".join(f"`{f'{name} {_value(one)}'.strip()}`" for name in one.option_strings or ("",))
+
+
+def _help(one: argparse.Action) -> str:
+    text = (one.help or "").replace("%(default)s", str(one.default)).replace("%%", "%")
+    again = isinstance(one, argparse._AppendAction) and "repeated" not in text and "again" not in text
+    return text + ("; may be repeated" if again else "")
+
+
+PAGES: dict[str, Callable[[], Iterator[str]]] = {
+    "methods.md": methods,
+    "commands.md": every_command,
+}
+
+
+def written(name: str, text: str) -> str:
+    """A page's text with what is declared now.
+
+    Raises
+    ------
+    ValueError
+        Where the page lacks the mark.
+    """
+    if text.count(MARK) != 1:
+        raise ValueError(f"{name} has {text.count(MARK)} marks: expected one line {MARK!r}")
+    return text[: text.index(MARK)] + MARK + "\n" + "\n\n".join(PAGES[name]()) + "\n"
+
+
+if __name__ == "__main__":
+    for name in PAGES:
+        path = DOCS / name
+        path.write_text(written(name, path.read_text(encoding="utf-8")), encoding="utf-8")

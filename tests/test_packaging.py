@@ -1,0 +1,110 @@
+"""What an installation has beside its modules: one version, and what a desktop knows the viewer and its files by."""
+
+import configparser
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import xml.etree.ElementTree as ET
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import hexmend
+from hexmend import gallery, io
+from hexmend.cli.main import main
+from hexmend.io import FORMATS
+
+ROOT = Path(__file__).resolve().parents[1]
+DESKTOP = ROOT / "desktop"
+NAMESPACE = "{http://www.freedesktop.org/standards/shared-mime-info}"
+
+#: Suffixes that many other kinds of files have: these are opened from the viewer.
+COMMON = {".e", ".g", ".gen", ".dat"}
+
+#: Prints the type of each file named, as desktops tell it.
+TYPES = """
+import json, sys
+from PySide6.QtCore import QMimeDatabase
+database = QMimeDatabase()
+print(json.dumps({path: database.mimeTypeForFile(path).name() for path in sys.argv[1:]}))
+"""
+
+
+def suffixes():
+    """Types and suffixes by the file for desktops."""
+    types = ET.parse(DESKTOP / "hexmend.xml").getroot()
+    return {
+        one.get("type"): [glob.get("pattern").removeprefix("*") for glob in one.iter(f"{NAMESPACE}glob")]
+        for one in types
+    }
+
+
+def entry():
+    """The desktop entry."""
+    parser = configparser.ConfigParser(interpolation=None)
+    parser.optionxform = str
+    parser.read(DESKTOP / "hexmend.desktop", encoding="utf-8")
+    return parser["Desktop Entry"]
+
+
+def test_there_is_one_version(capsys):
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"hexmend {hexmend.__version__}\n"
+    assert version("hexmend") == hexmend.__version__
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert "version" in project["dynamic"]
+
+
+def test_the_viewer_opens_all_types_and_no_others():
+    assert sorted(entry()["MimeType"].strip(";").split(";")) == sorted(suffixes())
+    assert entry()["Exec"].split()[:2] == ["hexmend", "view"]
+
+
+def test_every_format_has_a_type():
+    known = {suffix for some in suffixes().values() for suffix in some}
+    assert known == {suffix for format in FORMATS.values() for suffix in format.suffixes} - COMMON
+
+
+def test_icons_are_of_their_sizes_and_installed():
+    build = (ROOT / "core/native/CMakeLists.txt").read_text(encoding="utf-8")
+    (listed,) = re.findall(r"foreach\(size ([\d ]+)\)", build)
+    assert sorted(map(int, listed.split())) == sorted(int(path.stem) for path in (DESKTOP / "icons").iterdir())
+    for path in (DESKTOP / "icons").iterdir():
+        with Image.open(path) as icon:
+            assert icon.size == (int(path.stem), int(path.stem))
+
+
+@pytest.mark.skipif(not shutil.which("desktop-file-validate"), reason="needs Debian's desktop-file-utils")
+def test_the_desktop_entry_is_valid():
+    done = subprocess.run(
+        ["desktop-file-validate", str(DESKTOP / "hexmend.desktop")], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout + done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(not shutil.which("update-mime-database"), reason="needs Debian's shared-mime-info")
+def test_files_are_told_apart(tmp_path):
+    packages = tmp_path / "share/mime/packages"
+    packages.mkdir(parents=True)
+    shutil.copy(DESKTOP / "hexmend.xml", packages)
+    environment = os.environ | {"XDG_DATA_HOME": str(tmp_path / "share"), "XDG_DATA_DIRS": "/usr/share"}
+    subprocess.run(["update-mime-database", str(packages.parent)], env=environment, capture_output=True, check=True)
+    expected = {}
+    mesh = gallery.make("cube", size=27)
+    for type, some in suffixes().items():
+        for suffix in set(some) & set(io.writable_suffixes()):
+            path = tmp_path / f"mesh{suffix}"
+            io.write(path, mesh)
+            expected[str(path)] = type
+    assert len(expected) > 10
+    font = tmp_path / "font.bdf"
+    font.write_text("STARTFONT 2.1\n")
+    expected[str(font)] = "application/x-font-bdf"
+    done = subprocess.run([sys.executable, "-c", TYPES, *expected], env=environment, capture_output=True, text=True)
+    assert json.loads(done.stdout) == expected

@@ -1,0 +1,84 @@
+"""The pages of docs as a site: it is built without a warning, whole, and needs no network; what is wrong is told."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def build(folder, config="mkdocs.yml"):
+    """The process that has built a site into a folder."""
+    words = [sys.executable, "-m", "mkdocs", "build", "--config-file", config, "--site-dir", folder]
+    environment = os.environ | {"NO_MKDOCS_2_WARNING": "1"}
+    return subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("site")
+    done = build(folder)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def test_every_page_is_there(site):
+    pages = sorted(path.stem for path in (ROOT / "docs").glob("*.md"))
+    assert pages == sorted(path.stem for path in site.glob("*.html") if path.stem != "404")
+
+
+def test_every_formula_is_mathml(site):
+    for path in site.glob("*.html"):
+        written = (ROOT / "docs" / f"{path.stem}.md").with_suffix(".md")
+        text = path.read_text(encoding="utf-8")
+        assert "arithmatex" not in text
+        if written.exists():
+            prose = re.sub(r"```.*?```|`[^`\n]*`", "", written.read_text(encoding="utf-8"), flags=re.DOTALL)
+            assert text.count("<math") == len(re.findall(r"\$\$.+?\$\$|\$[^$]+\$", prose, re.DOTALL))
+    assert (site / "fonts/math.ttf").stat().st_size > 100_000
+
+
+def test_links_are_called_as_their_pages_are(site):
+    text = (site / "window.html").read_text(encoding="utf-8")
+    assert '<a href="keys.html">Mouse and keys</a>' in text
+    assert not re.search(r"<a[^>]*>[\w-]+\.md</a>", text)
+
+
+@pytest.fixture
+def other(tmp_path):
+    """A way to build a site of other pages in the same manner; gives the process. Nothing but index.md is led to."""
+    config = tmp_path / "mkdocs.yml"
+    config.write_text(
+        f"INHERIT: {ROOT}/mkdocs.yml\ndocs_dir: docs\nhooks: [{ROOT}/scripts/site_hooks.py]\nextra_css: []\n"
+        "nav: [{Start: [index.md]}]\n"
+    )
+    (tmp_path / "docs").mkdir()
+
+    def made(**pages):
+        for name, text in pages.items():
+            (tmp_path / "docs" / f"{name}.md").write_text(f"# Page\n\n{text}\n")
+        return build(tmp_path / "site", str(config))
+
+    return made
+
+
+def test_pages_without_fault_are_built(other):
+    assert other(index="See [this](#page): $x^2$.").returncode == 0
+
+
+@pytest.mark.parametrize(("pages", "complaint"), [
+    ({"index": "See [that](nowhere.md)."}, "nowhere.md"),
+    ({"index": "See [that](#nowhere)."}, "nowhere"),
+    ({"index": "", "lonely": ""}, "lonely.md"),
+    ({"index": "$\\left( x$"}, "cannot be read"),
+    ({"index": "![far](https://example.org/far.png)"}, "fetches from elsewhere"),
+    ({"index": "<script src='//example.org/x.js'></script>"}, "fetches from elsewhere"),
+])  # fmt: skip
+def test_what_is_wrong_is_told(other, pages, complaint):
+    done = other(**pages)
+    assert done.returncode != 0
+    assert complaint in done.stderr
