@@ -227,12 +227,13 @@ class Canvas(CameraView):
         self.menu_requested.emit(self._at(place), self.interactor.mapToGlobal(place.toPoint()))
 
     def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
-        """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
-        from hexmend_app.scene.export.picture import write_picture  # with what no view needs
-        from hexmend_app.scene.export.views import picture_of
+        """Write what is seen, without the plane, at any size in pixels; of several views, all with their captions."""
+        from hexmend_app.scene.export.views import draw_views, scene_of  # with what no view needs
+        from hexmend_app.state.scene import Page
 
-        image = picture_of(self.panes, [caption.name for caption in self.frame.captions], size, transparent)
-        write_picture(path, image)
+        names = [caption.name for caption in self.frame.captions]
+        page = Page(pixels=size, background="transparent" if transparent else "white")
+        draw_views(scene_of(self.panes, names, page), self.panes, names).write(path)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""

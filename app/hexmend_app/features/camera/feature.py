@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, Feature, Host, Seen
 from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.eye import Journey, Stand
+from hexmend_app.state.eye import Journey
+from hexmend_app.state.stand import Stand
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas

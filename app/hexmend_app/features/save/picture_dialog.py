@@ -98,13 +98,13 @@ class PictureDialog(QDialog):
 
     def accept(self) -> None:
         """Close where a picture can be written to the path, and remember its folder; or say why not."""
-        from hexmend_app.scene.export.picture import check_picture
+        from hexmend_app.scene.export.sheet import format_of
 
         if not self._path.text().strip():
             self._refuse("Name the file that the picture goes to.")
             return
         try:
-            check_picture(self.path())
+            format_of(self.path())
         except FileError as error:
             self._refuse(str(error))
             return
