@@ -32,7 +32,7 @@ def draw_captions(ink: Ink, layout: Layout) -> None:
         _write(ink, box.left, middle, room, f"{letter} {panel.caption or first.name}".strip(), said)
         if panel.wipe is not None:
             other, edge = subjects[panel.wipe.mesh - 1], box.left + round(panel.wipe.at * box.width)
-            _write(ink, edge, middle, box.width - room, other.name, other.said if figures else "")
+            _write(ink, edge, middle, box.width - room, panel.wipe.caption or other.name, other.said if figures else "")
             ink.lines((edge, box.top - layout.caption, edge, box.top + box.height))
 
 

@@ -42,7 +42,9 @@ def draw_views(scene: Scene, panes: Panes, names: Sequence[str] = ()) -> Sheet:
 def _panels(panes: Panes, names: Sequence[str]) -> tuple[Panel, ...]:
     wipe = panes.wipe
     if wipe is not None:
-        return (Panel(mesh=wipe.left + 1, caption=names[wipe.left], wipe=Wiped(wipe.right + 1, wipe.at)),)
+        return (
+            Panel(mesh=wipe.left + 1, caption=names[wipe.left], wipe=Wiped(wipe.right + 1, wipe.at, names[wipe.right])),
+        )
     if len(panes.all) == 1:
         return ()
     return tuple(Panel(mesh=number, caption=name) for number, name in enumerate(names, 1))

@@ -8,6 +8,7 @@ from hexmend_app.state.scene.cut import Box, Cut, CutStyle, Plane
 from hexmend_app.state.scene.page import Axes, Bar, Captions, Corner, Lines, Page, Place
 from hexmend_app.state.scene.scene import FORMAT, Scene
 from hexmend_app.state.scene.show import Colours, Isolate, Range, Show
+from hexmend_app.state.scene.table import Table
 from hexmend_app.state.scene.toml import camera_from, camera_text, from_toml, read_scene, to_toml, write_scene
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "Range",
     "Scene",
     "Show",
+    "Table",
     "Wiped",
     "camera_from",
     "camera_text",

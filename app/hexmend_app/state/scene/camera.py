@@ -98,10 +98,13 @@ class Wiped(Table):
         Its number on the command line.
     at : float
         Where the edge is, as a share of the width: on its right the other mesh is seen.
+    caption : str
+        What is written above that; without it, the name of the mesh's file.
     """
 
     mesh: int = key(2, low=1, high=MOST)
     at: float = key(0.5, low=0, high=1)
+    caption: str = key("")
 
 
 @dataclass(frozen=True)

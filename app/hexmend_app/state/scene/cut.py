@@ -33,6 +33,7 @@ class Plane(Table):
     Parameters
     ----------
     normal : Vector
+        Where it points to.
     position : float, optional
         How far through the mesh along the normal it stands: 0.5, in the middle, where nothing is said.
     point : Vector, optional

@@ -98,6 +98,7 @@ class Axes(Table):
     Parameters
     ----------
     show : bool
+        Draw them.
     place : Corner
         lower left, lower right, upper left or upper right.
     """
@@ -142,7 +143,7 @@ class Page(Table):
     height: float | None = key(low=5, high=3000, unit="mm")
     pixels: tuple[int, int] | None = key(low=_LEAST_SIDE, high=_MOST_SIDE)
     dpi: float | None = key(low=5, high=4800)
-    background: str = key("white")
+    background: str = key("white", offered=("white", "transparent", "#f2f2f2"))
     margin: float = key(0.0, low=0, high=500, unit="mm")
     columns: int | None = key(low=1, high=12)
     crop: bool = key(False)

@@ -27,6 +27,7 @@ class Key(NamedTuple):
 
     `name` is as a file writes it and `field` as the dataclass does; bounds are of its number, or of each number of a
     list, which has `most` entries at most; `open_ended` admits infinity.
+    Of any text, some are `offered`.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Key(NamedTuple):
     most: int | None = None
     unit: str = ""
     open_ended: bool = False
+    offered: tuple[str, ...] = ()
 
     @property
     def bounds(self) -> str:
