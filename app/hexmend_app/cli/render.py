@@ -58,6 +58,7 @@ class Render:
         scene.panels_of(len(args.mesh))  # what is wrong is said before the work, not after
         from hexmend_app.scene.graphics import prepare_off_screen
         from hexmend_app.state.scene import write_scene
+        from hexmend_app.state.scene.carried import Pictured, carrying
 
         prepare_off_screen()
         from hexmend_app.scene.export.sheet import draw_sheet, format_of
@@ -68,7 +69,9 @@ class Render:
             write_scene(args.save_scene, scene)
         meshes = [read(path) for path in args.mesh]
         sheet = draw_sheet(scene, _subjects(scene, meshes, [Path(path).stem for path in args.mesh]))
-        sheet.write(Path(args.output))
+        output = Path(args.output)
+        shown = [Pictured.of(mesh, mesh, Path(path), output) for mesh, path in zip(meshes, args.mesh, strict=True)]
+        sheet.write(output, carrying(scene, shown))
         print(f"{args.output}: {sheet.size[0]} × {sheet.size[1]} pixels")
         return 0
 

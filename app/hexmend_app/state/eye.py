@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend_app.state.scene import Camera
 from hexmend_app.state.stand import Stand
 
 #: Places that the camera can go back or forward to, with the one where it stands.
@@ -43,8 +44,8 @@ class Eye(QObject):
         Gives where the camera stands, a Stand, or None where there is no view; who has the camera sets it.
     travelled : callable
         Gives its Journey; who has the camera sets it.
-    wanted : Stand or None
-        Where it is to stand as soon as there is a view of the open mesh.
+    wanted : Camera or None
+        From where it is to look as soon as there is a view of the open mesh.
     journey : Journey
         What is to lie behind it then, and before it.
 
@@ -60,14 +61,18 @@ class Eye(QObject):
         super().__init__(parent)
         self.now: Callable[[], Stand | None] = lambda: None
         self.travelled: Callable[[], Journey] = Journey
-        self.wanted: Stand | None = None
+        self.wanted: Camera | None = None
         self.journey = Journey()
 
     def given(self) -> Stand | None:
         """What a session keeps."""
-        return self.wanted or self.now()
+        return (self.wanted and self.wanted.stand) or self.now()
 
     def take(self, stand: Stand | None, journey: Journey) -> None:
         """Have the camera stand where a session has kept it, with the way that it has come."""
-        self.wanted, self.journey = stand, journey
+        self.look_through(None if stand is None else Camera.at(stand), journey)
+
+    def look_through(self, camera: Camera | None, journey: Journey | None = None) -> None:
+        """Have the mesh looked at as a scene has it, with no way behind it where none is given."""
+        self.wanted, self.journey = camera, journey or Journey()
         self.called.emit()

@@ -122,7 +122,7 @@ class FeatureCamera(Feature):
         Where a session says where the camera is to stand, it does once the session's mesh is drawn.
         """
         if self.session.eye.wanted is not None and self._draws:
-            self.canvas.stand_at(self.session.eye.wanted, self.session.eye.journey)
+            self._look_through(self.session.eye.wanted, self.session.eye.journey)
             self.session.eye.wanted, self.session.eye.journey = None, Journey()
         isolated = self.session.view.look.isolation is not None
         if self.canvas is not None and self._seen.another("isolated", isolated):
@@ -166,8 +166,11 @@ class FeatureCamera(Feature):
         except ParameterError as error:
             self.host.messages.show_error("The camera cannot be pasted", f"{error}.")
             return
+        self._look_through(camera)
+
+    def _look_through(self, camera: Camera, journey: Journey | None = None) -> None:
         if camera.stand is not None:
-            self.canvas.stand_at(camera.stand)
+            self.canvas.stand_at(camera.stand, journey)
         else:
             self.canvas.set_up(camera.up)
             self.canvas.set_parallel(camera.parallel)

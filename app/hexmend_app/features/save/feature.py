@@ -7,10 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from hexmend.io.session import SUFFIX
+from hexmend.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.run import Phase
 from hexmend_app.state.scene import Page, Scene
+from hexmend_app.state.scene.carried import Pictured, carrying
 from hexmend_app.widgets.questions import Answer, ask_session, ask_target, ask_unsaved
 
 
@@ -107,11 +109,23 @@ class FeatureSave(Feature):
         page = Page(pixels=size, background="transparent" if transparent else "white")
         return self.write_picture(Path(path), self.canvas.scene(page))
 
+    def _carried(self, path: Path, scene: Scene) -> dict[str, str]:
+        """What a picture carries: the scene, which meshes it shows, and what ran on the first of them."""
+        session = self.session
+        document, work = session.document, session.smoothing.work
+        shown = [document.now.mesh, *(one.state.mesh for one in session.views.all)]
+        opened = document.start.mesh
+        recipe = None
+        if work is not None and document.now is not document.start:
+            begun = session.order.begun
+            recipe = work if isinstance(work, Recipe) else Recipe.of(begun if begun is not None else work)
+        return carrying(scene, [Pictured.of(opened, mesh, document.path, path) for mesh in shown], recipe)
+
     def write_picture(self, path: Path, scene: Scene) -> bool:
         """Write a scene of what is seen; whether it was."""
         width, height = scene.page.size
         return self.host.said(
             "The picture was not saved",
-            lambda: self.canvas.sheet(scene).write(path),
+            lambda: self.canvas.sheet(scene).write(path, self._carried(path, scene)),
             f"Picture of {width} × {height} pixels saved to {path}",
         )

@@ -26,7 +26,7 @@ class Key(NamedTuple):
     """A key of a table as it is declared.
 
     `name` is as a file writes it and `field` as the dataclass does; bounds are of its number, or of each number of a
-    list, which has `most` entries at most; `open_ended` admits infinity.
+    list, which has `most` entries at most, or of a text that many letters; `open_ended` admits infinity.
     Of any text, some are `offered`.
     """
 
@@ -186,7 +186,7 @@ def _taken(value: Any, kind: Any, one: Key, where: Path) -> Any:
         if value not in list(kind):
             raise Misplaced.of(where, value, f"is unknown: expected {', '.join(kind)}")
         return kind(value)
-    return _text(value, where) if kind is str else _number(value, kind, one, where)
+    return _text(value, where, one.most or LONGEST) if kind is str else _number(value, kind, one, where)
 
 
 def _one_of(value: Any, kinds: tuple[Any, ...], one: Key, where: Path) -> Any:
@@ -222,11 +222,11 @@ def _named(value: Any, kind: type, one: Key, where: Path) -> dict[str, Any]:
     return {_text(name, where): _taken(entry, kind, one, (f"{outside}.{name}",)) for name, entry in value.items()}
 
 
-def _text(value: Any, where: Path) -> str:
+def _text(value: Any, where: Path, longest: int = LONGEST) -> str:
     if not isinstance(value, str):
         raise Misplaced.of(where, value, "is no text: expected one in quotes")
-    if len(value) > LONGEST or not value.isprintable():
-        raise Misplaced.of(where, value, f"is no text of a line: expected {LONGEST} letters at most")
+    if len(value) > longest or not value.isprintable():
+        raise Misplaced.of(where, value, f"is no text of a line: expected {longest} letters at most")
     return value
 
 

@@ -16,7 +16,7 @@ from hexmend.io.text import read_text
 from hexmend.toml_text import parsed
 from hexmend_app.state.scene.camera import Camera
 from hexmend_app.state.scene.scene import Scene
-from hexmend_app.state.scene.table import keys, made, plain
+from hexmend_app.state.scene.table import Table, keys, made, plain
 
 #: Letters of a scene, which may name hexes one by one.
 LARGEST = 4_000_000
@@ -40,6 +40,11 @@ def to_toml(scene: Scene) -> str:
         elif rows := _rows(value):
             lines += ["", f"[{one.name}]", *rows]
     return "\n".join(lines) + "\n"
+
+
+def table_text(table: Table) -> str:
+    """A table alone as TOML text."""
+    return "\n".join(_rows(table)) + "\n"
 
 
 def from_toml(text: str) -> Scene:
