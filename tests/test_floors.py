@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # From the ground up; an import goes down, or stays inside one package's own folder.
 CORE = [
     {"arrays", "cells", "errors", "hexahedron", "shape_functions"},
-    {"figures", "mesh_checks", "parameters", "registry", "second_order"},
+    {"figures", "mesh_checks", "parameters", "registry", "second_order", "toml_text"},
     {"kernels"},
     {"topology"},
     {"mesh"},

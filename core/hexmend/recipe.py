@@ -27,6 +27,7 @@ from hexmend.errors import ParameterError
 from hexmend.optimise import Stop
 from hexmend.parameters import from_values, hint
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.toml_text import parsed
 
 #: The number of the format that is written; lower ones can be read.
 FORMAT = 1
@@ -121,7 +122,7 @@ def from_toml(text: str) -> Recipe:
     ParameterError
         Naming line and column where it is no TOML, else the stage, the key and what was expected there.
     """
-    data = _parsed(text)
+    data = parsed(text, "a recipe")
     _check_format(data)
     _check_keys("the recipe", data, ("format", "title", "stage"))
     title, stages = data.get("title", ""), data.get("stage", [])
@@ -130,20 +131,6 @@ def from_toml(text: str) -> Recipe:
     if not isinstance(stages, list) or not all(isinstance(stage, dict) for stage in stages) or not stages:
         raise ParameterError('the recipe has no stage: expected [[stage]] and a line such as  method = "mend"')
     return Recipe.of(*(_read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
-
-
-def _parsed(text: str) -> dict[str, Any]:
-    import tomllib
-
-    try:
-        return tomllib.loads(text)
-    except RecursionError:
-        raise ParameterError("is nested too deeply to be a recipe") from None
-    except ValueError as error:  # tomllib's own, and that of a number with thousands of digits
-        lines = text.splitlines() or [""]
-        end = f"at line {len(lines)}, column {len(lines[-1]) + 1}, the end"
-        said = str(error).replace("at end of document", end)
-        raise ParameterError(f"is not TOML: {said[:1].lower()}{said[1:]}") from None
 
 
 def _check_format(data: Mapping[str, Any]) -> None:

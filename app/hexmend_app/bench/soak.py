@@ -153,7 +153,7 @@ def _round(window: Window, path: Path, method: str, folder: Path) -> None:
     session.commands.save(folder / "mesh.vtu")
     saved = folder / "round.hexmend"
     session.commands.save(saved)
-    window.canvas.save_picture(folder / "picture.png", (1280, 800), transparent=False)
+    window.features["save"].picture(folder / "picture.png", (1280, 800))
     _open(window, saved)
     for change in (session.commands.undo, session.commands.redo, session.commands.reset):
         change()

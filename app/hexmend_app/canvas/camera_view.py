@@ -16,7 +16,8 @@ from hexmend_app.canvas.view_keys import move_of
 from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.panes import Panes
 from hexmend_app.state.clip import ClipPlane
-from hexmend_app.state.eye import Journey, Stand
+from hexmend_app.state.eye import Journey
+from hexmend_app.state.stand import Stand
 from hexmend_app.widgets.style import explain
 
 #: Milliseconds of rest after which the fine still frame is drawn.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QColor, QPainter, QPaintEvent, QResizeEvent
@@ -29,6 +29,10 @@ from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.views import Wipe
 from hexmend_app.widgets.overlay import Overlay
 from hexmend_app.widgets.style import dress
+
+if TYPE_CHECKING:
+    from hexmend_app.scene.export.sheet import Sheet
+    from hexmend_app.state.scene import Page, Scene
 
 #: Width in pixels of the ring that marks the focus, and how the focus comes by keys.
 _RING = 2
@@ -226,13 +230,22 @@ class Canvas(CameraView):
     def _ask_for_menu(self, place: QPointF) -> None:
         self.menu_requested.emit(self._at(place), self.interactor.mapToGlobal(place.toPoint()))
 
-    def save_picture(self, path: Path, size: tuple[int, int], transparent: bool) -> None:
-        """Write what is seen, without the plane, as PNG of any size; of several views, all with their captions."""
-        from hexmend_app.scene.export.picture import write_picture  # with what no view needs
-        from hexmend_app.scene.export.views import picture_of
+    @property
+    def names(self) -> list[str]:
+        """What the captions of several views call them."""
+        return [caption.name for caption in self.frame.captions]
 
-        image = picture_of(self.panes, [caption.name for caption in self.frame.captions], size, transparent)
-        write_picture(path, image)
+    def scene(self, page: Page) -> Scene:
+        """The scene that shows what is seen, without the plane, on a page."""
+        from hexmend_app.scene.export.views import scene_of  # with what no view needs
+
+        return scene_of(self.panes, self.names, page)
+
+    def sheet(self, scene: Scene) -> Sheet:
+        """A scene of what is seen, drawn."""
+        from hexmend_app.scene.export.views import draw_views
+
+        return draw_views(scene, self.panes, self.names)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let go of the graphics while the window still exists."""

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colours import range_label
+from hexmend_app.scene.ticks import ticks_with_ends
 from hexmend_app.widgets.style import INVERTED, LINE, MUTED, PANEL, TEXT, dress, explain, smaller, tabular
 
 #: Pixels: of the whole, of the gradient, of a tick, and between a tick and its number.
@@ -19,24 +20,6 @@ _HEIGHT = 300
 _THICKNESS, _TICK, _GAP = 14.0, 4.0, 3.0
 _WIDEST_TITLE = 116
 _MOST_TICKS = 11
-
-
-def nice_ticks(low: float, high: float, most: int) -> list[float]:
-    """At most `most` multiples of 1, 2, 2.5 or 5 times a power of ten in [low, high].
-
-    >>> nice_ticks(0, 1, 6)
-    [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
-    >>> nice_ticks(0.31, 0.44, 4)
-    [0.35, 0.4]
-    """
-    if not high > low or most < 1:
-        return []
-    power = math.floor(math.log10((high - low) / most))
-    for step in (round(m * 10.0**e, 12 - e) for e in (power, power + 1, power + 2) for m in (1, 2, 2.5, 5)):
-        first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-        if last - first + 1 <= most:
-            return [round(k * step, 10) for k in range(first, last + 1)]
-    return []
 
 
 class ColourBar(QFrame):
@@ -169,16 +152,8 @@ class _Gradient(QWidget):
 
     def ticks(self, length: float) -> list[float]:
         """Both ends, and of the round values between them those that leave each number its room on so many pixels."""
-        low, high, room = self.low, self.high, 2 * QFontMetricsF(self.font()).height()
-        if not high > low:
-            return []
-        near = room / max(length, 1) * (high - low)
-        between: list[float] = []
-        for most in range(min(int(length / room) + 1, _MOST_TICKS), 2, -1):
-            between = nice_ticks(low, high, most)
-            if len(between) < 2 or between[1] - between[0] >= near:
-                break
-        return [low, *(tick for tick in between if low + near <= tick <= high - near), high]
+        room = 2 * QFontMetricsF(self.font()).height() / max(length, 1)
+        return ticks_with_ends(self.low, self.high, room, _MOST_TICKS)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint gradient, ticks and numbers."""

@@ -1,4 +1,4 @@
-"""The options of `hexmend render` that cut the mesh open."""
+"""The options of commands that draw, which cut the mesh open."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from hexmend_app.cli.numbers import direction, numbers, wrong
 
 if TYPE_CHECKING:
-    from hexmend.mesh import Mesh
-    from hexmend_app.state.clip import BoxClip, Clip, ClipPlane
+    from hexmend_app.state.scene import Box, Cut, Plane
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
@@ -37,41 +36,42 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     cut.add_argument("--smooth", action="store_true", help="cut through the hexes")
 
 
-def clip_of(args: argparse.Namespace, mesh: Mesh) -> Clip | None:
-    """The cut that the options ask for; None for none."""
-    from hexmend_app.state.clip import PlaneClip
+def cut_of(args: argparse.Namespace) -> Cut | None:
+    """The cut that the options ask for; None where they ask for none."""
+    from dataclasses import replace
 
+    from hexmend_app.state.scene import Cut, CutStyle
+
+    style = CutStyle.SMOOTH if args.smooth else CutStyle.CRINKLE
     if args.clip_box:
-        return box(args.clip_box, mesh, crinkle=not args.smooth, notch=args.notch)
+        return Cut(box=box(args.clip_box), style=style, notch=args.notch)
     if not args.clip:
         return None
-    planes = (plane(text, mesh) for text in args.clip)
-    return PlaneClip(tuple(one.flipped() if args.flip else one for one in planes), not args.smooth, args.notch)
+    planes = tuple(map(plane, args.clip))
+    if args.flip:
+        turned = ((tuple(-c for c in one.normal), 1 - one.position) for one in planes)
+        planes = tuple(replace(one, normal=n, position=p) for one, (n, p) in zip(planes, turned, strict=True))
+    return Cut(planes, style=style, notch=args.notch)
 
 
-def plane(text: str, mesh: Mesh) -> ClipPlane:
+def plane(text: str) -> Plane:
     """The plane that `--clip` names: an axis or a normal, and how far through the mesh it stands."""
-    from hexmend_app.state.clip import ClipPlane
+    from hexmend_app.state.scene import Plane
 
     axis, _, position = text.partition(":")
     normal = _AXES.get(axis.lower()) or direction(axis, "--clip")
     (share,) = numbers(position, 1, "--clip") if position else (0.5,)
     if not 0 <= share <= 1:
         raise wrong("--clip", text, "a position from 0 to 1, as in x:0.5")
-    along = mesh.points[mesh.topology.used] @ normal
-    place = along.min() + share * (along.max() - along.min())
-    return ClipPlane(normal, tuple(c * place / sum(n * n for n in normal) for c in normal))
+    return Plane(normal, share)
 
 
-def box(text: str, mesh: Mesh, *, crinkle: bool, notch: bool) -> BoxClip:
+def box(text: str) -> Box:
     """The box that `--clip-box` names."""
-    import numpy as np
+    from hexmend_app.state.scene import Box
 
-    from hexmend_app.state.clip import BoxClip
-
-    shares = np.array(numbers(text, 6, "--clip-box")).reshape(3, 2)
-    if shares.min() < 0 or shares.max() > 1 or (shares[:, 0] > shares[:, 1]).any():
+    shares = numbers(text, 6, "--clip-box")
+    low, high = shares[::2], shares[1::2]
+    if min(shares) < 0 or max(shares) > 1 or any(a > b for a, b in zip(low, high, strict=True)):
         raise wrong("--clip-box", text, "for each axis two positions from 0 to 1, the lower first")
-    points = mesh.points[mesh.topology.used]
-    low, high = points.min(axis=0), points.max(axis=0)
-    return BoxClip(*(tuple(low + (high - low) * share) for share in shares.T), crinkle, notch)
+    return Box(low, high, shares=True)

@@ -11,16 +11,19 @@ from PIL import Image
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend.hexahedron import EDGES
+from hexmend.io.atomic import replacing
 from hexmend.mesh import Mesh
-from hexmend.quality import measure
 from hexmend.study.mesh_figures import MeshFigure
-from hexmend_app.scene.camera.directions import look_from
-from hexmend_app.scene.camera.fitting import fit
-from hexmend_app.scene.export.picture import picture, strip_height, write_picture
-from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.camera.pose import Pose
+from hexmend_app.scene.export.layout import Layout
+from hexmend_app.scene.export.rasters import aim
+from hexmend_app.scene.export.sheet import draw_sheet
+from hexmend_app.scene.export.subject import Subject
 from hexmend_app.scene.graphics import prepare_off_screen
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation, Look, Structure
+from hexmend_app.state.scene import Camera, Page, Place, Scene
+from hexmend_app.state.stand import Stand
 
 #: Width and height in pixels.
 SIZE = (900, 600)
@@ -39,7 +42,7 @@ _PRESSED = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class _Scene:
+class _Shown:
     """What is drawn, how, and the places (k, 3) that the picture is to hold."""
 
     mesh: Mesh
@@ -58,15 +61,17 @@ def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
         Where the file cannot be written.
     """
     prepare_off_screen()
-    scene = _SCENES[figure.shows](mesh)
-    bar = 0 if scene.look.neutral else strip_height(SIZE)
-    width, height = SIZE
+    shown = _SHOWN[figure.shows](mesh)
+    subject, page = Subject.of(shown.mesh), Page(pixels=SIZE)
+    layout = Layout.of(Scene.of(shown.look, page=page), [subject])
+    bar = 0 if layout.bar is Place.NONE else layout.strip
     camera = vtkCamera()
-    look_from(camera, figure.view, figure.up)
-    fit(camera, scene.places, width / (height - bar))
-    figures = measure(scene.mesh.points, scene.mesh.hexes)
-    image = picture(Frame(scene.mesh, figures, look=scene.look), SIZE, camera=camera)
-    write_picture(path, _with_palette(image.convert("RGB"), bar))
+    aim(camera, Camera(figure.view, up=figure.up), shown.places, layout.panel[0] / layout.panel[1])
+    pose = Pose.of(camera)
+    stand = Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, figure.up)
+    sheet = draw_sheet(Scene.of(shown.look, stand, page=page), [subject])
+    with replacing(path) as temporary:
+        _with_palette(sheet.image(), bar).save(temporary, format="PNG")
 
 
 def _with_palette(image: Image.Image, bar: int) -> Image.Image:
@@ -78,15 +83,15 @@ def _with_palette(image: Image.Image, bar: int) -> Image.Image:
     return image.quantize(palette=palette, dither=Image.Dither.NONE)
 
 
-def _geometry(mesh: Mesh) -> _Scene:
-    return _Scene(mesh, Look(neutral=True, edges=False, structure=Structure(sharp=True)), mesh.points)
+def _geometry(mesh: Mesh) -> _Shown:
+    return _Shown(mesh, Look(neutral=True, edges=False, structure=Structure(sharp=True)), mesh.points)
 
 
-def _mesh(mesh: Mesh) -> _Scene:
-    return _Scene(mesh, Look(neutral=True), mesh.points)
+def _mesh(mesh: Mesh) -> _Shown:
+    return _Shown(mesh, Look(neutral=True), mesh.points)
 
 
-def _domain(mesh: Mesh) -> _Scene:
+def _domain(mesh: Mesh) -> _Shown:
     """What lies in the middle, in the outline of the whole."""
     surface = _inside(mesh)
     layer = np.flatnonzero(surface[mesh.hexes].sum(axis=1) >= 4)
@@ -96,10 +101,10 @@ def _domain(mesh: Mesh) -> _Scene:
     points = mesh.points.copy()
     points[above] = points[below] + _PRESSED * (points[above] - points[below])
     isolation = Isolation(tuple(layer.tolist()), rings=0)
-    return _Scene(mesh.with_points(points), Look(isolation=isolation, neutral=True, edges=False), mesh.points)
+    return _Shown(mesh.with_points(points), Look(isolation=isolation, neutral=True, edges=False), mesh.points)
 
 
-def _section(mesh: Mesh) -> _Scene:
+def _section(mesh: Mesh) -> _Shown:
     """The half behind the middle plane y of what lies inside, around that."""
     points = mesh.points[_inside(mesh)]
     low, high = points.min(axis=0), points.max(axis=0)
@@ -107,7 +112,7 @@ def _section(mesh: Mesh) -> _Scene:
     around = _AROUND * (high - low).max()
     places = np.array([(x, (low + high)[1] / 2, z) for x in (low[0] - around, high[0] + around)
                        for z in (low[2] - around, high[2] + around)])  # fmt: skip
-    return _Scene(mesh, Look(clip=clip), places)
+    return _Shown(mesh, Look(clip=clip), places)
 
 
 def _inside(mesh: Mesh) -> np.ndarray:
@@ -121,7 +126,7 @@ def _inside(mesh: Mesh) -> np.ndarray:
     return nodes
 
 
-_SCENES: dict[str, Callable[[Mesh], _Scene]] = {
+_SHOWN: dict[str, Callable[[Mesh], _Shown]] = {
     "geometry": _geometry,
     "mesh": _mesh,
     "domain": _domain,

@@ -25,7 +25,8 @@ class Film:
         add_method(parser)
         parser.add_argument("--frames", metavar="N", default="40", help="most frames (default %(default)s)")
         parser.add_argument("--rate", metavar="N", default="10", help="frames a second (default %(default)s)")
-        looks.add_arguments(parser, "800x500")
+        looks.add_arguments(parser)
+        parser.add_argument("--size", metavar="WxH", default="800x500", help="in pixels (default %(default)s)")
         add_force(parser)
 
     def run(self, args: argparse.Namespace) -> int:
@@ -36,7 +37,7 @@ class Film:
         from hexmend.run import iterate
         from hexmend_app.scene.graphics import prepare_off_screen
 
-        size, view, path = looks.size_of(args), looks.view_of(args), Path(args.output)
+        size, view, path = looks.size_of(args.size), looks.view_of(args), Path(args.output)
         frames, rate = whole(args.frames, "--frames", 2, 1000), whole(args.rate, "--rate", 1, 50)
         what, stop = chosen(args)
         mesh = read(args.mesh)

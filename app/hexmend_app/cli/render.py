@@ -1,75 +1,146 @@
-"""`hexmend render`: a picture of a mesh, without a window and without an X server."""
+"""`hexmend render`: a picture of meshes, without a window and without an X server."""
 
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from hexmend_app.cli import looks
-from hexmend_app.cli.numbers import wrong
+from hexmend_app.cli.numbers import numbers, wrong
 
-#: Meshes that are drawn side by side at most.
-_MOST = 4
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from hexmend.mesh import Mesh
+    from hexmend_app.scene.export.subject import Subject
+    from hexmend_app.state.scene import Camera, Scene
 
 
 class Render:
-    """A mesh, or several side by side, as PNG."""
+    """A scene of one mesh or several as PNG, TIFF, PDF or SVG."""
 
     name = "render"
     help = "Write a picture of a mesh, or of several side by side; needs neither a window nor an X server."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         looks.prepare(parser)
+        parser.add_argument("mesh", metavar="MESH", nargs="+", help="the mesh file; several stand side by side")
         parser.add_argument(
-            "mesh", metavar="MESH", nargs="+", help="the mesh file; two to four are drawn side by side, alike"
+            "-o",
+            "--output",
+            metavar="PICTURE",
+            required=True,
+            help="where to write the picture: .png, .tif, .pdf or .svg",
         )
-        parser.add_argument("-o", "--output", metavar="PNG", required=True, help="where to write the picture")
-        looks.add_arguments(parser, "1600x1000")
-        parser.add_argument("--transparent", action="store_true", help="leave the background out")
-        parser.add_argument("--captions", metavar="A,B,...", help="names of several meshes (default: of their files)")
+        parser.add_argument(
+            "--scene", metavar="FILE.toml", help="draw what this file describes; other options go before it"
+        )
+        parser.add_argument("--save-scene", metavar="FILE.toml", help="write what is drawn as such a file")
+        parser.add_argument("--camera", metavar="CAMERA", help="a name in the scene, or what Copy camera gives")
+        looks.add_arguments(parser)
+        size = parser.add_mutually_exclusive_group()
+        size.add_argument("--size", metavar="WxH", help="in pixels (default 1600x1000)")
+        size.add_argument("--mm", metavar="WxH", help="in millimetres, as in 170x90")
+        parser.add_argument("--dpi", metavar="N", help="pixels per inch (default 300 where the size is in mm)")
+        ground = parser.add_mutually_exclusive_group()
+        ground.add_argument("--background", metavar="COLOUR", help="white, transparent or #rrggbb (default white)")
+        ground.add_argument("--transparent", action="store_true", help="leave the background out")
+        parser.add_argument("--captions", metavar="A,B,...", help="what stands above the panels (default: their files)")
         parser.add_argument("--no-bar", action="store_true", help="leave the colour bar out")
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.io import read
-        from hexmend.quality import measure
+        from hexmend.io.atomic import check_writable
 
-        size, names = looks.size_of(args), _captions(args)
-        meshes = [read(path) for path in args.mesh]
-        mesh = meshes[0]
-        figures = measure(mesh.points, mesh.hexes)
-        look = looks.look_of(args, mesh)
-        view = looks.view_of(args)
+        scene = _scene(args)
+        scene.panels_of(len(args.mesh))  # what is wrong is said before the work, not after
         from hexmend_app.scene.graphics import prepare_off_screen
+        from hexmend_app.state.scene import write_scene
+        from hexmend_app.state.scene.carried import Pictured, carrying
 
         prepare_off_screen()
-        from hexmend_app.scene.export.figure import Panel, figure
-        from hexmend_app.scene.export.picture import check_picture, picture, write_picture
-        from hexmend_app.scene.frame import Frame
+        from hexmend_app.scene.export.sheet import draw_sheet, format_of
 
-        check_picture(Path(args.output))  # an unknown suffix is said before the work, not after
-        how = {"view": view, "transparent": args.transparent, "bar": not args.no_bar}
-        if len(meshes) == 1:
-            image = picture(Frame(mesh, figures, look=look), size, **how)
-        else:
-            others = (Panel(name, one, measure(one.points, one.hexes)) for name, one in zip(names, meshes, strict=True))
-            image = figure([*others], look, size, **how)
-        write_picture(Path(args.output), image)
-        print(f"{args.output}: {size[0]} × {size[1]} pixels")
+        format_of(Path(args.output))
+        check_writable(args.output)
+        if args.save_scene:
+            write_scene(args.save_scene, scene)
+        meshes = [read(path) for path in args.mesh]
+        sheet = draw_sheet(scene, _subjects(scene, meshes, [Path(path).stem for path in args.mesh]))
+        output = Path(args.output)
+        shown = [Pictured.of(mesh, mesh, Path(path), output) for mesh, path in zip(meshes, args.mesh, strict=True)]
+        sheet.write(output, carrying(scene, shown))
+        print(f"{args.output}: {sheet.size[0]} × {sheet.size[1]} pixels")
         return 0
 
 
-def _captions(args: argparse.Namespace) -> list[str]:
-    """The names of the meshes, where there are as many as can be drawn."""
-    if len(args.mesh) > _MOST:
-        raise wrong("MESH", f"{len(args.mesh)} files", f"{_MOST} at most")
-    names = args.captions.split(",") if args.captions else [Path(path).stem for path in args.mesh]
-    if len(names) != len(args.mesh):
-        raise wrong("--captions", args.captions, f"{len(args.mesh)} names separated by commas, one a mesh")
-    return names
+def _scene(args: argparse.Namespace) -> Scene:
+    """The scene of the file, with what the options say in place of its own."""
+    from hexmend_app.state.scene import Place, Scene, read_scene
+
+    scene = read_scene(args.scene) if args.scene else Scene()
+    if not args.scene and not args.metric:
+        args.metric = scene.colours.metric  # with the range that suits it
+    scene = looks.with_options(args, scene)
+    changes: dict[str, Any] = {"page": replace(scene.page, **_page(args))}
+    if args.camera:
+        changes["camera"] = _camera(args.camera, scene)
+    if args.no_bar:
+        changes["bar"] = replace(scene.bar, place=Place.NONE)
+    if args.captions:
+        changes["panels"] = _captioned(args, scene)
+    return replace(scene, **changes)
 
 
-#: Meshes that are drawn side by side at most.
-_MOST = 4
+def _page(args: argparse.Namespace) -> dict[str, Any]:
+    """What the options say of the page."""
+    page: dict[str, Any] = {}
+    if args.size:
+        page |= {"pixels": looks.size_of(args.size), "width": None, "height": None}
+    if args.mm:
+        width, height = numbers(args.mm.lower().replace("x", ","), 2, "--mm")
+        page |= {"width": width, "height": height, "pixels": None}
+    if args.dpi:
+        (page["dpi"],) = numbers(args.dpi, 1, "--dpi")
+    if args.transparent or args.background:
+        page["background"] = args.background or "transparent"
+    return page
+
+
+def _camera(text: str, scene: Scene) -> Camera:
+    from hexmend_app.state.scene import camera_from
+
+    if text.lstrip().startswith(("{", "camera")) and text not in scene.cameras:
+        return camera_from(text)
+    if text not in scene.cameras:
+        known = ", ".join(scene.cameras) or "none"
+        raise wrong("--camera", text, f"the text of a camera, or a name in the scene (known: {known})")
+    return scene.cameras[text]
+
+
+def _captioned(args: argparse.Namespace, scene: Scene) -> tuple[Any, ...]:
+    names, panels = args.captions.split(","), scene.panels_of(len(args.mesh))
+    if len(names) != len(panels):
+        raise wrong("--captions", args.captions, f"{len(panels)} names separated by commas, one a panel")
+    return tuple(replace(panel, caption=name) for panel, name in zip(panels, names, strict=True))
+
+
+def _subjects(scene: Scene, meshes: Sequence[Mesh], names: Sequence[str]) -> list[Subject]:
+    """The meshes, measured; where a movement is shown, as they have moved since the first."""
+    from hexmend.errors import ParameterError
+    from hexmend.movement import MOVEMENTS, Moment, Movement
+    from hexmend_app.scene.export.subject import Subject
+    from hexmend_app.state.look import Arrows
+
+    first, *others = (Subject.of(mesh, name) for mesh, name in zip(meshes, names, strict=True))
+    if scene.colours.metric in MOVEMENTS or scene.movement.arrows is not Arrows.NONE:
+        if not others:
+            raise ParameterError("the scene shows how a mesh has moved: name the mesh before that, and then the mesh")
+        then = Moment(first.mesh.points, first.figures, first.name)
+        first = replace(first, movement=Movement(first.mesh, then, first.mesh.points, first.figures))
+    return [first, *others]
 
 
 command = Render()

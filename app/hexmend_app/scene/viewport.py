@@ -92,6 +92,10 @@ class Viewport:
         if self.outline is not None:
             self.outline.set_dark(dark)
 
+    def set_ground(self, colour: str) -> None:
+        """Draw on a colour, #rrggbb, that is not the theme's."""
+        self._pane.set_background(colour)
+
     # What is drawn
 
     def draw(self, frame: Frame) -> None:

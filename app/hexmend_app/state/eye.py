@@ -3,46 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 
-import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-Vector = tuple[float, float, float]
+from hexmend_app.state.scene import Camera
+from hexmend_app.state.stand import Stand
 
 #: Places that the camera can go back or forward to, with the one where it stands.
 MOST = 50
-
-
-@dataclass(frozen=True)
-class Stand:
-    """Where the camera stands.
-
-    Parameters
-    ----------
-    position, focal, up : (x, y, z)
-        Where it is, what it looks at and turns about, and what is up in the picture.
-    parallel : bool
-        Parallel projection instead of perspective.
-    scale : float
-        Half the height of the picture in parallel projection, in the mesh's unit.
-    axis : str
-        The axis that is up where the mesh is looked at from a direction: x, y or z.
-    """
-
-    position: Vector
-    focal: Vector
-    up: Vector
-    parallel: bool
-    scale: float
-    axis: str
-
-    def __post_init__(self) -> None:
-        position, focal, up, _, scale, axis = astuple(self)
-        if not np.isfinite([*position, *focal, *up, scale]).all() or position == focal or not any(up) or scale <= 0:
-            raise ValueError("the camera stands nowhere")
-        if axis not in ("x", "y", "z"):
-            raise ValueError(f"the axis {axis!r} is up: expected x, y or z")
 
 
 @dataclass(frozen=True)
@@ -75,8 +44,8 @@ class Eye(QObject):
         Gives where the camera stands, a Stand, or None where there is no view; who has the camera sets it.
     travelled : callable
         Gives its Journey; who has the camera sets it.
-    wanted : Stand or None
-        Where it is to stand as soon as there is a view of the open mesh.
+    wanted : Camera or None
+        From where it is to look as soon as there is a view of the open mesh.
     journey : Journey
         What is to lie behind it then, and before it.
 
@@ -92,14 +61,18 @@ class Eye(QObject):
         super().__init__(parent)
         self.now: Callable[[], Stand | None] = lambda: None
         self.travelled: Callable[[], Journey] = Journey
-        self.wanted: Stand | None = None
+        self.wanted: Camera | None = None
         self.journey = Journey()
 
     def given(self) -> Stand | None:
         """What a session keeps."""
-        return self.wanted or self.now()
+        return (self.wanted and self.wanted.stand) or self.now()
 
     def take(self, stand: Stand | None, journey: Journey) -> None:
         """Have the camera stand where a session has kept it, with the way that it has come."""
-        self.wanted, self.journey = stand, journey
+        self.look_through(None if stand is None else Camera.at(stand), journey)
+
+    def look_through(self, camera: Camera | None, journey: Journey | None = None) -> None:
+        """Have the mesh looked at as a scene has it, with no way behind it where none is given."""
+        self.wanted, self.journey = camera, journey or Journey()
         self.called.emit()

@@ -89,6 +89,7 @@ class Traces:
     since : Since
         The moment that arrows, and colours of a movement, compare with.
     arrows : Arrows
+        Which nodes have them.
     factor : float
         How many times as long as the way of their nodes arrows are.
     """

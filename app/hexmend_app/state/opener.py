@@ -9,10 +9,13 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.errors import HexmendError
+from hexmend.errors import FileError, HexmendError, ParameterError
 from hexmend.io import read
 from hexmend_app.state import session_data
 from hexmend_app.state.document import Document, State
+from hexmend_app.state.look import Look
+from hexmend_app.state.scene.carried import Carried, digest, read_carried
+from hexmend_app.state.scene.png import is_png
 from hexmend_app.state.session_data import SessionData
 from hexmend_app.state.task import Task
 
@@ -32,6 +35,63 @@ class Progress:
     doing: Doing
     path: Path
     hexes: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Restored:
+    """What a picture shows.
+
+    Parameters
+    ----------
+    picture : Path
+    carried : Carried
+    path : Path
+        Of the mesh's file.
+    state : State
+        The mesh of that.
+    look : Look
+        How the picture has it looked at.
+    digest : str
+        Of the mesh.
+    """
+
+    picture: Path
+    carried: Carried
+    path: Path
+    state: State
+    look: Look
+    digest: str
+
+
+@dataclass(frozen=True, eq=False)
+class Wanting:
+    """A picture whose mesh is not where it was: somebody has to say where it is."""
+
+    picture: Path
+    carried: Carried
+
+
+def _read_picture(wanting: Wanting, path: Path, task: Task) -> Restored:
+    """Read the mesh that a picture shows, and look at it as the picture does."""
+    state = _read(path, task)
+    if not isinstance(state, State):
+        raise FileError(path, "is no mesh: expected the one that the picture shows", "Name a mesh file.")
+    try:
+        look = wanting.carried.scene.look(state.mesh)
+    except ParameterError as error:
+        raise FileError(wanting.picture, f"shows another mesh than {path.name}: {error}", "Name its mesh.") from None
+    return Restored(wanting.picture, wanting.carried, path, state, look, digest(state.mesh))
+
+
+def _open(path: Path, wanting: Wanting | None, task: Task) -> State | SessionData | Restored | Wanting:
+    """What a file holds; of a picture, the mesh that it shows."""
+    if wanting is None and is_png(path):
+        wanting = Wanting(path, read_carried(path))
+        found = wanting.carried.first.candidates(path)
+        if not found:
+            return wanting
+        path = found[0]
+    return _read(path, task) if wanting is None else _read_picture(wanting, path, task)
 
 
 def _read(path: Path, task: Task) -> State | SessionData:
@@ -65,6 +125,11 @@ class Opener(QObject):
     loaded(SessionData, Path or None)
         A session was read: whoever has all its parts takes it, before `ended`. The path is None where it is taken up
         after a window's unexpected end.
+    restored(Restored)
+        A picture was opened, and its mesh is the document's: whoever looks at it does so as the picture has it, before
+        `ended`.
+    wanting(Wanting)
+        A picture was opened whose mesh is not found: `open` takes it again, with the path of the mesh.
     ended(Path)
         The mesh is the document's.
     cancelled(Path)
@@ -76,6 +141,8 @@ class Opener(QObject):
     began = Signal(object)
     told = Signal(object)
     loaded = Signal(object, object)
+    restored = Signal(object)
+    wanting = Signal(object)
     ended = Signal(object)
     cancelled = Signal(object)
     failed = Signal(object, object)
@@ -85,7 +152,7 @@ class Opener(QObject):
         self._document = document
         self._path: Path | None = None  # what is being read
         self._task: Task | None = None
-        self._next: tuple[Path, bool] | None = None
+        self._next: tuple[Path, bool, Wanting | None] | None = None
         self._recovers = False
         self._dropped: list[Task] = []
 
@@ -94,7 +161,7 @@ class Opener(QObject):
         """Whether a mesh is being read."""
         return self._task is not None
 
-    def open(self, path: str | Path, *, recovers: bool = False) -> None:
+    def open(self, path: str | Path, *, recovers: bool = False, wanting: Wanting | None = None) -> None:
         """Begin to read; of several asked for while one is read, the last is opened next.
 
         Parameters
@@ -103,13 +170,15 @@ class Opener(QObject):
         recovers : bool
             It is a session that was written beside an open window: the mesh keeps the path of its own file, and is as
             little saved as it was.
+        wanting : Wanting, optional
+            A picture that shows the mesh, which is to be looked at as there.
         """
         path = Path(path)
         if self.busy:
-            self._next = path, recovers
+            self._next = path, recovers, wanting
             return
         self._path, self._recovers = path, recovers
-        self._task = Task(f"reading {path.name}", partial(_read, path))
+        self._task = Task(f"reading {path.name}", partial(_open, path, wanting))
         self._task.told.connect(self.told)
         self._task.ended.connect(self._finish)
         self.began.emit(path)
@@ -134,13 +203,21 @@ class Opener(QObject):
     def _finish(self) -> None:
         task, self._task = self._task, None
         if self._next is not None:
-            (path, recovers), self._next = self._next, None
-            self.open(path, recovers=recovers)
+            (path, recovers, wanting), self._next = self._next, None
+            self.open(path, recovers=recovers, wanting=wanting)
         elif task.error is not None:
             self.failed.emit(self._path, task.error)
         else:
-            if isinstance(task.result, State):
-                self._document.replace(task.result, self._path)
+            result = task.result
+            if isinstance(result, Wanting):
+                self.wanting.emit(result)
+                return
+            if isinstance(result, State):
+                self._document.replace(result, self._path)
+            elif isinstance(result, Restored):
+                self._path = result.path
+                self._document.replace(result.state, result.path)
+                self.restored.emit(result)
             else:
-                self.loaded.emit(task.result, None if self._recovers else self._path)
+                self.loaded.emit(result, None if self._recovers else self._path)
             self.ended.emit(self._document.path if self._recovers and self._document.path else self._path)

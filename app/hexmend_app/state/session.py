@@ -30,6 +30,7 @@ from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
 
 if TYPE_CHECKING:
+    from hexmend_app.state.opener import Restored
     from hexmend_app.state.session_data import SessionData
 
 
@@ -91,6 +92,7 @@ class Session(QObject):
         self.choices = Choices()
         self.commands = Commands(self)
         self.opener.loaded.connect(self.take)
+        self.opener.restored.connect(self._look_as)
         self.document.mesh_replaced.connect(self._on_another)
         for part in self.children():
             for told in _signals(part):
@@ -163,6 +165,14 @@ class Session(QObject):
         self.view.show_another()
         self.kept.clear()
         self.classer.forget()
+
+    def _look_as(self, restored: Restored) -> None:
+        """Look at the mesh as a picture has it, with the recipe at hand that ran there."""
+        carried = restored.carried
+        self.view.show_as(restored.look)
+        self.eye.look_through(carried.scene.camera_of(carried.scene.panels_of(len(carried.meshes))[0]))
+        if carried.recipe is not None:
+            self.chain.take(carried.recipe)
 
     def _on_change(self, *_: object) -> None:
         self.changed.emit()

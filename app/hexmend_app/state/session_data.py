@@ -19,12 +19,13 @@ from hexmend_app.state.chain import ChainData
 from hexmend_app.state.choices import ChoicesData
 from hexmend_app.state.comparison import ComparisonData
 from hexmend_app.state.document import DocumentData, State
-from hexmend_app.state.eye import Journey, Stand
+from hexmend_app.state.eye import Journey
 from hexmend_app.state.history import HistoryData
 from hexmend_app.state.kept import Kept
 from hexmend_app.state.order import OrderData
 from hexmend_app.state.plain import Misfit, Own, Plain, since
 from hexmend_app.state.selection import SelectionData
+from hexmend_app.state.stand import Stand
 from hexmend_app.state.timeline import TimelineData
 from hexmend_app.state.view import ViewData
 from hexmend_app.state.views import ViewsData

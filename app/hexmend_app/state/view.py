@@ -91,6 +91,10 @@ class View(QObject):
         self.counted = data.counted
         self.look_changed.emit()
 
+    def show_as(self, look: Look) -> None:
+        """Look as a picture has it: what was hidden one by one comes back in the order of numbers."""
+        self.take(dataclasses.replace(self.given(), look=look, dug=tuple(sorted(look.dug)), plane_at=0))
+
     def colour_by(self, metric: str) -> None:
         """Have the colours show another metric, or movement, in the range that suits it."""
         self.metric_wanted.emit(metric)

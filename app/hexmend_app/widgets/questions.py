@@ -66,6 +66,16 @@ def ask_recipe_target(parent: QWidget) -> str:
     return _ask_to_save(parent, "Save the recipe as", "recipe.toml", "Recipe (*.toml)")
 
 
+def ask_scene(parent: QWidget) -> str:
+    """The scene to load, "" for none."""
+    return _ask_to_open(parent, "Load a scene", "Scenes (*.toml);;All files (*)")
+
+
+def ask_scene_target(parent: QWidget) -> str:
+    """Where to save the scene, "" for nowhere."""
+    return _ask_to_save(parent, "Save the scene as", "scene.toml", "Scene (*.toml)")
+
+
 def ask_film(parent: QWidget, stem: str) -> str:
     """Where to save a film of a run, "" for nowhere."""
     kinds = "GIF animation (*.gif);;WebP animation, smaller and finer (*.webp);;PNG animation, exact (*.png)"

@@ -8,7 +8,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtTest import QTest
 
-from hexmend_app.canvas.colour_bar import ColourBar, nice_ticks
+from hexmend_app.canvas.colour_bar import ColourBar
+from hexmend_app.scene.ticks import nice_ticks
 
 
 @pytest.fixture

@@ -6,13 +6,14 @@ import pytest
 from hexmend.movement import Moment, Movement
 from hexmend.quality import measure
 from hexmend_app.scene.arrangement import columns, grid
-from hexmend_app.scene.export.figure import Panel, figure
-from hexmend_app.scene.export.picture import picture
+from hexmend_app.scene.export.sheet import draw_sheet
+from hexmend_app.scene.export.subject import Subject
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.panes import Panes
 from hexmend_app.scene.stage import Stage
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
+from hexmend_app.state.scene import Page, Scene
 from hexmend_app.state.views import Wipe
 from tests.core.grids import grid as hexes
 from tests.core.grids import scrambled
@@ -205,12 +206,10 @@ def test_the_camera_fits_the_views_unless_the_user_has_moved_it(panes):
 
 
 def test_a_figure_holds_all_meshes_with_captions():
-    panels = [Panel(name, *shown(mesh)) for name, mesh in zip("abcd", [MESH, *OTHERS], strict=True)]
-    four = np.asarray(figure(panels, Look(), (640, 480)).convert("RGB")).astype(int)
+    subjects = [Subject(name, *shown(mesh)) for name, mesh in zip("abcd", [MESH, *OTHERS], strict=True)]
+    four = np.asarray(draw_sheet(Scene(page=Page(pixels=(640, 480))), subjects).image()).astype(int)
     assert four.shape == (480, 640, 3)
     assert (four[:25].max(axis=2) < 90).any(axis=0)[:160].any()  # what is written above the first
-    alone = np.asarray(picture(Frame(*shown(MESH)), (320, 200), bar=False)).astype(int)
-    assert alone.shape == (200, 320, 3)
     colourful = four.max(axis=2) - four.min(axis=2) > 60
     for rows in (slice(40, 220), slice(240, 420)):
         for across in (slice(0, 320), slice(320, 640)):

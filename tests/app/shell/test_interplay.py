@@ -169,7 +169,7 @@ def test_a_picture_has_the_elements_of_the_view_where_nodes_moved_since_the_cut(
     window.session.view.change(outline=False)
     window.refresh()
     assert window.canvas.viewport.shown > 0
-    window.canvas.save_picture(tmp_path / "seen.png", (200, 120), False)
+    window.features["save"].picture(tmp_path / "seen.png", (200, 120))
     assert np.ptp(np.asarray(Image.open(tmp_path / "seen.png"))[:, 60:].astype(int)[..., :3], axis=2).max() > 60
 
 

@@ -23,8 +23,8 @@ from hexmend_app.features.quality.statistics import StatisticsTable
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.features.tags.tag_panel import TagPanel
 from hexmend_app.scene import palette as theme
-from hexmend_app.scene.export.picture import picture
-from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.export.sheet import draw_sheet
+from hexmend_app.scene.export.subject import Subject
 from hexmend_app.scene.palette import THEME, Role
 from hexmend_app.shell.palette import CommandPalette
 from hexmend_app.shell.ranking import Entry
@@ -33,6 +33,7 @@ from hexmend_app.state.history import Record
 from hexmend_app.state.look import ValueRange
 from hexmend_app.state.order import Order
 from hexmend_app.state.recent import Recent
+from hexmend_app.state.scene import Page, Scene
 from hexmend_app.widgets import theming
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.number_box import NumberBox
@@ -213,8 +214,9 @@ def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.dark, timeout=PATIENCE)
     assert (pixels(window)[5, 5] < ground - 100).all()
     now = window.session.document.now
-    report = np.asarray(picture(Frame(now.mesh, now.figures), (400, 300)))
-    assert report[2, 2, :3].tolist() == ground.tolist()
+    scene = Scene(page=Page(pixels=(400, 300)))
+    report = np.asarray(draw_sheet(scene, [Subject.of(now.mesh)]).image())
+    assert report[2, 2].tolist() == [255, 255, 255]  # paper, whatever is worn on the screen
     on = [choice for choice in Choice if window.actions[f"theme_{choice.value}"].isChecked()]
     assert on == [Choice.DARK]
     window.actions["theme_light"].trigger()

@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from PySide6.QtGui import QGuiApplication
+
+from hexmend.errors import ParameterError
 from hexmend_app.feature import Action, Feature, Host, Seen
 from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.eye import Journey, Stand
+from hexmend_app.state.eye import Journey
+from hexmend_app.state.scene import Camera, camera_from, camera_text
+from hexmend_app.state.stand import Stand
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -91,6 +96,9 @@ class FeatureCamera(Feature):
                 )
                 for axis in "xyz"
             ),
+            self._move("copy_camera", "&Copy camera", "", "Copy where the camera stands, for a picture or another "
+                       "window.", self.copy, lambda: self._draws),
+            self._move("paste_camera", "&Paste camera", "", "Look from where a copied text says.", self.paste),
             Action(
                 id="parallel",
                 text="&Parallel projection",
@@ -114,7 +122,7 @@ class FeatureCamera(Feature):
         Where a session says where the camera is to stand, it does once the session's mesh is drawn.
         """
         if self.session.eye.wanted is not None and self._draws:
-            self.canvas.stand_at(self.session.eye.wanted, self.session.eye.journey)
+            self._look_through(self.session.eye.wanted, self.session.eye.journey)
             self.session.eye.wanted, self.session.eye.journey = None, Journey()
         isolated = self.session.view.look.isolation is not None
         if self.canvas is not None and self._seen.another("isolated", isolated):
@@ -145,6 +153,28 @@ class FeatureCamera(Feature):
             enabled=lambda: self._ready() and enabled(),
             in_view=in_view,
         )
+
+    def copy(self) -> None:
+        """Copy where the camera stands, as `hexmend render --camera` takes it."""
+        QGuiApplication.clipboard().setText(camera_text(Camera.at(self.canvas.stand)))
+        self.host.messages.show_info("The camera was copied: paste it in another window, or after render --camera.")
+
+    def paste(self) -> None:
+        """Look from where the text that was copied says; or say what is wrong with it."""
+        try:
+            camera = camera_from(QGuiApplication.clipboard().text())
+        except ParameterError as error:
+            self.host.messages.show_error("The camera cannot be pasted", f"{error}.")
+            return
+        self._look_through(camera)
+
+    def _look_through(self, camera: Camera, journey: Journey | None = None) -> None:
+        if camera.stand is not None:
+            self.canvas.stand_at(camera.stand, journey)
+        else:
+            self.canvas.set_up(camera.up)
+            self.canvas.set_parallel(camera.parallel)
+            self.canvas.look_along(camera.direction)
 
     @property
     def _draws(self) -> bool:

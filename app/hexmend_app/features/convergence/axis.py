@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend_app.canvas.colour_bar import nice_ticks
+from hexmend_app.scene.ticks import nice_ticks
 
 
 @dataclass(frozen=True)

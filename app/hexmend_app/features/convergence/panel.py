@@ -16,12 +16,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.canvas.colour_bar import nice_ticks
 from hexmend_app.features.convergence.charts import CHARTS, FIRST
 from hexmend_app.features.convergence.curves import Curve
 from hexmend_app.features.convergence.plot import ConvergencePlot
 from hexmend_app.features.convergence.run_legend import RunLegend
 from hexmend_app.features.convergence.words import describe
+from hexmend_app.scene.ticks import nice_ticks
 from hexmend_app.state.choices import ChartChoices
 from hexmend_app.state.history import Record
 from hexmend_app.widgets.menu_button import MenuButton

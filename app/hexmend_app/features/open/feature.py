@@ -12,9 +12,9 @@ from hexmend.errors import FileError
 from hexmend_app.feature import Action, Feature, Host, Panel, Place
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.features.open.welcome import Welcome
-from hexmend_app.features.open.words import said
+from hexmend_app.features.open.words import alike, lost, of_picture, said
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state.opener import Doing, Progress
+from hexmend_app.state.opener import Doing, Progress, Restored, Wanting
 from hexmend_app.state.recent import Recent
 from hexmend_app.widgets.questions import ask_mesh, remember_folder
 
@@ -27,6 +27,7 @@ class FeatureOpen(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._document, self._opener = host.session.document, host.session.opener
+        self._restored: Restored | None = None
         self.recent = Recent(self)
         self._menu = RecentMenu(self.recent, host.window)
         self._menu.chosen.connect(self.open)
@@ -37,6 +38,8 @@ class FeatureOpen(Feature):
         opener = self._opener
         opener.began.connect(lambda path: self._tell(Progress(Doing.READING, path)))
         opener.told.connect(self._tell)
+        opener.restored.connect(self._on_restored)
+        opener.wanting.connect(self._on_wanting)
         opener.ended.connect(self._on_ended)
         opener.cancelled.connect(self._on_cancelled)
         opener.failed.connect(self._on_failed)
@@ -111,11 +114,31 @@ class FeatureOpen(Feature):
     def _on_ended(self, path: Path) -> None:
         self.host.busy.done("open")
         self.host.messages.clear()
-        if notes := self._document.start.mesh.notes:
+        if restored := self._restored:
+            self._restored = None
+            show = self.host.messages.show_info if alike(restored) else self.host.messages.show_warning
+            show(*of_picture(restored))
+        elif notes := self._document.start.mesh.notes:
             self.host.messages.show_info(" ".join(notes), timeout_ms=0)
         if path.resolve() != demo_mesh().resolve():
             remember_folder(path)
             self.recent.add(path)
+
+    def _on_restored(self, restored: Restored) -> None:
+        self._restored = restored
+
+    def _on_wanting(self, wanting: Wanting) -> None:
+        self.host.busy.done("open")
+        self.host.messages.show_offer(
+            *lost(wanting), (("Choose the mesh…", lambda: self._find(wanting)), ("Leave it", lambda: None))
+        )
+        self.host.refresh_soon()
+
+    def _find(self, wanting: Wanting) -> None:
+        """Ask where the mesh of a picture is, and open it as the picture shows it."""
+        path = ask_mesh(self.host.window)
+        if path and self.host.may_leave():
+            self._opener.open(path, wanting=wanting)
 
     def _on_cancelled(self, path: Path) -> None:
         self.host.busy.done("open")

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from hexmend.io.session import SUFFIX
+from hexmend.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.run import Phase
+from hexmend_app.state.scene import Page, Scene
+from hexmend_app.state.scene.carried import Pictured, carrying
 from hexmend_app.widgets.questions import Answer, ask_session, ask_target, ask_unsaved
 
 
@@ -19,6 +23,7 @@ class FeatureSave(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
+        self._last: Scene | None = None  # what the last picture was like
 
     def actions(self) -> Sequence[Action]:
         """Save, and the picture."""
@@ -82,16 +87,45 @@ class FeatureSave(Feature):
         return saved
 
     def ask_picture(self) -> None:
-        """Ask how large the picture is to be and where it goes, and write it."""
-        size = self.canvas.size() * self.host.window.devicePixelRatioF()
-        dialog = PictureDialog(size, f"{self.host.stem}.png", self.host.window)
+        """Ask what the picture is to be like and where it goes, and write it."""
+        dialog = self.picture_dialog()
         if dialog.exec():
-            self.picture(dialog.path(), dialog.picture_size(), dialog.transparent())
+            self._last = dialog.scene()
+            self.write_picture(dialog.path(), self._last)
+
+    def picture_dialog(self) -> PictureDialog:
+        """The dialog that edits the scene of what is seen: page, lines, bar and axes are as they were last."""
+        canvas, last = self.canvas, self._last
+        size = canvas.size() * self.host.window.devicePixelRatioF()
+        scene = canvas.scene(Page(pixels=(size.width(), size.height())) if last is None else last.page)
+        if last is not None:
+            lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
+            scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes, cameras=last.cameras)
+        names = canvas.names if len(scene.panels) > 1 else ()
+        return PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.window)
 
     def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
-        """Write the view as PNG of `size` pixels; whether it was."""
+        """Write the view as a picture of `size` pixels; whether it was."""
+        page = Page(pixels=size, background="transparent" if transparent else "white")
+        return self.write_picture(Path(path), self.canvas.scene(page))
+
+    def _carried(self, path: Path, scene: Scene) -> dict[str, str]:
+        """What a picture carries: the scene, which meshes it shows, and what ran on the first of them."""
+        session = self.session
+        document, work = session.document, session.smoothing.work
+        shown = [document.now.mesh, *(one.state.mesh for one in session.views.all)]
+        opened = document.start.mesh
+        recipe = None
+        if work is not None and document.now is not document.start:
+            begun = session.order.begun
+            recipe = work if isinstance(work, Recipe) else Recipe.of(begun if begun is not None else work)
+        return carrying(scene, [Pictured.of(opened, mesh, document.path, path) for mesh in shown], recipe)
+
+    def write_picture(self, path: Path, scene: Scene) -> bool:
+        """Write a scene of what is seen; whether it was."""
+        width, height = scene.page.size
         return self.host.said(
             "The picture was not saved",
-            lambda: self.canvas.save_picture(Path(path), size, transparent),
-            f"Picture of {size[0]} × {size[1]} pixels saved to {path}",
+            lambda: self.canvas.sheet(scene).write(path, self._carried(path, scene)),
+            f"Picture of {width} × {height} pixels saved to {path}",
         )

@@ -1,12 +1,14 @@
-"""Asks where a picture of the view goes and how large it is."""
+"""Asks what a picture of the view is to be like and where it goes, and shows it before."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
-    QCheckBox,
     QComboBox,
     QDialog,
     QDialogButtonBox,
@@ -16,115 +18,259 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPushButton,
-    QSpinBox,
+    QVBoxLayout,
     QWidget,
 )
 
-from hexmend.errors import FileError
-from hexmend_app.widgets.questions import ask_replacing, folder, named, remember_folder
+from hexmend.errors import FileError, ParameterError
+from hexmend_app.features.save.preview import Preview
+from hexmend_app.features.save.size_form import SizeForm
+from hexmend_app.state.scene import Camera, Panel, Scene, Table, read_scene, write_scene
+from hexmend_app.state.scene.camera import DIRECTIONS
+from hexmend_app.widgets.key_form import KeyForm
+from hexmend_app.widgets.questions import ask_replacing, ask_scene, ask_scene_target, folder, named, remember_folder
+from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.style import WORSE, explain, note
 
-_PRESETS = (("Full HD", 1920, 1080), ("4K", 3840, 2160), ("Square, for print", 3000, 3000))
-_LARGEST = 8192
-_KIND = "PNG picture (*.png)"
+if TYPE_CHECKING:
+    from hexmend_app.scene.export.sheet import Sheet
+
+_KINDS = "PNG picture (*.png);;PDF (*.pdf);;SVG (*.svg);;TIFF picture (*.tif)"
+
+#: Title of a group, the table of the scene, and its keys.
+_GROUPS = (
+    ("Paper", "page", ("background", "margin", "crop", "shading", "supersampling")),
+    ("Lines", "lines", ("edges",)),
+    ("Letters", "page", ("captions", "figures", "font_size", "columns")),
+    ("Colour bar", "bar", ("place", "ticks", "title")),
+    ("Axes", "axes", ("show", "place")),
+)
+
+
+#: Keys that mean something for several panels alone.
+_OF_SEVERAL = ("captions", "figures", "columns")
 
 
 class PictureDialog(QDialog):
-    """A path, a size in pixels, and whether the background is left out.
+    """Edits a scene, with a preview, and the path that it goes to.
 
     Parameters
     ----------
+    scene : Scene
+        What is seen, from where it is seen.
+    draw : callable
+        Draws a scene of what is seen.
     view : QSize
-        Of the 3D view, in device pixels: the size proposed.
+        Of the 3D view, in device pixels.
     name : str
         The file name proposed.
+    views : sequence of str
+        What the captions of several views call them.
     """
 
-    def __init__(self, view: QSize, name: str, parent: QWidget | None = None):
+    def __init__(
+        self,
+        scene: Scene,
+        draw: Callable[[Scene], Sheet],
+        view: QSize,
+        name: str,
+        views: Sequence[str] = (),
+        parent: QWidget | None = None,
+    ):
         super().__init__(parent)
         self.setWindowTitle("Save picture")
-        self._path = QLineEdit(str(folder() / name))
-        self._path.setMinimumWidth(360)
-        self._path.textChanged.connect(lambda: self._refuse(""))
+        self._seen = self._base = scene
         self._replaced = ""  # the file that may be replaced, as a dialog of the desktop has asked
+        self.file = QLineEdit(str(folder() / name))
+        explain(self.file, "File", "Where the picture goes: .png, .tif, .pdf or .svg.")
+        self.file.textChanged.connect(lambda: self._refuse(""))
         self._problem = note("", WORSE)
         self._problem.setAccessibleName("What is wrong")
-        browse = QPushButton("Browse…")
+        self.preview = Preview(draw)
+        self._about = QLabel()
+        self.size_form = SizeForm(view, scene.page)
+        self.camera = QComboBox()
+        explain(self.camera, "Camera", "From where the mesh is seen: as in the view, or from a side, all of it.")
+        self.captions = [QLineEdit(panel.caption) for panel in scene.panels_of(max(1, len(views)))]
+        several = len(self.captions) > 1
+        self.forms = [
+            (table, KeyForm(getattr(scene, table), [name for name in names if several or name not in _OF_SEVERAL]))
+            for _, table, names in _GROUPS
+        ]
+        self._wrong = False  # whether what is typed cannot be used
+        self._lay_out()
+        self._offer_cameras()
+        self.preview.drawn.connect(self._on_drawn)
+        self.size_form.changed.connect(self._on_changed)
+        self.camera.activated.connect(self._on_changed)
+        for _, form in self.forms:
+            form.changed.connect(self._on_changed)
+        for line in self.captions:
+            line.textEdited.connect(self._on_changed)
+        self._refuse("")
+        self._on_changed()
+
+    def _lay_out(self) -> None:
+        settings = QWidget()
+        column = QVBoxLayout(settings)
+        texts = QWidget()
+        rows = QFormLayout(texts)
+        rows.setContentsMargins(0, 0, 0, 0)
+        for number, line in enumerate(self.captions, 1):
+            title = f"Caption {number}" if len(self.captions) > 1 else "Caption"
+            explain(line, title, "What stands above the picture.")
+            rows.addRow(title, line)
+        groups = [("Size", self.size_form), ("Camera", self.camera)]
+        groups += [(title, form) for (title, _, _), (_, form) in zip(_GROUPS, self.forms, strict=True)]
+        for title, group in groups:
+            column.addWidget(QLabel(f"<b>{title}</b>"))
+            column.addWidget(group)
+            if title == "Letters":
+                column.addWidget(texts)
+        column.addStretch()
+        left = QVBoxLayout()
+        left.addWidget(self.preview, 1)
+        left.addWidget(self._about)
+        both = QHBoxLayout()
+        both.addLayout(left, 1)
+        area = scrolled(settings)
+        area.setMinimumWidth(settings.sizeHint().width() + 28)
+        both.addWidget(area)
+        browse, load, keep = QPushButton("Browse…"), QPushButton("Load scene…"), QPushButton("Save scene…")
+        explain(load, "Load scene…", "Take all of this from a scene file.")
+        explain(keep, "Save scene…", "Write all of this as a file, for hexmend render --scene.")
         browse.clicked.connect(self._browse)
+        load.clicked.connect(self._ask_scene)
+        keep.clicked.connect(self._ask_target)
         where = QHBoxLayout()
-        where.addWidget(self._path, 1)
+        where.addWidget(QLabel("File"))
+        where.addWidget(self.file, 1)
         where.addWidget(browse)
-
-        self._preset = QComboBox()
-        for title, width, height in (("As the view", view.width(), view.height()), *_PRESETS):
-            self._preset.addItem(f"{title} ({width} × {height})", (width, height))
-        self._preset.addItem("Other", None)
-        self._width, self._height = QSpinBox(), QSpinBox()
-        for box, title in ((self._width, "Width"), (self._height, "Height")):
-            box.setRange(16, _LARGEST)
-            box.setSuffix(" px")
-            explain(box, title, f"{title} of the picture in pixels, whatever the size of the window.")
-        self._preset.currentIndexChanged.connect(self._on_preset)
-        size = QHBoxLayout()
-        for part in (self._width, QLabel("×"), self._height):
-            size.addWidget(part)
-        size.addStretch()
-        self._transparent = QCheckBox("Leave the background transparent")
-
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
+        buttons.addButton(load, QDialogButtonBox.ButtonRole.ResetRole)
+        buttons.addButton(keep, QDialogButtonBox.ButtonRole.ResetRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        form = QFormLayout(self)
-        form.addRow("File", where)
-        form.addRow("", self._problem)
-        form.addRow("Size", self._preset)
-        form.addRow("", size)
-        form.addRow("", self._transparent)
-        form.addRow(buttons)
-        self._refuse("")
-        self._on_preset()
+        layout = QVBoxLayout(self)
+        layout.addLayout(both, 1)
+        layout.addLayout(where)
+        layout.addWidget(self._problem)
+        layout.addWidget(buttons)
+        self.resize(1000, 640)
 
     def path(self) -> Path:
         """Where the picture goes; a name without a suffix gets one."""
-        return Path(named(str(Path(self._path.text()).expanduser()), _KIND))
+        return Path(named(str(Path(self.file.text()).expanduser()), _KINDS))
 
-    def picture_size(self) -> tuple[int, int]:
-        """Width and height in pixels."""
-        return self._width.value(), self._height.value()
+    def scene(self) -> Scene:
+        """The scene as it is chosen.
 
-    def transparent(self) -> bool:
-        """Whether the background is left out."""
-        return self._transparent.isChecked()
+        Raises
+        ------
+        ParameterError
+            Where a value cannot be used.
+        """
+        tables: dict[str, Table] = {"page": self.size_form.page(self._base.page)}
+        for name, form in self.forms:
+            tables[name] = form.table(tables.get(name, getattr(self._base, name)))
+        captions = [line.text() for line in self.captions]
+        panels = self._base.panels
+        if panels or any(captions):
+            panels = panels or (Panel(),)
+            panels = tuple(replace(panel, caption=text) for panel, text in zip(panels, captions, strict=True))
+        camera = self.camera.currentData()
+        return replace(self._base, panels=panels, camera=camera or self._seen.camera, **tables)
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show another scene of what is seen; its panels are as the views are."""
+        self._base = replace(scene, panels=self._seen.panels)
+        self.size_form.show_page(scene.page)
+        for name, form in self.forms:
+            form.show_table(getattr(scene, name))
+        self._offer_cameras()
+        self._on_changed()
 
     def accept(self) -> None:
         """Close where a picture can be written to the path, and remember its folder; or say why not."""
-        from hexmend_app.scene.export.picture import check_picture
+        from hexmend_app.scene.export.sheet import format_of
 
-        if not self._path.text().strip():
+        if not self.file.text().strip():
             self._refuse("Name the file that the picture goes to.")
             return
         try:
-            check_picture(self.path())
-        except FileError as error:
+            format_of(self.path())
+            self.scene()
+        except (FileError, ParameterError) as error:
             self._refuse(str(error))
             return
         if str(self.path()) == self._replaced or ask_replacing(self, str(self.path())):
             remember_folder(self.path())
             super().accept()
 
+    def load(self, path: str) -> None:
+        """Take a scene from a file, or say why not."""
+        try:
+            self.show_scene(read_scene(path))
+        except FileError as error:
+            self._refuse(str(error))
+
+    def keep(self, path: str) -> None:
+        """Write the scene to a file, or say why not."""
+        try:
+            write_scene(path, self.scene())
+        except (FileError, ParameterError) as error:
+            self._refuse(str(error))
+
+    def _offer_cameras(self) -> None:
+        """As the view, those of the scene by name, and the directions."""
+        self.camera.clear()
+        self.camera.addItem("As the view", None)
+        if self._base.camera not in (Camera(), self._seen.camera):
+            self.camera.addItem("Of the scene", self._base.camera)
+            self.camera.setCurrentIndex(1)
+        for name, camera in self._base.cameras.items():
+            self.camera.addItem(name, camera)
+        up = self._seen.camera.up
+        for name in DIRECTIONS:
+            title = "From a corner" if name == "iso" else f"From {name.upper().replace('-', '−')}"
+            self.camera.addItem(title, Camera(name, up=up, parallel=self._seen.camera.parallel))
+
+    def _on_changed(self) -> None:
+        try:
+            scene = self.scene()
+        except ParameterError as error:
+            self._wrong = True
+            self._refuse(str(error))
+            return
+        if self._wrong:
+            self._wrong = False
+            self._refuse("")
+        page = scene.page
+        wide, high = (side * 25.4 / page.resolution for side in page.size)
+        self._about.setText(
+            f"{wide:.4g} × {high:.4g} mm at {page.resolution:.0f} dpi: {page.size[0]:,} × {page.size[1]:,} pixels"
+            + (", less what is cropped" if page.crop else "")
+        )
+        self.preview.show_scene(scene)
+
+    def _on_drawn(self, problem: str) -> None:
+        if not self._wrong:
+            self._refuse(problem)
+
     def _refuse(self, problem: str) -> None:
         self._problem.setText(problem)
         self._problem.setVisible(bool(problem))
-        self.adjustSize()
-
-    def _on_preset(self) -> None:
-        size = self._preset.currentData()
-        for box, value in zip((self._width, self._height), size or self.picture_size(), strict=True):
-            box.setEnabled(size is None)
-            box.setValue(value)
 
     def _browse(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(self, "Save picture", self._path.text(), _KIND)
+        path, kind = QFileDialog.getSaveFileName(self, "Save picture", self.file.text(), _KINDS)
         if path:
             self._replaced = path
-            self._path.setText(path)
+            self.file.setText(named(path, kind or _KINDS))
+
+    def _ask_scene(self) -> None:
+        if path := ask_scene(self):
+            self.load(path)
+
+    def _ask_target(self) -> None:
+        if path := ask_scene_target(self):
+            self.keep(path)

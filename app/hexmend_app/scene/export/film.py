@@ -12,7 +12,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
 from hexmend.movement import Moment, Movement
-from hexmend_app.scene.export.picture import INK, colour_bar, letters, paper, pen_of, strip_height
+from hexmend_app.scene.export.frames import INK, colour_bar, letters, paper, pen_of, strip_height
 from hexmend_app.scene.export.shots import Shot
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.pane import Pane

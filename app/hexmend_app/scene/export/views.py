@@ -1,32 +1,50 @@
-"""The picture of what a window's views show."""
+"""The page of what a window's views show."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PIL import Image
-
-from hexmend_app.scene.export.figure import Panel, figure
-from hexmend_app.scene.export.picture import picture
+from hexmend_app.scene.camera.pose import Pose
+from hexmend_app.scene.export.sheet import Sheet, draw_sheet
+from hexmend_app.scene.export.subject import Subject
 from hexmend_app.scene.panes import Panes
+from hexmend_app.state.scene import Page, Panel, Scene, Wiped
+from hexmend_app.state.stand import Stand
 
 
-def picture_of(panes: Panes, names: Sequence[str], size: tuple[int, int], transparent: bool) -> Image.Image:
-    """Draw what views show, at any size.
+def scene_of(panes: Panes, names: Sequence[str] = (), page: Page | None = None) -> Scene:
+    """The scene that shows what views show, from where they are seen.
 
     Parameters
     ----------
     panes : Panes
     names : sequence of str
         What the captions of several views call them.
-    size : (width, height)
-        In pixels.
-    transparent : bool
-        Leave the background out.
+    page : Page, optional
     """
-    first = panes.first
-    how = {"filters": first.filters, "camera": first.camera, "transparent": transparent}
+    pose = Pose.of(panes.first.camera)
+    stand = Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, panes.eye.up)
+    return Scene.of(panes.first.frame.look, stand, page=page or Page(), panels=_panels(panes, names))
+
+
+def subjects_of(panes: Panes, names: Sequence[str] = ()) -> list[Subject]:
+    """The meshes that views show, under the names of their captions."""
+    named = names if len(panes.all) > 1 else [""]
+    return [Subject.shown(view.frame, name) for view, name in zip(panes.all, named, strict=True)]
+
+
+def draw_views(scene: Scene, panes: Panes, names: Sequence[str] = ()) -> Sheet:
+    """Draw a scene of what views show: the same elements are left by a cut, and a node's step is drawn."""
+    step = panes.first.chosen.node_step
+    return draw_sheet(scene, subjects_of(panes, names), filters=panes.first.filters, node_step=step)
+
+
+def _panels(panes: Panes, names: Sequence[str]) -> tuple[Panel, ...]:
+    wipe = panes.wipe
+    if wipe is not None:
+        return (
+            Panel(mesh=wipe.left + 1, caption=names[wipe.left], wipe=Wiped(wipe.right + 1, wipe.at, names[wipe.right])),
+        )
     if len(panes.all) == 1:
-        return picture(first.frame, size, node_step=first.chosen.node_step, **how)
-    panels = [Panel(name, view.frame.mesh, view.frame.figures) for name, view in zip(names, panes.all, strict=True)]
-    return figure(panels, first.frame.look, size, movement=first.frame.movement, wipe=panes.wipe, **how)
+        return ()
+    return tuple(Panel(mesh=number, caption=name) for number, name in enumerate(names, 1))

@@ -174,11 +174,11 @@ def test_the_newly_inverted_are_isolated(window, inverts, record, panel, qtbot):
 
 
 def test_a_picture_shows_what_the_view_shows(window, record, panel, tmp_path):
-    window.canvas.save_picture(tmp_path / "plain.png", (500, 320), False)
+    window.features["save"].picture(tmp_path / "plain.png", (500, 320))
     press(panel.colours, "q-change")
     window.session.view.change(traces=window.session.view.look.traces.__class__(arrows=Arrows.ALL))
     window.refresh()
-    window.canvas.save_picture(tmp_path / "changed.png", (500, 320), False)
+    window.features["save"].picture(tmp_path / "changed.png", (500, 320))
     plain, changed = (np.asarray(Image.open(tmp_path / f"{name}.png")) for name in ("plain", "changed"))
     assert (plain != changed).any(axis=2).mean() > 0.2
 

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtCore import Qt
 
 from hexmend import io
+from hexmend_app.state.look import Structure
 from hexmend_app.state.run import Phase
+from hexmend_app.state.scene import Lines, Page, write_scene
 from tests.app.driving import key, phase
 from tests.patience import PATIENCE
 
@@ -37,3 +43,52 @@ def test_a_picture_has_the_size_asked_for_whatever_the_window(window, tmp_path, 
     assert image.size == size
     colourful = np.ptp(np.asarray(image.convert("RGB")).astype(int), axis=2) > 60
     assert colourful.mean() > 0.05
+
+
+@pytest.mark.parametrize("views", [1, 2, "wipe"])
+def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, views):
+    session = window.session
+    window.action("cut").trigger()
+    session.view.change(structure=Structure(sharp=True), shrink=0.1)
+    if views != 1:
+        session.views.show("as it was", session.document.now)
+        session.views.set_wiping(views == "wipe")
+    window.refresh()
+    window.canvas.roll(10)
+    session.commands.save(tmp_path / "mesh.vtu")
+    page = Page(pixels=(700, 420), margin=1.5)
+    for scene in (window.canvas.scene(page), window.canvas.scene(Page(85, 60, dpi=200, background="#20262e"))):
+        write_scene(tmp_path / "scene.toml", scene)
+        assert window.features["save"].write_picture(tmp_path / "here.png", scene)
+        meshes = [str(tmp_path / "mesh.vtu")] * (1 if views == 1 else 2)
+        words = ["render", *meshes, "--scene", str(tmp_path / "scene.toml"), "-o", str(tmp_path / "there.png")]
+        bare = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        subprocess.run([sys.executable, "-m", "hexmend", *words], env=bare, check=True, capture_output=True)
+        here, there = (np.asarray(Image.open(tmp_path / name)).astype(int) for name in ("here.png", "there.png"))
+        assert here.shape == there.shape == (*scene.page.size[::-1], 3)
+        assert np.abs(here - there).mean() < 0.5
+        assert (np.ptp(here, axis=2) > 60).mean() > 0.05
+
+
+def test_the_next_picture_is_like_the_last(window, qtbot, tmp_path, monkeypatch):
+    save = window.features["save"]
+    dialog = save.picture_dialog()
+    qtbot.addWidget(dialog)
+    dialog.file.setText(str(tmp_path / "p.pdf"))
+    dialog.size_form.preset.setCurrentIndex(1)
+    dialog.size_form.preset.activated.emit(1)
+    monkeypatch.setattr(type(dialog), "exec", lambda self: True)
+    monkeypatch.setattr(save, "picture_dialog", lambda: dialog)
+    save.ask_picture()
+    assert (tmp_path / "p.pdf").read_bytes().startswith(b"%PDF")
+    monkeypatch.undo()
+    again = save.picture_dialog()
+    qtbot.addWidget(again)
+    assert (again.scene().page.width, again.scene().page.height) == (85, 60)
+    assert again.scene().camera.stand == window.canvas.stand
+
+
+def test_edges_that_are_off_in_the_view_are_off_in_the_picture(window):
+    window.session.view.change(edges=False)
+    window.refresh()
+    assert window.canvas.scene(Page()).lines == Lines(0.0)

@@ -1,12 +1,20 @@
-"""The dialog that asks where a picture goes."""
+"""The dialog that asks what a picture is to be like and where it goes."""
 
+import numpy as np
 import pytest
+from PIL import Image
 from PySide6.QtCore import QSettings, QSize
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialogButtonBox, QLabel, QLineEdit, QMessageBox
 
+from hexmend.errors import ParameterError
 from hexmend_app.features.save.picture_dialog import PictureDialog
+from hexmend_app.scene.export.sheet import draw_sheet
+from hexmend_app.scene.export.subject import Subject
+from hexmend_app.state.scene import Bar, Camera, Page, Panel, Place, Scene, read_scene, write_scene
 from hexmend_app.widgets.questions import folder, remember_folder
+from tests.core.grids import grid
+from tests.patience import PATIENCE
 
 
 @pytest.fixture(autouse=True)
@@ -15,16 +23,31 @@ def own_settings(tmp_path):
         QSettings.setPath(kind, QSettings.Scope.UserScope, str(tmp_path / "settings"))
 
 
-@pytest.fixture
-def dialog(qtbot):
-    dialog = PictureDialog(QSize(640, 480), "bridge.png")
+class Nothing:
+    """A page that is empty."""
+
+    def __init__(self, scene):
+        self.scene = scene
+
+    def image(self):
+        return Image.new("RGB", self.scene.page.size)
+
+
+def made(qtbot, scene=None, draw=Nothing, views=()):
+    scene = Scene(page=Page(pixels=(640, 480))) if scene is None else scene
+    dialog = PictureDialog(scene, draw, QSize(640, 480), "bridge.png", views)
     qtbot.addWidget(dialog)
     dialog.show()
     return dialog
 
 
+@pytest.fixture
+def dialog(qtbot):
+    return made(qtbot)
+
+
 def write(dialog, path):
-    line = dialog.findChild(QLineEdit)
+    line = next(one for one in dialog.findChildren(QLineEdit) if one.accessibleName() == "File")
     line.selectAll()
     QTest.keyClicks(line, str(path))
 
@@ -39,14 +62,21 @@ def said(dialog):
     ]
 
 
-@pytest.mark.parametrize("name", ["p.pdf", "p.jpg", "p.v2"])
+def type_into(dialog, name, text):
+    editor = next(form.editors[name] for _, form in dialog.forms if name in form.editors)
+    line = editor if isinstance(editor, QLineEdit) else editor.lineEdit()
+    line.selectAll()
+    QTest.keyClicks(line, text)
+
+
+@pytest.mark.parametrize("name", ["p.gif", "p.jpg", "p.v2"])
 def test_a_suffix_that_cannot_be_written_is_refused_with_what_can(dialog, tmp_path, name):
     write(dialog, tmp_path / name)
     save(dialog)
     assert dialog.isVisible()
     assert len(said(dialog)) == 1
     assert name in said(dialog)[0]
-    assert "Use .png." in said(dialog)[0]
+    assert "Use .png, .tif, .tiff, .pdf or .svg." in said(dialog)[0]
     write(dialog, tmp_path / "p.png")
     assert said(dialog) == []
     save(dialog)
@@ -62,7 +92,7 @@ def test_a_name_without_a_suffix_gets_one(dialog, tmp_path):
 
 
 def test_no_name_is_no_file(dialog):
-    dialog.findChild(QLineEdit).clear()
+    write(dialog, " ")
     save(dialog)
     assert dialog.isVisible()
     assert said(dialog)
@@ -83,6 +113,84 @@ def test_it_begins_in_the_folder_of_the_other_dialogs_and_they_go_on_in_its(dial
     save(dialog)
     assert folder() == tmp_path / "pictures"
     remember_folder(tmp_path / "mesh.vtu")
-    another = PictureDialog(QSize(640, 480), "bridge.png")
-    qtbot.addWidget(another)
-    assert another.path() == tmp_path / "bridge.png"
+    assert made(qtbot).path() == tmp_path / "bridge.png"
+
+
+def test_what_is_not_touched_stays_as_it_is(qtbot):
+    scene = Scene(
+        page=Page(170, 90, dpi=450, background="#102030", margin=2.5, crop=True, font_size=7.5),
+        bar=Bar(Place.RIGHT, (0.0, 0.25), "title"),
+        panels=(Panel(caption="one"), Panel(mesh=2, caption="two")),
+    )
+    assert made(qtbot, scene, views=("one", "two")).scene() == scene
+    assert made(qtbot).scene() == Scene(page=Page(pixels=(640, 480)))
+
+
+def test_a_size_is_chosen_in_millimetres_or_pixels(dialog):
+    size = dialog.size_form
+    size.preset.setCurrentIndex(2)
+    size.preset.activated.emit(2)
+    assert (dialog.scene().page.width, dialog.scene().page.height, dialog.scene().page.dpi) == (170, 106, 300)
+    size.dpi.setValue(600)
+    assert dialog.scene().page.size == (4016, 2504)
+    size.unit.setCurrentText("pixels")
+    size.unit.activated.emit(1)
+    assert dialog.scene().page.pixels == (4016, 2504)
+    size.width_box.setValue(1920)
+    size.height_box.setValue(1080)
+    assert size.preset.currentText().startswith("Full HD")
+
+
+def test_what_cannot_be_used_is_said_and_not_saved(dialog, tmp_path):
+    write(dialog, tmp_path / "p.png")
+    type_into(dialog, "ticks", "0, half")
+    assert "'0, half' is no number" in said(dialog)[0]
+    save(dialog)
+    assert dialog.isVisible()
+    type_into(dialog, "ticks", "0, 0.5")
+    assert said(dialog) == []
+    type_into(dialog, "background", "mauve")
+    assert "expected white, transparent or #rrggbb" in said(dialog)[0]
+    type_into(dialog, "background", "#ff00ff")
+    assert dialog.scene().bar.ticks == (0, 0.5)
+    assert dialog.scene().page.background == "#ff00ff"
+
+
+def test_a_scene_is_kept_in_a_file_and_taken_from_one(dialog, tmp_path):
+    type_into(dialog, "edges", "0.4")
+    dialog.keep(str(tmp_path / "scene.toml"))
+    assert read_scene(tmp_path / "scene.toml") == dialog.scene()
+    other = Scene(camera=Camera("+x"), cameras={"side": Camera("-y")}, page=Page(85, 60, dpi=600))
+    write_scene(tmp_path / "other.toml", other)
+    dialog.load(str(tmp_path / "other.toml"))
+    assert dialog.scene() == other
+    dialog.camera.setCurrentText("side")
+    assert dialog.scene().camera == Camera("-y")
+    (tmp_path / "bad.toml").write_text("[bar]\ntick = 1")
+    dialog.load(str(tmp_path / "bad.toml"))
+    assert "[bar] has an unknown key 'tick'" in said(dialog)[0]
+
+
+def test_the_preview_is_the_picture_in_small(qtbot):
+    subject = Subject.of(grid(3))
+    dialog = made(qtbot, draw=lambda scene: draw_sheet(scene, [subject]))
+    qtbot.waitUntil(lambda: not dialog.preview.picture.isNull(), timeout=PATIENCE)
+    whole = dialog.scene()
+    qtbot.waitUntil(lambda: dialog.preview.picture.width() > 300, timeout=PATIENCE)
+    small = dialog.preview.picture.toImage().convertToFormat(dialog.preview.picture.toImage().Format.Format_RGB888)
+    seen = np.frombuffer(small.constBits(), np.uint8).reshape(small.height(), small.bytesPerLine())
+    seen = seen[:, : 3 * small.width()].reshape(small.height(), small.width(), 3)
+    image = draw_sheet(whole, [subject]).image().resize((small.width(), small.height()), Image.Resampling.BOX)
+    assert np.abs(np.asarray(image).astype(int) - seen).mean() < 12
+    dialog.size_form.width_box.setValue(320)
+    qtbot.waitUntil(lambda: dialog.preview.picture.height() > dialog.preview.picture.width(), timeout=PATIENCE)
+
+
+def test_a_page_too_small_for_its_panels_is_said(qtbot):
+    subject = Subject.of(grid(2))
+    scene = Scene(panels=(Panel(),) * 12, page=Page(pixels=(64, 30), columns=1))
+    with pytest.raises(ParameterError, match="too few for 12 panels"):
+        draw_sheet(scene, [subject])
+    dialog = made(qtbot, scene, lambda scene: draw_sheet(scene, [subject]), [""] * 12)
+    qtbot.waitUntil(lambda: bool(said(dialog)), timeout=PATIENCE)
+    assert "too few for 12 panels" in said(dialog)[0]

@@ -15,16 +15,16 @@ from hexmend.errors import FileError, ParameterError
 from hexmend.io import write
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, measure
-from hexmend_app.cli.clip import clip_of, plane
+from hexmend_app.cli.clip import cut_of, plane
 from hexmend_app.cli.looks import look_of
 from hexmend_app.cli.render import command
 from hexmend_app.scene.colours import INVERTED, resolve
-from hexmend_app.scene.export.figure import Panel, figure
-from hexmend_app.scene.export.picture import picture, write_picture
-from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.export.sheet import draw_sheet
+from hexmend_app.scene.export.subject import Subject
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.look import Look, Structure
 from hexmend_app.state.measured import values
+from hexmend_app.state.scene import Bar, Page, Place, Scene
 from tests.core.grids import grid, scrambled
 
 #: Runs the commands that it is sent, a line each, and answers with their exit status, whatever they say.
@@ -158,7 +158,7 @@ def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
     assert magenta[:320].sum() == 0
     assert magenta[320:].sum() > 50
     for words, message in (
-        ([paths[0]] * 5, "4 at most"),
+        ([paths[0]] * 13, "12 at most"),
         ([*paths, "--captions", "a,b,c"], "2 names separated by commas"),
     ):
         assert main(["render", *words, "-o", str(tmp_path / "none.png")]) == 2
@@ -166,10 +166,14 @@ def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
         assert not (tmp_path / "none.png").exists()
 
 
+def sheet(*meshes, look=Look(), bar=True, names="abcdef", **page):  # noqa: B008
+    scene = Scene.of(look, page=Page(**page), bar=Bar(Place.BELOW if bar else Place.NONE))
+    return draw_sheet(scene, [Subject.of(mesh, name) for mesh, name in zip(meshes, names, strict=False)])
+
+
 @pytest.mark.parametrize("size", [(64, 64), (200, 600), (640, 400)])
 def test_a_figure_has_the_size_asked_for(size):
-    panels = [Panel("one", mesh, measure(mesh.points, mesh.hexes)) for mesh in (grid(2), grid(3))]
-    assert figure(panels, Look(), size).size == size
+    assert sheet(grid(2), grid(3), pixels=size).image().size == size
 
 
 def test_words_that_begin_with_a_minus_are_values():
@@ -182,14 +186,14 @@ def test_words_that_begin_with_a_minus_are_values():
 
 @pytest.mark.parametrize("size", [(64, 64), (128, 96), (320, 160), (200, 600)])
 def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
-    mesh = grid(2)
-    assert picture(Frame(mesh, measure(mesh.points, mesh.hexes)), size).size == size
+    assert sheet(grid(2), pixels=size).image().size == size
 
 
 def asked(mesh, *words):
     parser = argparse.ArgumentParser(allow_abbrev=False)
     command.arguments(parser)
-    return clip_of(parser.parse_args(["a.vtk", "-o", "a.png", *words]), mesh)
+    cut = cut_of(parser.parse_args(["a.vtk", "-o", "a.png", *words]))
+    return None if cut is None else cut.of(mesh)
 
 
 def test_planes_are_named_by_axis_or_normal_and_position():
@@ -197,9 +201,9 @@ def test_planes_are_named_by_axis_or_normal_and_position():
     assert asked(mesh) is None
     assert asked(mesh, "--clip", "x:0.25") == PlaneClip.at((1, 0, 0), (1, 0, 0))
     assert asked(mesh, "--clip", "z", "--flip", "--smooth") == PlaneClip.at((0, 0, -1), (0, 0, 2), False)
-    slanted = plane("1,1,0:0.5", mesh)
+    slanted = plane("1,1,0:0.5").of(mesh)
     assert slanted.signed_distance(np.array([[2.0, 2.0, 0.0]]))[0] == pytest.approx(0)
-    assert plane("1e300,0,0:0.25", mesh) == ClipPlane((1, 0, 0), (1, 0, 0))
+    assert plane("1e300,0,0:0.25").of(mesh) == ClipPlane((1, 0, 0), (1, 0, 0))
 
 
 def test_several_planes_and_boxes_are_asked_for():
@@ -214,7 +218,7 @@ def test_several_planes_and_boxes_are_asked_for():
 def test_nodes_that_no_hex_uses_do_not_count():
     mesh = grid(4)
     stray = Mesh(np.vstack([mesh.points, [[100.0, 0.0, 0.0]]]), mesh.hexes)
-    assert plane("x", stray) == ClipPlane((1, 0, 0), (2, 0, 0))
+    assert plane("x").of(stray) == ClipPlane((1, 0, 0), (2, 0, 0))
 
 
 def test_looks_are_values():
@@ -229,47 +233,41 @@ def test_a_picture_is_written_as_what_it_is(tmp_path, capsys):
     from hexmend.cli.main import main
 
     write(tmp_path / "mesh.vtu", grid(2))
-    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "p.pdf")]) != 0
-    assert "p.pdf: a picture cannot be written as .pdf. Use .png." in capsys.readouterr().err
+    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "p.jpg")]) != 0
+    assert "p.jpg: a picture cannot be written as .jpg. Use .png, .tif, .tiff, .pdf or .svg." in capsys.readouterr().err
     assert [one.name for one in tmp_path.iterdir()] == ["mesh.vtu"]
-    image = Image.new("RGB", (16, 16))
-    for name in ("p.PNG", "p"):
-        write_picture(tmp_path / name, image)
+    page = sheet(grid(2), pixels=(40, 30))
+    for name, kind in (("p.PNG", "PNG"), ("p", "PNG"), ("p.tif", "TIFF")):
+        page.write(tmp_path / name)
         with Image.open(tmp_path / name) as read:
-            assert (read.format, read.size) == ("PNG", (16, 16))
+            assert (read.format, read.size) == (kind, (40, 30))
     with pytest.raises(FileError, match=r"Use \.png"):
-        write_picture(tmp_path / "p.jpg", image)
+        page.write(tmp_path / "p.jpg")
 
 
-@pytest.mark.parametrize(
-    "drawn",
-    [picture, lambda frame, size: figure([panel_of(frame)] * 2, frame.look, size)],
-    ids=["picture", "figure"],
-)
+@pytest.mark.parametrize("panels", [1, 2])
 @pytest.mark.parametrize("lines", [{"edges": True}, {"outline": True}, {"structure": Structure(sharp=True)}])
-def test_lines_are_as_thick_on_paper_in_every_size(drawn, lines):
+def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
     if QOpenGLContext.currentContext() is not None:
         QOpenGLContext.currentContext().doneCurrent()  # a window's, in which VTK would draw by another library
-    mesh = grid(2)
     look = Look(**{"edges": False, "outline": False, "shading": False} | lines)
-    frame = Frame(mesh, measure(mesh.points, mesh.hexes), look=look)
     shares = []
     for size in ((1440, 900), (2880, 1800)):
-        image = np.asarray(drawn(frame, size).convert("L"))[100 : round(0.9 * size[1])]  # without words
+        page = sheet(*[grid(2)] * panels, look=look, pixels=size, supersampling=1)
+        image = np.asarray(page.image().convert("L"))[100 : round(0.75 * size[1])]  # without words and axes
         shares.append((image < 110).mean())
     assert shares[0] > 5e-4
     assert shares[1] == pytest.approx(shares[0], rel=0.4)
 
 
-def panel_of(frame):
-    return Panel("one", frame.mesh, frame.figures)
-
-
 def test_each_caption_of_a_figure_stands_above_its_view():
-    panels = [Panel(name, mesh, measure(mesh.points, mesh.hexes)) for name in "abcd" for mesh in (grid(2),)]
-    drawn = np.asarray(figure(panels, Look(), (640, 430), bar=False)).astype(int)
-    white = (drawn[:, -8:] == 255).all(axis=(1, 2))  # beside what is written
-    for top in (0, 215):
-        assert white[top + 2 : top + 20].all()
-    assert not white[60:210].any()
-    assert not white[275:].any()
+    grey = {"background": "#c0c0c0"}
+    drawn = np.asarray(sheet(*[grid(2)] * 4, pixels=(640, 430), bar=False, **grey).image().convert("L")).astype(int)
+    for column in (slice(0, 320), slice(320, 640)):
+        for top in (0, 215):
+            assert (drawn[top : top + 20, column] < 90).any()  # what is written
+    for left in (0, 322):
+        for top in (0, 217):
+            letters = (drawn[top : top + 20, left : left + 300] < 90).any(axis=0)
+            assert letters[:20].any()
+            assert not letters[180:].any()

@@ -1,0 +1,114 @@
+"""A small picture of what is about to be saved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPixmap, QResizeEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from hexmend.errors import HexmendError
+from hexmend_app.scene.palette import FIELD, LINE
+from hexmend_app.state.scene import Scene
+from hexmend_app.state.scene.page import PT_PER_INCH
+from hexmend_app.widgets.style import explain
+
+if TYPE_CHECKING:
+    from hexmend_app.scene.export.sheet import Sheet
+
+#: Milliseconds after the last change until it is drawn anew.
+_PAUSE = 150
+
+#: Side in pixels of the squares that stand for transparent paper.
+_SQUARE = 8
+
+
+class Preview(QWidget):
+    """Draws a scene small and without shading, a moment after it has changed.
+
+    Parameters
+    ----------
+    draw : callable
+        Draws a scene on a page.
+
+    Signals
+    -------
+    drawn(str)
+        What cannot be drawn and why, or "".
+    """
+
+    drawn = Signal(str)
+
+    def __init__(self, draw: Callable[[Scene], Sheet], parent: QWidget | None = None):
+        super().__init__(parent)
+        self._draw, self._scene = draw, Scene()
+        self.picture = QPixmap()
+        self.setMinimumSize(360, 280)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        explain(self, "Preview", "The picture as it will be, small and without shading.")
+        self._soon = QTimer(self, interval=_PAUSE, singleShot=True)
+        self._soon.timeout.connect(self._redraw)
+
+    def show_scene(self, scene: Scene) -> None:
+        """Draw a scene soon."""
+        self._scene = scene
+        self._soon.start()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Draw as large as there is room."""
+        super().resizeEvent(event)
+        self._soon.start()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Show the picture in the middle, transparent paper as squares."""
+        painter = QPainter(self)
+        size = self.picture.size() / self.devicePixelRatioF()
+        left, top = (self.width() - size.width()) // 2, (self.height() - size.height()) // 2
+        if self._scene.page.ground is None:
+            painter.setClipRect(left, top, size.width(), size.height())
+            painter.fillRect(self.rect(), FIELD.light)
+            for row in range(0, size.height(), _SQUARE):
+                for column in range(row % (2 * _SQUARE), size.width(), 2 * _SQUARE):
+                    painter.fillRect(left + column, top + row, _SQUARE, _SQUARE, LINE.light)
+            painter.setClipping(False)
+        if not self.picture.isNull():
+            painter.drawPixmap(left, top, self.picture)
+            painter.setPen(str(LINE))
+            painter.drawRect(left - 1, top - 1, size.width() + 1, size.height() + 1)
+
+    def _redraw(self) -> None:
+        ratio = self.devicePixelRatioF()
+        try:
+            small = smaller(self._scene, (self.width() - 4) * ratio, (self.height() - 4) * ratio)
+            image = self._draw(small).image().convert("RGBA")
+        except HexmendError as error:
+            self.drawn.emit(str(error))
+            return
+        data = QImage(image.tobytes(), *image.size, QImage.Format.Format_RGBA8888)
+        self.picture = QPixmap.fromImage(data)
+        self.picture.setDevicePixelRatio(ratio)
+        self.update()
+        self.drawn.emit("")
+
+
+def smaller(scene: Scene, width: float, height: float) -> Scene:
+    """The same page in fewer pixels, drawn fast: letters and lines are as large on it as on the whole.
+
+    Parameters
+    ----------
+    scene : Scene
+    width, height : float
+        Pixels that there are.
+    """
+    page = scene.page
+    share = min(1.0, width / page.size[0], height / page.size[1])
+    dpi = page.resolution * share
+    size = tuple(max(16, round(side * share)) for side in page.size)
+    edges = scene.lines.edges
+    pen = edges if edges == 0 else page.pen(scene.lines) / page.resolution * PT_PER_INCH
+    fast = {"shading": False, "supersampling": 1, "font_size": page.letters}
+    small = replace(page, width=None, height=None, pixels=size, dpi=max(dpi, 5.0), **fast)
+    return replace(scene, page=small, lines=replace(scene.lines, edges=pen))

@@ -1,0 +1,140 @@
+"""How large a page is: one of the usual sizes, or any, in millimetres or in pixels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from PySide6.QtCore import QSize, Signal
+from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QWidget
+
+from hexmend_app.state.scene import Page
+from hexmend_app.widgets.style import explain
+
+#: Title, pixels or millimetres.
+_PRESETS = (
+    ("A column, 85 × 60 mm", None, (85.0, 60.0)),
+    ("A page's width, 170 × 106 mm", None, (170.0, 106.0)),
+    ("Full HD, 1920 × 1080 pixels", (1920, 1080), None),
+    ("4K, 3840 × 2160 pixels", (3840, 2160), None),
+)
+_MM, _PIXELS = "mm", "pixels"
+
+#: Limits of either unit, and dpi where nothing is said.
+_RANGES = {_MM: (5.0, 3000.0, 1), _PIXELS: (16.0, 16384.0, 0)}
+_DPI = 300.0
+
+
+class SizeForm(QWidget):
+    """Edits width, height and resolution of a page.
+
+    Parameters
+    ----------
+    view : QSize
+        Of the 3D view, in device pixels: the first of the sizes on offer.
+    page : Page
+        Shown first.
+
+    Signals
+    -------
+    changed
+        The user wants another size.
+    """
+
+    changed = Signal()
+
+    def __init__(self, view: QSize, page: Page, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.preset, self.unit = QComboBox(), QComboBox()
+        size = view.width(), view.height()
+        self.preset.addItem(f"As the view, {size[0]} × {size[1]} pixels", (size, None))
+        for title, pixels, mm in _PRESETS:
+            self.preset.addItem(title, (pixels, mm))
+        self.preset.addItem("Other", None)
+        explain(self.preset, "Usual size", "A size that is often wanted.")
+        self.unit.addItems([_MM, _PIXELS])
+        explain(self.unit, "Unit of the size", "Millimetres on paper, or pixels.")
+        self.width_box, self.height_box, self.dpi = QDoubleSpinBox(), QDoubleSpinBox(), QDoubleSpinBox()
+        explain(self.width_box, "Width", "Width of the picture.")
+        explain(self.height_box, "Height", "Height of the picture.")
+        explain(self.dpi, "Resolution", "Pixels per inch of paper: 300 to 600 for print.")
+        self.dpi.setRange(5, 4800)
+        self.dpi.setDecimals(0)
+        self.dpi.setSuffix(" dpi")
+        row = QHBoxLayout()
+        for part in (self.width_box, QLabel("×"), self.height_box, self.unit):
+            row.addWidget(part)
+        row.addStretch()
+        layout = QFormLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addRow(self.preset)
+        layout.addRow(row)
+        layout.addRow("Resolution", self.dpi)
+        self.show_page(page)
+        self.preset.activated.connect(self._on_preset)
+        self.unit.activated.connect(self._on_unit)
+        for box in (self.width_box, self.height_box, self.dpi):
+            box.valueChanged.connect(self._on_typed)
+
+    def show_page(self, page: Page) -> None:
+        """Show the size of a page, without a signal."""
+        unit = _MM if page.pixels is None and (page.width or page.height) else _PIXELS
+        size = [side * 25.4 / page.resolution for side in page.size] if unit == _MM else page.size
+        self._show(unit, *size)
+        self.dpi.blockSignals(True)
+        self.dpi.setValue(page.resolution if unit == _MM else _DPI)
+        self.dpi.blockSignals(False)
+        self._find_preset()
+
+    def page(self, base: Page) -> Page:
+        """A page of this size.
+
+        Raises
+        ------
+        ParameterError
+            Where it has too many pixels.
+        """
+        width, height = self.width_box.value(), self.height_box.value()
+        if self.unit.currentText() == _MM:
+            return replace(base, width=width, height=height, pixels=None, dpi=self.dpi.value())
+        return replace(base, width=None, height=None, pixels=(int(width), int(height)), dpi=None)
+
+    def _show(self, unit: str, width: float, height: float) -> None:
+        self.unit.setCurrentText(unit)
+        low, high, decimals = _RANGES[unit]
+        for box, value in ((self.width_box, width), (self.height_box, height)):
+            box.blockSignals(True)
+            box.setDecimals(decimals)
+            box.setRange(low, high)
+            box.setValue(value)
+            box.blockSignals(False)
+        self.dpi.setEnabled(unit == _MM)
+
+    def _find_preset(self) -> None:
+        size = self.width_box.value(), self.height_box.value()
+        for at in range(self.preset.count() - 1):
+            pixels, mm = self.preset.itemData(at)
+            if size == (pixels if mm is None else mm) and self.unit.currentText() == (_PIXELS if mm is None else _MM):
+                self.preset.setCurrentIndex(at)
+                return
+        self.preset.setCurrentIndex(self.preset.count() - 1)
+
+    def _on_preset(self) -> None:
+        if self.preset.currentData() is not None:
+            pixels, mm = self.preset.currentData()
+            self._show(*((_PIXELS, *pixels) if mm is None else (_MM, *mm)))
+            self.changed.emit()
+
+    def _on_unit(self) -> None:
+        """The same size in the other unit."""
+        share = 25.4 / self.dpi.value()
+        width, height = self.width_box.value(), self.height_box.value()
+        if self.unit.currentText() == _MM:
+            self._show(_MM, width * share, height * share)
+        else:
+            self._show(_PIXELS, round(width / share), round(height / share))
+        self._find_preset()
+        self.changed.emit()
+
+    def _on_typed(self) -> None:
+        self._find_preset()
+        self.changed.emit()

@@ -1,0 +1,140 @@
+"""Where a scene cuts the mesh open."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from hexmend.errors import ParameterError
+from hexmend.mesh import Mesh
+from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, PlaneClip
+from hexmend_app.state.scene.table import Table, key
+from hexmend_app.state.stand import Vector
+
+#: Planes of a cut.
+_MOST = 12
+
+
+class CutStyle(StrEnum):
+    """How hexes on a cut are drawn."""
+
+    CRINKLE = "crinkle"
+    """Whole."""
+    SMOOTH = "smooth"
+    """Cut through."""
+
+
+@dataclass(frozen=True)
+class Plane(Table):
+    """A plane of a cut: what lies on the side that its normal points to is hidden.
+
+    Parameters
+    ----------
+    normal : Vector
+        Where it points to.
+    position : float, optional
+        How far through the mesh along the normal it stands: 0.5, in the middle, where nothing is said.
+    point : Vector, optional
+        A point of the plane, in the mesh's unit, instead of a position.
+    """
+
+    normal: Vector = key((1.0, 0.0, 0.0))
+    position: float | None = key(low=0, high=1)
+    point: Vector | None = key()
+
+    def check(self) -> None:
+        """A direction, and one place."""
+        if self.position is not None and self.point is not None:
+            raise ParameterError("the plane has a position and a point: expected one of them")
+        if not any(self.normal):
+            raise ParameterError("normal = [0, 0, 0] is no direction: expected one that is not zero")
+
+    def of(self, mesh: Mesh) -> ClipPlane:
+        """The plane in a mesh."""
+        if self.point is not None:
+            return ClipPlane(self.normal, self.point)
+        largest = max(map(abs, self.normal))
+        normal = np.array(self.normal) / largest
+        along = mesh.points[mesh.topology.used] @ normal
+        share = 0.5 if self.position is None else self.position
+        place = along.min() + share * (along.max() - along.min())
+        return ClipPlane(tuple(normal.tolist()), tuple((normal * place / (normal @ normal)).tolist()))
+
+
+@dataclass(frozen=True)
+class Box(Table):
+    """A box along the axes.
+
+    Parameters
+    ----------
+    low, high : Vector
+        Its corners, in the mesh's unit.
+    shares : bool
+        The corners are shares of the mesh along each axis, from 0 to 1, instead.
+    """
+
+    low: Vector = key((0.0, 0.0, 0.0))
+    high: Vector = key((1.0, 1.0, 1.0))
+    shares: bool = key(False)
+
+    def check(self) -> None:
+        """The lower corner first."""
+        if not all(a <= b for a, b in zip(self.low, self.high, strict=True)):
+            raise ParameterError(f"the box goes from {self.low} to {self.high}: expected the lower corner first")
+        if self.shares and not (min(self.low) >= 0 and max(self.high) <= 1):
+            raise ParameterError(f"the box goes from {self.low} to {self.high}: expected shares from 0 to 1")
+
+    def of(self, mesh: Mesh) -> tuple[Vector, Vector]:
+        """Its corners in a mesh."""
+        if not self.shares:
+            return self.low, self.high
+        points = mesh.points[mesh.topology.used]
+        least, most = points.min(axis=0), points.max(axis=0)
+        low, high = (least + (most - least) * share for share in (self.low, self.high))
+        return tuple(low.tolist()), tuple(high.tolist())
+
+
+@dataclass(frozen=True)
+class Cut(Table):
+    """The cut; without planes and box, the mesh is whole.
+
+    Parameters
+    ----------
+    planes : tuple of Plane
+        Such as { normal = [1, 0, 0], position = 0.5 }, or with a point instead of a position.
+    box : Box, optional
+        Such as { low = [0, 0, 0], high = [1, 1, 1] }: what lies outside is hidden.
+    style : CutStyle
+        Whether hexes on the cut stay whole, or are cut through.
+    notch : bool
+        Hide only what lies beyond all planes, which cuts a corner out; of a box, its inside.
+    """
+
+    planes: tuple[Plane, ...] = key((), most=_MOST)
+    box: Box | None = key()
+    style: CutStyle = key(CutStyle.CRINKLE)
+    notch: bool = key(False)
+
+    def check(self) -> None:
+        """Planes or a box."""
+        if self.planes and self.box is not None:
+            raise ParameterError("the cut has planes and a box: expected one of them")
+
+    def of(self, mesh: Mesh) -> Clip | None:
+        """The cut of a mesh; None for none."""
+        whole = self.style is CutStyle.CRINKLE
+        if self.box is not None:
+            return BoxClip(*self.box.of(mesh), whole, self.notch)
+        return PlaneClip(tuple(one.of(mesh) for one in self.planes), whole, self.notch) if self.planes else None
+
+    @classmethod
+    def as_in(cls, clip: Clip | None) -> Cut:
+        """The cut that a look has, in the mesh's unit."""
+        if clip is None:
+            return cls()
+        how = {"style": CutStyle.CRINKLE if clip.crinkle else CutStyle.SMOOTH, "notch": clip.notch}
+        if isinstance(clip, BoxClip):
+            return cls(box=Box(clip.low, clip.high), **how)
+        return cls(tuple(Plane(one.normal, point=one.origin) for one in clip.planes), **how)

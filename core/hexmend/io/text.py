@@ -1,0 +1,41 @@
+"""Texts from files that people write."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from hexmend.errors import FileError
+from hexmend.io.files import check_readable
+
+
+def read_text(path: str | os.PathLike[str], what: str, largest: int) -> str:
+    """The text of a file.
+
+    Parameters
+    ----------
+    path : path-like
+    what : str
+        What the file is to hold, such as "a recipe".
+    largest : int
+        Letters that such a text may have.
+
+    Raises
+    ------
+    FileError
+        Where the file cannot be read, is larger, or is no UTF-8: it names the line.
+    """
+    path = Path(path)
+    check_readable(path, what)
+    try:
+        with open(path, "rb") as file:
+            data = file.read(4 * largest + 4)  # bytes of so many letters
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise FileError(path, f"is not text: line {line} holds bytes that are not UTF-8", f"Name {what}.") from None
+    except OSError as error:
+        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
+    if len(text) > largest:
+        raise FileError(path, f"has {len(text):,} letters: expected {what}, of {largest:,} at most", f"Name {what}.")
+    return text

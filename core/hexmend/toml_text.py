@@ -1,0 +1,56 @@
+"""TOML from people and from anywhere, as plain data: bounded, and with every problem said by line and column."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hexmend.errors import ParameterError
+
+#: Letters of a text, and dots in a key: a parser takes the square of these in memory.
+LARGEST, DEEPEST = 1_000_000, 8
+
+
+def parsed(text: str, what: str, largest: int = LARGEST) -> dict[str, Any]:
+    """The data of a TOML text.
+
+    Parameters
+    ----------
+    text : str
+    what : str
+        What it is to be, such as "a recipe".
+    largest : int
+        Letters that it may have.
+
+    Raises
+    ------
+    ParameterError
+        Where it is none, or is larger or deeper than such texts are: it names the line.
+
+    Examples
+    --------
+    >>> parsed("a = [1, 2]", "a recipe")
+    {'a': [1, 2]}
+    >>> parsed("a = ", "a recipe")
+    Traceback (most recent call last):
+    hexmend.errors.ParameterError: is not TOML: invalid value (at line 1, column 5, the end)
+    """
+    import tomllib
+
+    _check_size(text, what, largest)
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise ParameterError(f"is nested too deeply to be {what}") from None
+    except ValueError as error:  # tomllib's own, and that of a number with thousands of digits
+        lines = text.splitlines() or [""]
+        end = f"at line {len(lines)}, column {len(lines[-1]) + 1}, the end"
+        said = str(error).replace("at end of document", end)
+        raise ParameterError(f"is not TOML: {said[:1].lower()}{said[1:]}") from None
+
+
+def _check_size(text: str, what: str, largest: int) -> None:
+    if len(text) > largest:
+        raise ParameterError(f"has {len(text):,} letters: expected {what}, of {largest:,} at most")
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.partition("=")[0].count(".") > DEEPEST:
+            raise ParameterError(f"line {number} has a key of more than {DEEPEST} parts")
