@@ -224,3 +224,8 @@ def test_no_cells_have_no_data(tmp_path):
     quads = Cells("quad", np.empty((0, 4), np.int32), {"q": np.empty((0, 3))})
     io.write(tmp_path / "a.msh", grid(2).replace(cells=(quads,)))
     assert io.read(tmp_path / "a.msh").n_hexes == 8
+
+
+def test_whole_numbers_that_are_rounded_are_told(tmp_path):
+    mesh = grid(2).replace(hex_data={"exact": np.arange(8) + 2**53 - 8, "key": np.arange(8) + 2**53})
+    assert "whole numbers of cell data above 2^53, which are rounded (key)" in io.left_out(tmp_path / "a.msh", mesh)
