@@ -16,6 +16,9 @@ CHARTS = (
     "step_seconds", "delta",
 )  # fmt: skip
 
+#: More of anything than any panel offers.
+MOST = 1_000_000
+
 
 @dataclass(frozen=True)
 class ChartChoices:
@@ -59,6 +62,9 @@ class HistogramChoices:
     log: bool
     cumulative: bool
     bins: int
+
+    def __post_init__(self) -> None:
+        _check_count("bins", self.bins)
 
 
 @dataclass(frozen=True)
@@ -116,6 +122,10 @@ class ChoicesData:
     steps: int | None = None
     tag: str | None = None
 
+    def __post_init__(self) -> None:
+        if self.steps is not None:
+            _check_count("steps", self.steps)
+
 
 class Choices:
     """Asks panels what they are set to, and sets them: whoever has a panel offers both."""
@@ -143,6 +153,11 @@ class Choices:
         for name, (_, take) in self._offers.items():
             if getattr(data, name) is not None:
                 take(getattr(data, name))
+
+
+def _check_count(what: str, count: int) -> None:
+    if not 1 <= count <= MOST:
+        raise ValueError(f"the number of {what} is not from 1 to {MOST:,}")
 
 
 def _check(what: str, names: Any, known: Any) -> None:

@@ -11,9 +11,11 @@ import numpy as np
 
 from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
+from hexmend.io.allowance import Allowance
 from hexmend.io.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.numbering import places
+from hexmend.io.source import shown
 from hexmend.mesh import Mesh
 
 #: Gmsh's number of every kind of cell that is read.
@@ -133,7 +135,7 @@ def to_mesh(path: Path, read: Read) -> Mesh:
     if read.elements is None:
         raise FileError(path, "has no section $Elements", "Write the file again with the program that made it.")
     titles = {(dimension, number): name for (dimension, name), number in numbers_of(read.names).items()}
-    notes, blocks = list(read.notes), []
+    notes, blocks, allowance = list(read.notes), [], Allowance(path, path.stat().st_size)
     left = sum(len(part.tags) for part in read.elements if part.type not in KINDS)
     if left:
         notes.append(
@@ -143,10 +145,10 @@ def to_mesh(path: Path, read: Read) -> Mesh:
         parts = [part for part in read.elements if part.type == number and len(part.tags)]
         if parts and number in KINDS:
             block = _block(path, KINDS[number], parts, read.tags, titles, notes)
-            blocks.append(replace(block, data={**_data(read.data, False, block.data[ID]), **block.data}))
+            blocks.append(replace(block, data={**_data(read.data, False, block.data[ID], allowance), **block.data}))
     blocks.sort(key=lambda block: block.kind not in HEX_KINDS)
     field_data = {PHYSICAL: read.names} if read.names else {}
-    node_data = {**_data(read.data, True, read.tags), ID: read.tags}
+    node_data = {**_data(read.data, True, read.tags, allowance), ID: read.tags}
     content = Content(read.points, tuple(blocks), node_data, field_data=field_data, notes=tuple(notes))
     return mesh_of(path, content)
 
@@ -189,7 +191,7 @@ def _block(
     return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: tags}, sets)
 
 
-def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray) -> dict[str, np.ndarray]:
+def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray, allowance: Allowance) -> dict[str, np.ndarray]:
     """Values by name for things of some tags; where the file has none for some of them they are no number."""
     found = {}
     for one in data:
@@ -199,6 +201,7 @@ def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray) -> dict[str, n
         at = np.minimum(np.searchsorted(one.tags[order], tags), len(order) - 1)
         there = one.tags[order[at]] == tags
         if there.any():
+            allowance.charge(len(tags) * one.values[:1].nbytes, f"the data {shown(one.name)} of all nodes or elements")
             found[one.name] = one.values[order[at]]
             found[one.name][~there] = np.nan
     return found

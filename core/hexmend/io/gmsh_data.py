@@ -96,7 +96,7 @@ def write_data(out: Writer, key: str, name: str, tags: list[np.ndarray], data: l
 
     What is no number, or has more than nine values a row, is not written.
     """
-    rows = [values.reshape(len(values), -1) for values in data]
+    rows = [values.reshape(len(values), width_of_row(values)) for values in data]
     if len({one.shape[1] for one in rows}) > 1 or None in map(written_width, rows):
         return
     numbers, values = np.concatenate(tags), np.concatenate(rows).astype(np.float64)

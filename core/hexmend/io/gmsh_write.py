@@ -16,6 +16,9 @@ from hexmend.io.numbering import combinations, element_numbers, ids_lost, node_n
 from hexmend.io.pins import with_marks
 from hexmend.mesh import Mesh
 
+#: Whole numbers up to here are the same as real ones.
+_EXACT = 1 << 53
+
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 4.1; elements stay in their order, so that an entity's may stand in several blocks."""
@@ -53,6 +56,10 @@ def cannot(mesh: Mesh) -> list[str]:
         lost = {name for name, values in arrays if written_width(values) is None}
         wider = {name for name, values in arrays if written_width(values) not in (None, width_of_row(values))}
         left += [f"{what} of more than 9 columns, or no numbers ({', '.join(sorted(lost))})"] if lost else []
+        rounded = {name for name, values in arrays if values.dtype.kind in "iu" and (np.abs(values) > _EXACT).any()}
+        left += [f"whole numbers of {what} above 2^53, which are rounded ({', '.join(sorted(rounded))})"] * bool(
+            rounded
+        )
         left += renamed(distinct((name for name, _ in arrays), data_title), what)
         left += [f"the width of {what}, filled up to 3 or 9 columns ({', '.join(sorted(wider))})"] if wider else []
     return left

@@ -6,13 +6,14 @@ of all its first components, then all second ones; for some nodes or cells only 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from itertools import count
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.allowance import Allowance
 from hexmend.io.med_content import BITS, DAMAGED, taken
 from hexmend.io.names import distinct
 
@@ -43,18 +44,21 @@ def read_fields(path: Path, file: Mapping, mesh: str, counts: Mapping[str, int],
         What is left out is added.
     """
     answer: Fields = {place: {} for place in counts}
-    others, bare, steps_left = [], [], []
+    others, bare, steps_left, allowance = [], [], [], Allowance(path, path.stat().st_size)
     for name, field in file["CHA"].items() if "CHA" in file else ():
         if _text(field.attrs.get("MAI", b"")) != mesh or not len(field):
             others.append(name)
             continue
         width = int(field.attrs["NCO"])
+        if width < 1:
+            raise FileError(path, f"the field {name} has {width} components: expected 1 at least", DAMAGED)
         step = max(field.values(), key=lambda one: (int(one.attrs["NDT"]), int(one.attrs["NOR"])))
         steps_left += [name] if len(field) > 1 else []
         for place, group in step.items():
             if place not in counts or any(int(one.attrs["NGA"]) != 1 for one in group.values()):
                 bare += [name] if name not in bare else []
             else:
+                allowance.charge(8 * width * counts[place], f"the field {name}")
                 answer[place][name] = _values(path, file, group, width, counts[place])
     for names, words in (
         (others, "Fields of other meshes are left out"),
@@ -73,7 +77,7 @@ def _values(path: Path, file: Mapping, group: Mapping, width: int, count: int) -
         rows = np.arange(count)
         if profile != ALL:
             rows = taken(path, file["PROFILS"][profile], "PFL").astype(np.int64) - 1
-        if values.dtype.kind not in "iuf" or width < 1 or values.shape != (width * len(rows),):
+        if values.dtype.kind not in "iuf" or values.shape != (width * len(rows),):
             raise FileError(
                 path, f"{part.name}/CO holds {values.size} numbers: expected {width} for each of {len(rows)}", DAMAGED
             )
@@ -119,12 +123,27 @@ def write_fields(file: Mapping, mesh: str, data: Fields) -> None:
             here.attrs.update({"GAU": _NONE, "PFL": np.bytes_(ALL)})
             whole = here.create_group(ALL)
             whole.attrs.update({"GAU": _NONE, "NBR": np.int32(len(values)), "NGA": np.int32(1)})
-            whole["CO"] = values.reshape(len(values), -1).T.ravel().astype(code)
+            whole["CO"] = values.reshape(len(values), width).T.ravel().astype(code)
 
 
-def field_titles(names: Iterable[str]) -> dict[str, str]:
-    """Names of data as fields can have them, no two alike: without / and around spaces, cut to 64 bytes."""
-    return distinct(names, _form)
+def field_titles(data: Fields) -> dict[tuple[str, str, int], str]:
+    """What fields are called, no two alike, by the name, type and width of what they hold.
+
+    Names are without / and around spaces, and cut to 64 bytes; a field is of one type and width, so that others of its
+    name have one of their own.
+    """
+    titles = distinct((name for part in data.values() for name in part), _form)
+    taken_titles = set(titles.values())
+    answer: dict[tuple[str, str, int], str] = {}
+    for part in data.values():
+        for name, values in part.items():
+            key = _key(name, values)
+            if key is not None and key not in answer:
+                others = (_form(name, f"_{k}") for k in count(2))
+                known = any(one == name for one, _, _ in answer)
+                answer[key] = next(one for one in others if one not in taken_titles) if known else titles[name]
+                taken_titles.add(answer[key])
+    return answer
 
 
 def code_of(values: np.ndarray) -> str | None:
@@ -136,28 +155,23 @@ def code_of(values: np.ndarray) -> str | None:
         code = "<i4" if values.dtype.itemsize < 4 or values.dtype == np.int32 else "<i8"
     else:
         return None
-    return code if values.ndim < 2 or values[:1].size or not len(values) else None
+    return code if all(values.shape[1:]) else None
 
 
 def _by_field(data: Fields) -> dict[tuple[str, str, int], dict[str, np.ndarray]]:
-    """Values by field and place; a field is of one type and width: others of its name have one of their own."""
-    titles = field_titles(name for part in data.values() for name in part)
-    taken_titles = set(titles.values())
-    own: dict[tuple[str, str, int], str] = {}
-    answer: dict[tuple[str, str, int], dict[str, np.ndarray]] = {}
+    """Values by the title, type and width of a field, and by place."""
+    titles, answer = field_titles(data), {}
     for place, part in data.items():
         for name, values in part.items():
-            code = code_of(values)
-            if code is None:
-                continue
-            key = (name, code, int(np.prod(values.shape[1:], dtype=np.int64)))
-            if key not in own:
-                others = (_form(name, f"_{k}") for k in count(2))
-                known = any(one == name for one, _, _ in own)
-                own[key] = next(one for one in others if one not in taken_titles) if known else titles[name]
-                taken_titles.add(own[key])
-            answer.setdefault((own[key], *key[1:]), {})[place] = values
+            key = _key(name, values)
+            if key is not None:
+                answer.setdefault((titles[key], *key[1:]), {})[place] = values
     return answer
+
+
+def _key(name: str, values: np.ndarray) -> tuple[str, str, int] | None:
+    code = code_of(values)
+    return None if code is None else (name, code, int(np.prod(values.shape[1:], dtype=np.int64)))
 
 
 def _form(name: str, end: str) -> str:

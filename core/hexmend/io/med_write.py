@@ -86,7 +86,7 @@ def cannot(mesh: Mesh) -> list[str]:
     ):
         odd = sorted({name for part in parts for name, values in part.items() if code_of(values) is None})
         left += [f"{what} that are no numbers ({', '.join(odd)})"] if odd else []
-    titles = field_titles(name for part in fields.values() for name in part)
+    titles = {name: title for (name, _, _), title in field_titles(fields).items() if title != name}
     return left + renamed(titles_of(_names(content))) + renamed(titles, "data")
 
 

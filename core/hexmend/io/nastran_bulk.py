@@ -16,7 +16,7 @@ from hexmend.io.source import shown
 Card = tuple[int, str, list[str]]
 
 _BEGIN = re.compile(rb"^[ \t\v\f]*BEGIN", re.IGNORECASE | re.MULTILINE)
-_EXPONENT = re.compile(r"([0-9.])([+-])")
+_EXPONENT = re.compile(r"([+-]?[0-9.]+)(?:[ED]([+-]?)|([+-]))([0-9]+)", re.IGNORECASE)
 
 #: Fields of a line behind its name: eight of 8 columns, or four of 16.
 _SMALL = [slice(k, k + 8) for k in range(8, 72, 8)]
@@ -87,13 +87,14 @@ class Bulk:
         return int(word)
 
     def real(self, word: str, line: int, name: str) -> float:
-        """A number, whose exponent may lack its letter: 1.5-3; 0 for a blank."""
+        """A number, whose exponent may have the letter D, or lack its letter: 1.5D3, 1.5-3; 0 for a blank."""
         try:
             return float(word or 0)
         except ValueError:
             pass
+        found = _EXPONENT.fullmatch(word)
         try:
-            return float(_EXPONENT.sub(r"\1e\2", word.upper().replace("D", "E").replace("E", "")))
+            return float(f"{found[1]}e{found[2] or found[3] or ''}{found[4]}" if found else word)
         except ValueError:
             raise self.error(f"{name} in line {line} holds {shown(word)}: expected a number") from None
 

@@ -67,6 +67,8 @@ class Lines:
 
     def stretches(self, begin: int, names: Collection[str]) -> list[Stretch]:
         """Stretches of cards of some names from a line on, in order."""
+        if begin >= len(self):
+            return []
         heads = np.char.strip(np.concatenate([self._columns(part, 0, 8) for part in self._parts(begin)])[:, 0])
         letters = heads.astype("S1").view(np.uint8)
         large = (letters == ord("*")) | np.char.endswith(heads, b"*")

@@ -22,6 +22,8 @@ from hexmend.mesh import Mesh
 _LETTER = re.compile(rb"[A-Za-z]")
 _PROPERTY = re.compile(r'([A-Z]+Prop)\s+(.+?)\s+"?([^"]*?)"?\s*\Z', re.IGNORECASE)
 _VECTOR = re.compile(r"(?:vec|Vec|Vector)([234])(d|f|i|ui)\Z")
+#: What has to come before properties of it.
+_BEFORE = {"VPROP": "Vertices", "CPROP": "Polyhedra"}
 _REALS = ("double", "float")
 _WHOLES = ("int", "unsigned int", "uint", "long", "unsigned long", "ulong", "short", "bool", "char", "unsigned char")
 
@@ -53,6 +55,9 @@ def read(path: Path) -> Mesh:
         elif section == "POLYHEDRA":
             cells = _rows(source, "Polyhedra", 2 * len(faces))
         elif found := _PROPERTY.match(key):
+            first = _BEFORE.get(found[1].upper())
+            if first is not None and first.upper() not in seen:
+                raise source.error(f"{shown(key)} stands before {first} ({line})")
             _property(source, found, {"VPROP": (node_data, len(points)), "CPROP": (cell_data, len(cells))}, notes)
         else:
             raise source.error(f"{shown(key)} stands where a section should begin ({line})")

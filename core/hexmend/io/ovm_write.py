@@ -102,11 +102,11 @@ def _write_properties(file: BinaryIO, entity: str, data: Mapping[str, np.ndarray
 
 def _type(values: np.ndarray) -> str | None:
     """The format's name of what an array holds; None where there is none."""
-    if values.dtype.kind not in "biuf" or values.ndim > 2 or (values.ndim == 2 and not 2 <= values.shape[1] <= 4):
+    if values.dtype.kind not in "biuf" or values.ndim > 2 or (values.ndim == 2 and not 1 <= values.shape[1] <= 4):
         return None
     real, limit = values.dtype.kind == "f", np.iinfo(np.int32)
     small = real or not values.size or (values.min() >= limit.min and values.max() <= limit.max)
-    if values.ndim == 2:
+    if values.ndim == 2 and values.shape[1] > 1:
         return f"vec{values.shape[1]}{'d' if real else 'i'}" if small else None
     if real:
         return "double"

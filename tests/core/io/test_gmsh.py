@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cells import Cells
 from hexmend.errors import FileError
 from hexmend.quality import summarise
 from tests.core.grids import grid
@@ -206,3 +207,25 @@ def test_data_of_other_widths_than_gmsh_s_are_filled_up_or_left_out_and_that_is_
     assert {name: values.shape for name, values in back.items() if name != "id"} == {
         "two": (8, 3), "six": (8, 9), "tensor": (8, 9), "a b": (8,), "a b 2": (8,)
     }  # fmt: skip
+
+
+def test_a_row_of_data_that_all_nodes_would_be_given_is_refused(tmp_path):
+    """A thousand values of one node, in many sections."""
+    path = tmp_path / "a.msh"
+    io.write(path, grid(20), encoding="ascii")
+    row = " ".join(["1", *["0"] * 1000])
+    with open(path, "a") as file:
+        file.writelines(f'$NodeData\n1\n"{k}"\n1\n0\n3\n0\n1000\n1\n{row}\n$EndNodeData\n' for k in range(5))
+    with pytest.raises(FileError, match="too many for a file"):
+        io.read(path)
+
+
+def test_no_cells_have_no_data(tmp_path):
+    quads = Cells("quad", np.empty((0, 4), np.int32), {"q": np.empty((0, 3))})
+    io.write(tmp_path / "a.msh", grid(2).replace(cells=(quads,)))
+    assert io.read(tmp_path / "a.msh").n_hexes == 8
+
+
+def test_whole_numbers_that_are_rounded_are_told(tmp_path):
+    mesh = grid(2).replace(hex_data={"exact": np.arange(8) + 2**53 - 8, "key": np.arange(8) + 2**53})
+    assert "whole numbers of cell data above 2^53, which are rounded (key)" in io.left_out(tmp_path / "a.msh", mesh)

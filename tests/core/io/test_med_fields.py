@@ -99,7 +99,7 @@ def wrong_profile(file, part):
         (shorter, "CO holds 11 numbers: expected 1 for each of 12"),
         (lambda file, part: part.__delitem__("CO"), "has no CO"),
         (wrong_profile, "the profile pfl1 names what there is not: expected 1 to 2"),
-        (lambda file, part: file["CHA/temp"].attrs.__setitem__("NCO", 0), "expected 0 for each of 12"),
+        (lambda file, part: file["CHA/temp"].attrs.__setitem__("NCO", 0), "the field temp has 0 components"),
         (lambda file, part: file["PROFILS"].__delitem__("pfl1"), "cannot be read as HDF5"),
     ],
 )
@@ -114,3 +114,31 @@ def test_fields_of_other_meshes_are_left_out_and_said(tmp_path):
     mesh = io.read(path)
     assert "temp" not in mesh.node_data
     assert "Fields of other meshes are left out: temp." in mesh.notes
+
+
+def test_fields_that_get_another_name_for_their_type_are_told(tmp_path):
+    mesh = grid(2).replace(node_data={"a": np.zeros(27)}, hex_data={"a": np.arange(8)})
+    assert "names of data as they are (a)" in io.left_out(tmp_path / "a.med", mesh)
+
+
+def test_no_cells_have_no_values(tmp_path):
+    quads = Cells("quad", np.empty((0, 4), np.int32), {"q": np.empty((0, 3)), "of nothing": np.empty((0, 0))})
+    io.write(tmp_path / "a.med", grid(2).replace(cells=(quads,)))
+    assert io.read(tmp_path / "a.med").n_hexes == 8
+
+
+@pytest.mark.parametrize("profiles", [0, 1])
+def test_a_field_of_far_more_components_than_the_file_has_is_refused(profiles, tmp_path):
+    """Values of one node alone, of which all nodes would have as many."""
+    width = 100_000
+    io.write(tmp_path / "a.med", grid(10).replace(node_data={"a": np.zeros(1331)}))
+    with h5py.File(tmp_path / "a.med", "r+") as file:
+        file["CHA/a"].attrs["NCO"] = np.int32(width)
+        (step,) = file["CHA/a"].values()
+        del step["NOE/MED_NO_PROFILE_INTERNAL"]
+        if profiles:
+            step["NOE"].create_group("one").attrs["NGA"] = np.int32(1)
+            step["NOE/one/CO"] = np.zeros(width)
+            file["PROFILS/one/PFL"] = np.array([1], "<i4")
+    with pytest.raises(FileError, match=r"the field a .* too many for a file"):
+        io.read(tmp_path / "a.med")

@@ -6,6 +6,7 @@ import pytest
 from hexmend import io
 from hexmend.cells import Cells
 from hexmend.errors import FileError
+from hexmend.hexahedron import UNIT_CUBE
 from hexmend.io.nastran_columns import Lines, wholes
 from tests.core.grids import grid, scrambled
 from tests.core.io.kept import assert_same
@@ -109,3 +110,25 @@ def test_a_coordinate_that_is_no_number_is_told_by_its_line(text, tmp_path):
 @pytest.mark.parametrize("word", [b"1 2", b"-1", b"1.", b"x", b"12-"])
 def test_what_is_no_natural_number_is_none(word):
     assert wholes(np.array([b"1", word], "S8")) is None
+
+
+@pytest.mark.parametrize("text", ["BEGIN BULK", "BEGIN BULK\n", "SOL 101\nBEGIN BULK\n"])
+def test_a_file_that_ends_where_it_begins_has_no_grid_points(text, tmp_path):
+    with pytest.raises(FileError, match="has no GRID"):
+        read(tmp_path, text)
+
+
+@pytest.mark.parametrize(("word", "value"), [
+    ("1.5D1", 15), ("1.5d+1", 15), ("-1.5D-1", -0.15), ("1.5E1", 15), (".15+2", 15), ("-.15-1", -0.015), ("15.", 15),
+])  # fmt: skip
+def test_exponents_have_their_letter_or_none(word, value, tmp_path):
+    nodes = [f"GRID,{tag},,{x},{y},{z}" for tag, (x, y, z) in enumerate(UNIT_CUBE + 100.0, 1)]
+    nodes[0] = f"GRID,1,,{word},0.,0."
+    mesh = read(tmp_path, "\n".join([*nodes, "CHEXA,1,1,1,2,3,4,5,6", "+,7,8"]))
+    assert mesh.points[0, 0] == value
+
+
+@pytest.mark.parametrize("word", ["1.5DE1", "1.5E", "D1", "1.5+-1"])
+def test_numbers_that_are_none_are_told(word, tmp_path):
+    with pytest.raises(FileError, match="expected a number"):
+        read(tmp_path, f"GRID,1,,{word},0.,0.\n")

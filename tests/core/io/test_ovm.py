@@ -115,3 +115,12 @@ def test_a_file_cut_short_is_an_error_or_ends_between_lines(tmp_path):
         (tmp_path / "a.ovm").write_text(text[:end])
         with pytest.raises(FileError):
             io.read(tmp_path / "a.ovm")
+
+
+@pytest.mark.parametrize(("prop", "section"), [("VProp", "Vertices"), ("CProp", "Polyhedra")])
+def test_properties_of_what_is_not_there_yet_are_refused(prop, section, tmp_path):
+    path = tmp_path / "a.ovm"
+    io.write(path, grid(2))
+    path.write_text(path.read_text().replace(section, f'{prop} double "x"\n{section}', 1))
+    with pytest.raises(FileError, match=f"{prop}.* stands before {section}"):
+        io.read(path)

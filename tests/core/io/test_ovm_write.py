@@ -140,3 +140,10 @@ def test_a_hex_with_a_node_twice_is_refused(tmp_path):
     with pytest.raises(FileError, match="hex 1 has a node twice"):
         io.write(tmp_path / "a.ovm", Mesh(grid(2, 1, 1).points, [[*range(8)], [1, 1, 2, 3, 4, 5, 6, 7]]))
     assert not list(tmp_path.iterdir())
+
+
+def test_data_of_one_column_are_written_as_numbers(tmp_path):
+    mesh = grid(2).replace(node_data={"one": np.arange(27.0)[:, None]})
+    assert not io.left_out(tmp_path / "a.ovm", mesh)
+    io.write(tmp_path / "a.ovm", mesh)
+    np.testing.assert_array_equal(io.read(tmp_path / "a.ovm").node_data["one"], np.arange(27.0))

@@ -191,6 +191,7 @@ def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot,
     ("compare", "ticked", ["taste"], "there is no method 'taste'"),
     ("compare", "sorted_by", "taste", "there is no column 'taste'"),
     ("histogram", "bins", "many", "the window.choices.histogram.bins is of another kind"),
+    ("histogram", "bins", 10**20, "the number of bins is not from 1 to 1,000,000"),
     ("cut", "colour", 1, "the window.choices.cut has an unknown field 'colour'"),
 ])  # fmt: skip
 def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, field, value, said):
@@ -201,6 +202,16 @@ def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, f
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
     assert said in window.messages.messages()[-1][2]
+
+
+def test_a_step_of_too_many_iterations_is_refused(window, qtbot, tmp_path):
+    path = saved(window, tmp_path)
+    _, data = read_archive(path, "Hexmend session", VERSION)
+    data["window"]["choices"]["steps"] = 10**20
+    write_archive(path, "Hexmend session", VERSION, data)
+    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
+        window.features["open"].open(path)
+    assert "the number of steps is not from 1 to 1,000,000" in window.messages.messages()[-1][2]
 
 
 def test_the_charts_of_sessions_are_those_that_are_offered(window):
