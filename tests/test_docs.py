@@ -36,3 +36,10 @@ def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, 
             assert (folder / file).stat().st_size < 100_000
         texts = [re.findall(r"<!-- (.+?) -->", (at / file).read_text(encoding="utf-8")) for at in (tmp_path, DOCS)]
         assert texts[0] == texts[1], f"{file}: run make docs"
+
+
+@pytest.mark.parametrize("scene", re.findall(r"```toml\n(.*?)```", (DOCS / "figures.md").read_text("utf-8"), re.DOTALL))
+def test_the_scenes_of_the_docs_are_scenes(scene):
+    from hexmend_app.state.scene import Scene, from_toml
+
+    assert from_toml(scene) != Scene()
