@@ -7,7 +7,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import is_dataclass
+from enum import StrEnum
 from pathlib import Path
+from types import NoneType, UnionType
+from typing import Any, Union, get_args, get_origin
 
 from hexmend.io import FORMATS
 from hexmend.io.format import Holds
@@ -16,6 +20,9 @@ from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import amount, needed
 from hexmend.smoothers import METHODS
+from hexmend_app.state.scene import Scene
+from hexmend_app.state.scene.helps import helps
+from hexmend_app.state.scene.table import Key, keys
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -88,6 +95,73 @@ def memory() -> str:
     return table(("method", "bytes a hex", *(f"{hexes:,} hexes" for hexes in _HEXES)), rows)
 
 
+def scene() -> str:
+    """The keys of a scene file, table by table."""
+    parts = []
+    for one in keys(Scene):
+        help, kind = helps(Scene)[one.field], _table_of(one.kind)
+        if kind is None:
+            continue
+        if one.name == "cameras":
+            parts.append(f"### `[cameras.NAME]`\n{help} Its keys are those of `[camera]`.")
+            continue
+        several = {"panels": "[[panels]]"}.get(one.name, f"[{one.name}]")
+        parts.append(f"### `{several}`\n{help}\n\n{_keys(kind)}")
+    return "\n\n".join(parts)
+
+
+def _keys(kind: type) -> str:
+    """The keys of a table, and below each that is a table itself, its own."""
+    rows = []
+    for one in keys(kind):
+        rows.append((f"`{one.name}`", _values(one), _default(one), helps(kind)[one.field]))
+        inner = _table_of(one.kind)
+        if inner is not None:
+            rows += [(f"`{one.name}`: `{key.name}`", _values(key), _default(key), helps(inner)[key.field])
+                     for key in keys(inner)]  # fmt: skip
+    return table(("key", "values", "default", "what"), rows)
+
+
+def _table_of(kind: Any) -> type | None:
+    """The table that a key's type holds, alone, in a list or by name."""
+    if is_dataclass(kind):
+        return kind
+    return next((found for inner in get_args(kind) if (found := _table_of(inner)) is not None), None)
+
+
+def _values(one: Key) -> str:
+    """What a key can be, in words."""
+    words = []
+    for kind in get_args(one.kind) if get_origin(one.kind) in (UnionType, Union) else (one.kind,):
+        inner = [part for part in get_args(kind) if part is not ...]
+        if kind is NoneType:
+            continue
+        if _table_of(kind) is not None:
+            words.append("tables" if get_origin(kind) is tuple else "a table")
+        elif get_origin(kind) is tuple:
+            whole = "whole " * (inner[0] is int)
+            words.append(f"{len(inner)} {whole}numbers" if ... not in get_args(kind) else f"a list of {whole}numbers")
+        elif issubclass(kind, StrEnum):
+            words.append(", ".join(f'"{choice}"' for choice in kind))
+        elif kind is str:
+            words.append("text")
+        else:
+            known = {bool: "true or false", int: "a whole number", float: "a number"}[kind]
+            words.append(known + (one.bounds if kind is not bool else ""))
+    return " or ".join(words)
+
+
+def _default(one: Key) -> str:
+    """What stands for a key that is not there."""
+    if _table_of(one.kind) is not None or one.default in (None, "", ()):
+        return "–"
+    value = one.default
+    shown = {True: "true", False: "false"}.get(value) if isinstance(value, bool) else None
+    return shown or (
+        f'"{value}"' if isinstance(value, str) else f"{list(value) if isinstance(value, tuple) else value}"
+    )
+
+
 #: Which table stands in which file.
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "methods": ("docs/methods.md", methods),
@@ -95,6 +169,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "meanings": ("docs/metrics.md", meanings),
     "stops": ("docs/recipes.md", stops),
     "formats": ("docs/formats.md", formats),
+    "scene": ("docs/figures.md", scene),
     "memory": ("docs/performance.md", memory),
 }
 

@@ -62,3 +62,10 @@ def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
     (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     exec(compile(program, "tutorial.md", "exec"), {})
     assert io.read("mended.vtu").n_hexes == io.read("bridge.vtu").n_hexes
+
+
+@pytest.mark.parametrize("scene", re.findall(r"```toml\n(.*?)```", (DOCS / "figures.md").read_text("utf-8"), re.DOTALL))
+def test_the_scenes_of_the_docs_are_scenes(scene):
+    from hexmend_app.state.scene import Scene, from_toml
+
+    assert from_toml(scene) != Scene()

@@ -131,7 +131,7 @@ def _editor(one: Key) -> Editor | Suggested:
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return editor_for(Parameter(one.name, str, one.default.value, None, None, tuple(kind), "", ""))
     editor = editor_for(Parameter(one.name, str, "", None, None, None, "", ""))
-    editor.setPlaceholderText("as suits" if one.default is None else _text(one.default) or "none")
+    editor.setPlaceholderText("as suits" if one.default in (None, "") else _text(one.default))
     return editor
 
 

@@ -98,11 +98,13 @@ class Ink:
             autolim=False,
         )
 
-    def fill(self, corners: Sequence[tuple[float, float]], colour: str | Sequence[float]) -> None:
+    def fill(
+        self, corners: Sequence[tuple[float, float]], colour: str | Sequence[float], alpha: float | None = None
+    ) -> None:
         """Fill a polygon."""
         from matplotlib.patches import Polygon
 
-        self._axes.add_patch(Polygon(corners, closed=True, facecolor=colour, edgecolor="none", zorder=3))
+        self._axes.add_patch(Polygon(corners, closed=True, facecolor=colour, edgecolor="none", alpha=alpha, zorder=3))
 
     def gradient(self, box: Box, colours: Sequence[Sequence[float]], *, upright: bool) -> None:
         """Colours in a row from the left, or from below, in areas without seams.

@@ -125,7 +125,7 @@ class Sheet:
             if layout.scene.axes.show and panel.camera not in cameras:
                 cameras.add(panel.camera)
                 seen = self._drawn.axes[number]
-                draw_axes(ink, layout.place(number), seen, layout.scene.axes.place, page.dark)
+                draw_axes(ink, layout.place(number), seen, layout.scene.axes.place, page)
         draw_captions(ink, layout)
         draw_bar(ink, layout, self._drawn)
         return figure

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend_app.scene.export.ink import Ink
 from hexmend_app.scene.export.layout import Box
-from hexmend_app.state.scene import Corner
+from hexmend_app.state.scene import Corner, Page
 
 #: Colours of X, Y and Z on bright paper, and on dark.
 _COLOURS = (("#d1342f", "#ff7a66"), ("#2e8b57", "#5fd394"), ("#1f4fd8", "#7fa6ff"))
@@ -14,11 +14,14 @@ _COLOURS = (("#d1342f", "#ff7a66"), ("#2e8b57", "#5fd394"), ("#1f4fd8", "#7fa6ff
 #: In heights of a letter: an axis, a letter's place beyond its end, a tip's length and half its width, what stays free.
 _ARM, _BEYOND, _TIP, _HALF, _FREE = 2.2, 0.65, 0.75, 0.27, 0.6
 
+#: How much of the mesh the paper behind the axes covers.
+_BEHIND = 0.6
+
 #: The share of a panel's side that the axes take at most.
 _MOST = 0.3
 
 
-def draw_axes(ink: Ink, box: Box, axes: np.ndarray, corner: Corner, dark: bool) -> None:
+def draw_axes(ink: Ink, box: Box, axes: np.ndarray, corner: Corner, page: Page) -> None:
     """Draw X, Y and Z as the camera sees them.
 
     Parameters
@@ -29,8 +32,8 @@ def draw_axes(ink: Ink, box: Box, axes: np.ndarray, corner: Corner, dark: bool) 
     axes : (3, 3) float64
         What each axis is to who looks: to the right, up, and towards him.
     corner : Corner
-    dark : bool
-        Whether the paper is dark.
+    page : Page
+        Of its paper there is some behind the axes, so that they are seen over the mesh too.
     """
     letter = ink.letters.height
     reach = _ARM + _BEYOND + 0.45
@@ -44,8 +47,11 @@ def draw_axes(ink: Ink, box: Box, axes: np.ndarray, corner: Corner, dark: bool) 
     free = _FREE * letter
     x = box.left + free - low[0] if across == "left" else box.left + box.width - free - high[0]
     y = box.top + free - low[1] if down == "upper" else box.top + box.height - free - high[1]
+    if page.ground is not None:
+        left, top, right, bottom = x + low[0], y + low[1], x + high[0], y + high[1]
+        ink.fill([(left, top), (right, top), (right, bottom), (left, bottom)], page.ground, alpha=_BEHIND)
     for axis in np.argsort(axes[:, 2]):  # what is nearer covers what is farther
-        colour = _COLOURS[axis][dark]
+        colour = _COLOURS[axis][page.dark]
         along = flat[axis]
         length = float(np.linalg.norm(along))
         end = np.array([x, y]) + _ARM * letter * along

@@ -1,0 +1,122 @@
+"""`hexmend render` of scenes: what the file says, what options say in its place, and what is written of both."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from hexmend.cli.main import main
+from hexmend.io import write
+from hexmend_app.state.scene import (
+    Bar,
+    Camera,
+    Colours,
+    Cut,
+    Lines,
+    Page,
+    Panel,
+    Place,
+    Plane,
+    Range,
+    Scene,
+    camera_text,
+    read_scene,
+    write_scene,
+)
+from tests.core.grids import grid, scrambled
+
+FILE = Scene(
+    cameras={"side": Camera("+y")},
+    cut=Cut((Plane((0, 1, 0), 0.5),)),
+    colours=Colours("scaled-jacobian", "plasma", Range.FITTED),
+    lines=Lines(0.4),
+    page=Page(60, 40, dpi=150, shading=False),
+)
+
+
+@pytest.fixture
+def render(tmp_path, capsys):
+    """Runs the command on a mesh; the scene that it draws and the picture."""
+    write(tmp_path / "mesh.vtu", scrambled(grid(3), 0.4))
+    write_scene(tmp_path / "scene.toml", FILE)
+
+    def run(*words, meshes=1, scene=True, name="p.png"):
+        given = ["--scene", str(tmp_path / "scene.toml")] if scene else []
+        out = ["-o", str(tmp_path / name), "--save-scene", str(tmp_path / "drawn.toml")]
+        assert main(["render", *[str(tmp_path / "mesh.vtu")] * meshes, *given, *out, *words]) == 0
+        with Image.open(tmp_path / name) as image:
+            return read_scene(tmp_path / "drawn.toml"), image.copy(), capsys.readouterr().out
+
+    return run
+
+
+def test_a_scene_is_drawn_as_it_stands(render):
+    scene, image, said = render()
+    assert scene == FILE
+    assert image.size == (354, 236)
+    assert said.endswith("p.png: 354 × 236 pixels\n")
+    assert float(image.info["dpi"][0]) == pytest.approx(150, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("words", "field", "value"),
+    [
+        (["--mm", "50x30"], "page", Page(50, 30, dpi=150, shading=False)),
+        (["--dpi", "300"], "page", Page(60, 40, dpi=300, shading=False)),
+        (["--size", "200x100"], "page", Page(pixels=(200, 100), dpi=150, shading=False)),
+        (["--background", "#204060"], "page", Page(60, 40, dpi=150, shading=False, background="#204060")),
+        (["--transparent"], "page", Page(60, 40, dpi=150, shading=False, background="transparent")),
+        (["--camera", "side"], "camera", Camera("+y")),
+        (["--camera", camera_text(Camera((1.0, 2.0, 3.0), up="x"))], "camera", Camera((1.0, 2.0, 3.0), up="x")),
+        (["--view", "-x"], "camera", Camera("-x")),
+        (["--metric", "skew"], "colours", Colours("skew", "plasma", (0.0, 1.0))),
+        (["--metric", "volume"], "colours", Colours("volume", "plasma", Range.FITTED)),
+        (["--colour-range", "0.2,0.4"], "colours", Colours("scaled-jacobian", "plasma", (0.2, 0.4))),
+        (["--clip", "x:0.25", "--flip"], "cut", Cut((Plane((-1, 0, 0), 0.75),))),
+        (["--no-edges"], "lines", Lines(0.0)),
+        (["--no-bar"], "bar", Bar(Place.NONE)),
+        (["--captions", "mended"], "panels", (Panel(caption="mended"),)),
+    ],
+)
+def test_options_take_the_place_of_what_the_scene_says(render, words, field, value):
+    scene, _, _ = render(*words)
+    assert getattr(scene, field) == value
+    others = [name for name in ("page", "camera", "colours", "cut", "lines", "bar", "panels") if name != field]
+    assert all(getattr(scene, name) == getattr(FILE, name) for name in others)
+
+
+def test_what_options_alone_ask_for_is_saved_as_a_scene_that_draws_the_same(render, tmp_path):
+    words = ["--clip", "z:0.4", "--smooth", "--metric", "edge-ratio", "--structure", "sharp", "--size", "300x200"]
+    _, image, _ = render(*words, scene=False)
+    (tmp_path / "drawn.toml").rename(tmp_path / "scene.toml")
+    _, again, _ = render(name="q.png")
+    assert np.array_equal(np.asarray(image), np.asarray(again))
+
+
+def test_a_movement_is_that_from_the_first_mesh_on(render, tmp_path, capsys):
+    write_scene(tmp_path / "scene.toml", Scene(colours=Colours("moved-most", range=Range.FITTED)))
+    render("--size", "200x120", meshes=2)
+    assert main(["render", str(tmp_path / "mesh.vtu"), "--scene", str(tmp_path / "scene.toml"), "-o", "p.png"]) == 2
+    assert "name the mesh before that, and then the mesh" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["--camera", "front"], 2, "--camera 'front' cannot be used: expected the text of a camera, or a name in the"),
+        (["--camera", "{ from = 'up' }"], 2, "[camera]: from = 'up' is unknown"),
+        (["--mm", "170"], 2, "--mm '170' cannot be used: expected 2 numbers"),
+        (["--mm", "2x3"], 2, "width = 2.0 is out of range: expected a number from 5 to 3,000 mm"),
+        (["--dpi", "many"], 2, "--dpi 'many' cannot be used"),
+        (["--background", "mauve"], 2, "background = 'mauve' is unknown"),
+        (["--scene", "nowhere.toml"], 3, "nowhere.toml: there is no such file"),
+        (["--captions", "a,b"], 2, "1 names separated by commas, one a panel"),
+        (["--save-scene", "scene.json"], 3, "a scene cannot be written as .json"),
+    ],
+)
+def test_what_cannot_be_drawn_is_said_before_anything_is_written(tmp_path, capsys, words, status, said):
+    write(tmp_path / "mesh.vtu", grid(2))
+    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "p.png"), *words]) == status
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "p.png").exists()
