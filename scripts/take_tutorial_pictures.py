@@ -1,4 +1,4 @@
-"""Takes the pictures of docs/tutorial.md: the demo opened, its inverted hexes alone, mended, compared.
+"""Takes the pictures of docs/tutorial.md: the demo opened, its inverted hexes alone, mended, compared, as a figure.
 
 Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/take_tutorial_pictures.py FOLDER
 """
@@ -6,10 +6,12 @@ Use: xvfb-run -s "-screen 0 1600x1000x24" python scripts/take_tutorial_pictures.
 from __future__ import annotations
 
 import sys
+import tempfile
 from pathlib import Path
 
-from photographs import cut, opened, run, set_method, shoot, shut, step_back, until
+from photographs import compress, cut, opened, run, set_method, shoot, shut, step_back, until
 
+from hexmend.cli.main import main as hexmend
 from hexmend_app.resources import demo_mesh
 from hexmend_app.shell.window import Window
 
@@ -33,6 +35,16 @@ def compare(window: Window) -> None:
         window.refresh()
 
 
+def figure(path: Path) -> None:
+    """Draw the demo before and after, as the tutorial's last command does."""
+    with tempfile.TemporaryDirectory() as place:
+        mended = f"{place}/mended.vtu"
+        hexmend(["smooth", str(demo_mesh()), "-o", mended])
+        what = ["render", str(demo_mesh()), mended, "-o", str(path), "--captions", "before,after"]
+        hexmend([*what, "--clip", "x", "--mm", "170x80", "--dpi", "150"])
+    compress(path)
+
+
 def main(folder: Path) -> None:
     """Go through the tutorial."""
     window = opened(demo_mesh(), _SIZE)
@@ -51,6 +63,7 @@ def main(folder: Path) -> None:
     compare(window)
     shoot(window, folder / "tutorial-compared.png")
     shut(window)
+    figure(folder / "tutorial-figure.png")
 
 
 if __name__ == "__main__":

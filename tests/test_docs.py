@@ -54,7 +54,7 @@ def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert [main(words) for words in commands] == [0] * len(commands)
     for words in commands:
-        for file in re.findall(r"\S+\.(?:vtu|png|json)", " ".join(words)):
+        for file in re.findall(r"\S+\.(?:vtu|pdf|json)", " ".join(words)):
             assert (tmp_path / file).is_file()
     said = capsys.readouterr().out
     for figure in re.findall(r"[\d,]+(?= hexes| of them inverted| iterations)", text):
