@@ -25,7 +25,7 @@ from hexmend_app.state.look import Look
 from hexmend_app.state.scene import Camera, Panel
 
 #: Pixels of a side, and in all, that are drawn at once.
-_MOST_SIDE, _MOST_PIXELS = 16384, 2**25
+_MOST_SIDE, _MOST_PIXELS = 16384, 2**24
 
 #: What is drawn on where the paper is transparent: colours are then those of what is seen, by how much of it there is.
 _NOTHING = "#000000"

@@ -59,11 +59,16 @@ class Sheet:
         """The page in pixels: RGB, or RGBA on transparent paper."""
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-        canvas = FigureCanvasAgg(self._figure())
+        layout, ground = self._layout, self._layout.scene.page.ground
+        page = Image.new("RGBA", layout.size, ground or (0, 0, 0, 0))
+        for number, image in enumerate(self._drawn.images):
+            box = layout.place(number)
+            page.paste(image, (box.left, box.top))
+        # Lines and letters on nothing, laid over that: an image in a figure takes matplotlib ten times its memory.
+        canvas = FigureCanvasAgg(self._figure(pictures=False))
         canvas.draw()
-        pixels = np.asarray(canvas.buffer_rgba())
-        opaque = self._layout.scene.page.ground is not None
-        return Image.fromarray(np.ascontiguousarray(pixels[..., :3]) if opaque else pixels.copy())
+        page.alpha_composite(Image.fromarray(np.asarray(canvas.buffer_rgba())))
+        return page if ground is None else page.convert("RGB")
 
     def write(self, path: Path, texts: Mapping[str, str] | None = None) -> None:
         """Write the page as a whole or not at all.
@@ -104,24 +109,25 @@ class Sheet:
         from matplotlib import rc_context
 
         with rc_context(_VECTORS):
-            figure = self._figure()
+            figure = self._figure(pictures=True)
             ground = self._layout.scene.page.ground or "none"
             figure.savefig(path, format=kind, dpi=figure.dpi, facecolor=ground, metadata=_DATES[kind])
 
-    def _figure(self) -> Figure:
-        """The page of matplotlib."""
+    def _figure(self, pictures: bool) -> Figure:
+        """The page of matplotlib, on paper with the panels' pictures, or without both."""
         from matplotlib.figure import Figure
 
         layout, page = self._layout, self._layout.scene.page
         # A hair more than whole pixels, which rounding would else take one of.
         inches = [(side + 1e-3) / page.resolution for side in layout.size]
-        figure = Figure(figsize=inches, dpi=page.resolution, facecolor=page.ground or "none")
+        figure = Figure(figsize=inches, dpi=page.resolution, facecolor="none")
         axes = figure.add_axes((0, 0, 1, 1), xlim=(0, layout.size[0]), ylim=(layout.size[1], 0), autoscale_on=False)
         axes.axis("off")
         ink = Ink(axes, layout)
         cameras = set()
         for number, (panel, image) in enumerate(zip(layout.panels, self._drawn.images, strict=True)):
-            ink.image(image, layout.place(number))
+            if pictures:
+                ink.image(image, layout.place(number))
             if layout.scene.axes.show and panel.camera not in cameras:
                 cameras.add(panel.camera)
                 seen = self._drawn.axes[number]
