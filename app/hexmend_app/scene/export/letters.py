@@ -13,6 +13,9 @@ from hexmend_app.state.scene.page import PT_PER_INCH
 #: Pixels of the letters that texts are measured in.
 _MEASURED = 200
 
+#: Pixels by which a letter is wider where it is drawn as pixels: what draws them rounds each to whole ones.
+_ROUNDED = 0.4
+
 
 class Letters:
     """What is written with on a page.
@@ -38,8 +41,8 @@ class Letters:
         return _font(bold).getlength(text) / _MEASURED
 
     def width(self, text: str, bold: bool = False) -> float:
-        """How wide a text is, in pixels."""
-        return self.em(text, bold) * self.height
+        """How wide a text is at most, in pixels."""
+        return self.em(text, bold) * self.height + _ROUNDED * len(text)
 
 
 @cache
