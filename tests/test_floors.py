@@ -23,7 +23,7 @@ CORE = [
     {"quality", "structure"},
     {"gallery", "surface"},
     {"energy", "movement", "orientation"},
-    {"doctor", "fixing"},
+    {"doctor", "fixing", "tags"},
     {"optimise"},
     {"smoothers"},
     {"recipe"},
