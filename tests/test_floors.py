@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # From the ground up; an import goes down, or stays inside one package's own folder.
 CORE = [
     {"arrays", "cells", "errors", "hexahedron", "shape_functions"},
-    {"figures", "mesh_checks", "parameters", "registry", "second_order", "toml_text"},
+    {"figures", "mesh_checks", "parameters", "registry", "second_order", "showing", "toml_text"},
     {"kernels"},
     {"topology"},
     {"mesh"},
@@ -23,14 +23,14 @@ CORE = [
     {"quality", "structure"},
     {"gallery", "surface"},
     {"energy", "movement", "orientation"},
-    {"doctor", "fixing"},
+    {"doctor", "fixing", "tags"},
     {"optimise"},
     {"smoothers"},
     {"recipe"},
     {"node_step", "run"},
     {"advice"},
     {"io"},
-    {"report", "study"},
+    {"notebook", "report", "study"},
     {"cli"},
     {"__main__"},
 ]
@@ -45,7 +45,7 @@ APP = [
     {"features"},
     {"shell"},
     {"bench"},
-    {"cli"},
+    {"cli", "notebook"},
     {"__main__"},
 ]
 # Of these folders none imports another.

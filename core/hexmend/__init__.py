@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
     from hexmend.io import read, read_recipe, read_surface, write, write_recipe
     from hexmend.mesh import Mesh
+    from hexmend.notebook import view
     from hexmend.optimise import Iteration, Outcome, Result, Step
     from hexmend.parameters import parameter
     from hexmend.quality import METRICS, Summary, measure, summarise
@@ -35,6 +36,7 @@ _HOMES = {
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
     "io": ("read", "read_recipe", "read_surface", "write", "write_recipe"),
     "mesh": ("Cells", "Mesh"),
+    "notebook": ("view",),
     "optimise": ("Iteration", "Outcome", "Result", "Step"),
     "parameters": ("parameter",),
     "quality": ("METRICS", "Summary", "measure", "summarise"),
@@ -78,6 +80,7 @@ __all__ = [
     "read_surface",
     "smooth",
     "summarise",
+    "view",
     "write",
     "write_recipe",
 ]

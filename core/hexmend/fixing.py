@@ -1,12 +1,40 @@
-"""Which nodes are to stay, told by the names of sets, or by a region that alone is to move."""
+"""Which nodes are to stay, told one by one, by the names of sets, or by a region that alone is to move."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.hexahedron import FACES
 from hexmend.mesh import Mesh
+
+
+def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
+    """The mesh with some nodes pinned, or let go where `on` is false; the others' pins stay.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    nodes : int or (k,) int
+    on : bool
+
+    Raises
+    ------
+    IndexError
+        For a node that does not exist.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> mesh = make("cube", size=27)
+    >>> int(mesh.free.sum()), int(with_pinned(mesh, [21, 22]).free.sum())
+    (8, 6)
+    """
+    pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
+    pinned[nodes] = on
+    return mesh.replace(pinned=pinned)
 
 
 def with_sets_fixed(mesh: Mesh, *names: str) -> Mesh:
@@ -30,10 +58,9 @@ def with_sets_fixed(mesh: Mesh, *names: str) -> Mesh:
     >>> int(with_sets_fixed(mesh, "middle").free.sum()), int(mesh.free.sum())
     (6, 8)
     """
-    pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
     for name in names:
-        pinned[nodes_of(mesh, name)] = True
-    return mesh.replace(pinned=pinned)
+        mesh = with_pinned(mesh, nodes_of(mesh, name))
+    return mesh
 
 
 def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:

@@ -16,6 +16,7 @@ from hexmend.hexahedron import EDGES
 from hexmend.kernels import elements
 from hexmend.mesh_checks import check_finite, check_node_numbers, check_size
 from hexmend.second_order import check_mid_nodes, following
+from hexmend.showing import html_of
 from hexmend.topology import Topology
 
 #: By what factor the longest edges may raise the mean length of all.
@@ -155,6 +156,10 @@ class Mesh:
         mean = elements.mean_edge_length(self.points, self.hexes)
         usual = _usual_edge_length(self.points, self.hexes)
         return usual if mean > SPOILED * usual > 0 else mean
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows of it."""
+        return html_of(self)
 
     def with_points(self, points: np.ndarray) -> Mesh:
         """The same mesh with its nodes elsewhere; connectivity, topology, sets and data are shared.

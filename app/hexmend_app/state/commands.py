@@ -8,23 +8,27 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from PySide6.QtCore import QObject, Signal
 
 from hexmend.doctor import AILMENTS, Finding, repair
-from hexmend.fixing import with_region_free
+from hexmend.fixing import with_pinned, with_region_free
 from hexmend.io import left_out, write
 from hexmend.io.session import SUFFIX
+from hexmend.mesh import Mesh
 from hexmend.quality import summarise
 from hexmend.recipe import Recipe, Stage
 from hexmend.run.memory import Shortage, available, shortage
 from hexmend.smoothers import Smoother
+from hexmend.tags import renamed_tag, tagged, without_tag
 from hexmend_app.state import session_data
+from hexmend_app.state.deeds import Changed, Moved, Saved, WentBack
 from hexmend_app.state.document import State
 
 if TYPE_CHECKING:
     from hexmend_app.state.session import Session
 
 
-class Commands:
+class Commands(QObject):
     """Changes of document, view and run.
 
     Parameters
@@ -32,13 +36,21 @@ class Commands:
     session : Session
         The window's state.
 
+    Signals
+    -------
+    done(Deed)
+        The mesh has been changed, or written.
+
     Attributes
     ----------
     consent : callable
         Asked before a run for which memory will not suffice; the run begins only if it says so.
     """
 
+    done = Signal(object)
+
     def __init__(self, session: Session):
+        super().__init__(session)
         self._session = session
         self.consent: Callable[[Shortage], bool] = lambda short: False
         self.document, self.smoothing = session.document, session.smoothing
@@ -59,12 +71,14 @@ class Commands:
         self._session.stepping.leave()
         if Path(path).suffix.lower() == SUFFIX:
             session_data.write(Path(path), self._session.given())
+            self.done.emit(Saved(Path(path), self.document.now, session=True))
             self.document.saved(Path(path), changes=True)
             return []
         moment = self._session.timeline.moment
         if self.document.previews and self._session.editable:
             self.document.commit("go back" if moment is None else f"go to {moment.name}", self.document.now)
         write(path, self.document.now.mesh)
+        self.done.emit(Saved(Path(path), self.document.now, session=False))
         self.document.saved(Path(path))
         return left_out(path, self.document.now.mesh)
 
@@ -110,7 +124,10 @@ class Commands:
         """End a run and put the nodes back to where they were when the mesh was opened."""
         self.smoothing.end_now()
         self._session.stepping.leave()
+        before = self.document.now
         self.document.reset()
+        if self.document.now is not before:
+            self.done.emit(Moved("reset", before, self.document.now, self.document.start))
 
     def take(self, title: str, state: State) -> None:
         """Put the nodes to where they are in another state of the mesh, while the mesh may be changed.
@@ -119,71 +136,74 @@ class Commands:
         """
         if self._session.editable:
             self._session.stepping.leave()
-            mesh = self.document.now.mesh.with_points(state.mesh.points)
+            before = self.document.now
+            mesh = before.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
+            self.done.emit(Moved(title, before, self.document.now, state))
 
     def pin(self, nodes: int | np.ndarray, on: bool) -> None:
         """Keep a node or several where they are whatever smooths the mesh, or let them go, while it may be changed."""
-        mesh = self.document.now.mesh
-        pinned = np.zeros(mesh.n_nodes, bool) if mesh.pinned is None else mesh.pinned.copy()
-        pinned[nodes] = on
-        self._amend("pin" if on else "unpin", pinned=pinned)
+        self._amend("pin" if on else "unpin", with_pinned, nodes, on)
 
     def free_only(self, hexes: Sequence[int], rings: int) -> None:
         """Pin all nodes but those of some hexes and of so many rings around them, while the mesh may be changed."""
-        mesh = with_region_free(self.document.now.mesh, np.asarray(hexes, dtype=np.int64), rings)
-        self._amend("free a region", pinned=mesh.pinned)
+        self._amend("free a region", with_region_free, np.asarray(hexes, dtype=np.int64), rings)
 
     def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
         """Add elements to a named group of the mesh, or take them out, while the mesh may be changed.
 
         A group of which nothing is left is no more.
         """
-        sets = dict(self.document.now.mesh.hex_sets)
-        before = np.asarray(sets.get(name, ()), dtype=np.int64)
-        sets[name] = np.union1d(before, hexes) if on else np.setdiff1d(before, hexes)
-        if not len(sets[name]):
-            del sets[name]
-        if len(before) != len(sets.get(name, ())):
-            self._amend("tag" if on else "untag", hex_sets=sets)
+        before = self.document.now.mesh.hex_sets.get(name, ())
+        after = tagged(self.document.now.mesh, name, hexes, on).hex_sets.get(name, ())
+        if len(before) != len(after):
+            self._amend("tag" if on else "untag", tagged, name, np.asarray(hexes, dtype=np.int64), on)
 
     def remove_tag(self, name: str) -> None:
         """Let a named group of elements be no more, while the mesh may be changed."""
-        self._amend("untag", hex_sets={k: v for k, v in self.document.now.mesh.hex_sets.items() if k != name})
+        self._amend("untag", without_tag, name)
 
     def rename_tag(self, name: str, other: str) -> None:
         """Call a group of elements otherwise, while the mesh may be changed."""
-        sets = self.document.now.mesh.hex_sets
-        self._amend("rename the tag", hex_sets={other if k == name else k: v for k, v in sets.items()})
+        self._amend("rename the tag", renamed_tag, name, other)
 
-    def _amend(self, title: str, **changes: object) -> None:
-        """Change what the mesh carries beside its nodes' places."""
+    def _amend(self, title: str, change: Callable[..., Mesh], *values: object) -> None:
+        """Change what the mesh carries beside its nodes' places, by a function of the core that the script names."""
         if self._session.editable:
             self._session.stepping.leave()
             now = self.document.now
-            mesh = now.mesh.replace(**changes)
-            summary = summarise(mesh, now.figures) if "pinned" in changes else now.summary
+            mesh = change(now.mesh, *values)
+            summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
             self.document.commit(title, State(mesh, now.figures, summary))
+            self.done.emit(Changed(title, now, self.document.now, change, values))
 
     def repair(self, kinds: Sequence[str] = ()) -> tuple[Finding, ...]:
         """Mend some kinds of trouble that the doctor finds, or all, while the mesh may be changed; what was mended."""
         if not self._session.editable:
             return ()
         self._session.stepping.leave()
-        mesh, mended = repair(self.document.now.mesh, kinds)
+        before = self.document.now
+        mesh, mended = repair(before.mesh, kinds)
         if mended:
-            state = State.of(mesh.keeping_surface())
-            self.document.commit("mend " + " and ".join(AILMENTS[one.kind].title.lower() for one in mended), state)
+            title = "mend " + " and ".join(AILMENTS[one.kind].title.lower() for one in mended)
+            self.document.commit(title, State.of(mesh.keeping_surface()))
+            self.done.emit(Changed(title, before, self.document.now, repair, (tuple(kinds),)))
         return mended
 
     def undo(self) -> None:
         """Take back the last change, unless the mesh may not be changed."""
         if self._session.editable:
             self._session.stepping.leave()
+            title = self.document.undo_title
             self.document.undo()
+            if title is not None:
+                self.done.emit(WentBack(title, self.document.now, undone=True))
 
     def redo(self) -> None:
         """Do again what was taken back, unless the mesh may not be changed."""
         if self._session.editable:
             self._session.stepping.leave()
+            title = self.document.redo_title
             self.document.redo()
+            if title is not None:
+                self.done.emit(WentBack(title, self.document.now, undone=False))

@@ -130,6 +130,11 @@ class Comparison(QObject):
         return self._work and self._work.progress
 
     @property
+    def stop(self) -> Stop:
+        """The limits of the work that was begun last."""
+        return self._stop
+
+    @property
     def ending(self) -> bool:
         """Whether the work ends with the iteration at hand."""
         return self._work is not None and self._work.task.cancelled.is_set()

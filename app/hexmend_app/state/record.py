@@ -8,6 +8,9 @@ from typing import Any
 import numpy as np
 
 from hexmend.advice import Advice
+from hexmend.recipe import Recipe, Stage
+from hexmend.run import Stop
+from hexmend.smoothers import Smoother
 from hexmend_app.state.document import State
 
 
@@ -56,6 +59,12 @@ class Record:
         The break-points that it paused at, in words, by the number of the iteration.
     advice : Advice or None
         Why it ended and what to do, once it has.
+    work : Smoother, Recipe or None
+        What it does; None of a run that a session has kept.
+    stop : Stop or None
+        Its limits; None of a recipe, which has its own.
+    changes : list of (int, Stage)
+        What was chosen on the way, with the number of the iteration after which it was.
     slot : int
         From 0; it keeps its colour while others come and go.
     plotted : bool
@@ -71,6 +80,9 @@ class Record:
         self.message = ""
         self.pauses: dict[int, str] = {}
         self.advice: Advice | None = None
+        self.work: Smoother | Recipe | None = None
+        self.stop: Stop | None = None
+        self.changes: list[tuple[int, Stage]] = []
         self._moved = start.mesh.free  # so far: where the boundary slides, there are others than the free ones
         self._nodes = np.flatnonzero(self._moved).astype(np.int32)
         self._offsets: dict[int, Offsets] = {}  # from the start, by number

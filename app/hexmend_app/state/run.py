@@ -102,6 +102,7 @@ class Smoothing(QObject):
         self.record = self._history.begin(smoother.title, self._before)
         self.following = True
         self._worker = Worker(self._before.mesh, smoother, stop, partial(self._history.add, self.record))
+        self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
         self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
         self._worker.grant(iterations)
         self._set_phase(Phase.PREPARING)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -99,19 +100,33 @@ def write(path: Path, data: SessionData) -> None:
         Where the place cannot be written to.
     """
     numbers: dict[Mesh, int] = {}
-
-    def number(mesh: Mesh) -> int:
-        return numbers.setdefault(mesh, len(numbers))
-
-    plain = Plain({
-        Mesh: Own(number, _none),
-        State: Own(lambda state: number(state.mesh), _none),
-        Smoother: Own(_smoother_data, _none),
-    })  # fmt: skip
-    window = plain.data(data, SessionData)
-    now = number(data.document.now.mesh)
+    window = _plain(numbers).data(data, SessionData)
+    now = _number(numbers, data.document.now.mesh)
     with replacing(path) as temporary:
         write_session(temporary, tuple(numbers), now, window)
+
+
+def numbered(data: SessionData) -> dict[State, int]:
+    """Which of the meshes of its file the states of a document and of its runs are."""
+    numbers: dict[Mesh, int] = {}
+    _plain(numbers).data(data, SessionData)
+    states = [data.document.now, *(change.state for change in data.document.changes)]
+    for record in data.history.records:
+        states += [record.start] if record.end is None else [record.start, record.end]
+    return {state: numbers[state.mesh] for state in states}
+
+
+def _plain(numbers: dict[Mesh, int]) -> Plain:
+    """What makes plain data of a session, in which meshes are numbers, given as they are come to."""
+    return Plain({
+        Mesh: Own(partial(_number, numbers), _none),
+        State: Own(lambda state: _number(numbers, state.mesh), _none),
+        Smoother: Own(_smoother_data, _none),
+    })  # fmt: skip
+
+
+def _number(numbers: dict[Mesh, int], mesh: Mesh) -> int:
+    return numbers.setdefault(mesh, len(numbers))
 
 
 def read(path: Path) -> SessionData:

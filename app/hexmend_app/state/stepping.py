@@ -2,11 +2,34 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.node_step import NodeStep, Sweep
 from hexmend.smoothers.local_descent import LocalDescent
 from hexmend_app.state.document import Document, State
+
+
+@dataclass(frozen=True, eq=False)
+class Swept:
+    """A sweep that is recorded.
+
+    Parameters
+    ----------
+    before, after : State
+    smoother : LocalDescent
+    steps : int
+        Nodes that were visited one by one.
+    finished : bool
+        Whether all others were, at once.
+    """
+
+    before: State
+    after: State
+    smoother: LocalDescent
+    steps: int
+    finished: bool
 
 
 class Stepping(QObject):
@@ -20,6 +43,9 @@ class Stepping(QObject):
     changed
         A node was visited, or the sweep was left.
 
+    recorded(Swept)
+        A sweep is over or left, and the document holds what it came to as one change.
+
     Attributes
     ----------
     sweep : Sweep or None
@@ -29,6 +55,7 @@ class Stepping(QObject):
     """
 
     changed = Signal()
+    recorded = Signal(object)
 
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
@@ -37,6 +64,8 @@ class Stepping(QObject):
         self.last: NodeStep | None = None
         self._smoother: LocalDescent | None = None
         self._state: State | None = None  # that the last step led to
+        self._before: State | None = None  # that the sweep began with
+        self._steps = 0  # made one by one
         document.mesh_replaced.connect(self._forget)
         document.points_moved.connect(self._on_moved)
 
@@ -56,6 +85,7 @@ class Stepping(QObject):
         sweep = self._begun(smoother)
         for _, step in zip(range(count), sweep, strict=False):
             self.last = step
+        self._steps = sweep.done
         self._show()
 
     def finish(self, smoother: LocalDescent) -> None:
@@ -72,6 +102,7 @@ class Stepping(QObject):
             self.leave()
         if self.sweep is None:
             self.sweep, self._smoother = Sweep(self._document.now.mesh, smoother), smoother
+            self._before, self._steps = self._document.now, 0
         return self.sweep
 
     def _show(self) -> None:
@@ -88,10 +119,12 @@ class Stepping(QObject):
             self._record(show=False)
 
     def _record(self, show: bool) -> None:
-        title, self.sweep = self.title, None
+        title, sweep, self.sweep = self.title, self.sweep, None
         if title is not None:
             self._document.commit(title, self._state, show=show)
+            self.recorded.emit(Swept(self._before, self._state, self._smoother, self._steps, sweep.done > self._steps))
+            self._before = None
             self.changed.emit()
 
     def _forget(self) -> None:
-        self.sweep = self.last = self._state = None
+        self.sweep = self.last = self._state = self._before = None

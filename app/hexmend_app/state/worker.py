@@ -69,6 +69,8 @@ class Worker:
     mailbox : Mailbox
     last : Frame or None
         The newest.
+    changes : list of (int, Stage)
+        How the rest of a stage was to be done, with the number of the iteration after which it was.
     prepared : threading.Event
         The method has been set up, or has failed to be.
     advice : Advice or None
@@ -79,6 +81,7 @@ class Worker:
         self.task = Task(f"smoother {smoother.name}", self._run, yields=True)
         self.mailbox = Mailbox()
         self.last: Frame | None = None
+        self.changes: list[tuple[int, Stage]] = []
         self.prepared = threading.Event()
         self.advice: Advice | None = None
         self.metrics: frozenset[str] = frozenset()  # what the window will ask of every iteration
@@ -164,5 +167,6 @@ class Worker:
             change, self._change = self._change, None
             ended = self.task.cancelled.is_set()
         if change is not None and run.outcome is None and not ended:
+            self.changes.append((run.last.number, change))
             run.go_on_with(change.smoother, change.stop)  # which may take a while: the window must not wait for it
         return run.outcome is None and not ended

@@ -76,6 +76,11 @@ def ask_scene_target(parent: QWidget) -> str:
     return _ask_to_save(parent, "Save the scene as", "scene.toml", "Scene (*.toml)")
 
 
+def ask_script(parent: QWidget, stem: str) -> str:
+    """Where to save the script, "" for nowhere."""
+    return _ask_to_save(parent, "Save the script as", f"{stem}.py", "Python script (*.py)")
+
+
 def ask_film(parent: QWidget, stem: str) -> str:
     """Where to save a film of a run, "" for nowhere."""
     kinds = "GIF animation (*.gif);;WebP animation, smaller and finer (*.webp);;PNG animation, exact (*.png)"

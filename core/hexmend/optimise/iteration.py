@@ -13,6 +13,7 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.optimise.stop import Stop
 from hexmend.quality import ElementQuality, Summary, objective, worse
+from hexmend.showing import html_of
 from hexmend.surface import SurfaceChange
 
 
@@ -218,3 +219,7 @@ class Result:
     def worse(self) -> tuple[str, ...]:
         """What is worse than before: names of `hexmend.quality.JUDGED`."""
         return worse(self.before, self.after)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows of it."""
+        return html_of(self)

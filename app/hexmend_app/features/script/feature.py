@@ -1,0 +1,76 @@
+"""The script of what was done in the window: seen as it grows, copied, and saved."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtWidgets import QApplication
+
+from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.features.script.script import Script
+from hexmend_app.features.script.script_panel import ScriptPanel
+from hexmend_app.widgets.questions import ask_script
+
+
+class FeatureScript(Feature):
+    """Shows what was done as Python, and gives it away."""
+
+    order = 58
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._seen = Seen()
+        self.script = Script(self.session, self)
+        self.panel = ScriptPanel()
+        self.panel.copy_requested.connect(self.copy)
+        self.panel.save_requested.connect(self.ask)
+
+    def actions(self) -> Sequence[Action]:
+        """Save the script."""
+        return (
+            Action(
+                id="script",
+                text="Save scr&ipt…",
+                menu="File",
+                part=1,
+                icon="script-text-outline",
+                help="Save what was done in this window as a Python file that does it again.",
+                handle=self.ask,
+                enabled=lambda: bool(self.script.entries),
+                needs_mesh=False,
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """What was done."""
+        return (
+            Panel(
+                id="script",
+                title="Script",
+                widget=self.panel,
+                place=Place.DRAWER,
+                order=70,
+                help="What was done in this window, as Python that does it again.",
+            ),
+        )
+
+    def refresh(self) -> None:
+        """Show what has been done since, where somebody looks."""
+        if self.panel.isVisible() and self._seen.another("entries", len(self.script.entries)):
+            self.panel.show_text(self.script.text)
+
+    def copy(self) -> None:
+        """Copy the script."""
+        QApplication.clipboard().setText(self.script.text)
+        self.host.messages.show_info("The script was copied.")
+
+    def ask(self) -> None:
+        """Ask where the script goes and write it."""
+        path = ask_script(self.host.window, self.host.stem)
+        if path:
+            self.save(path)
+
+    def save(self, path: str | Path) -> bool:
+        """Write the script; whether it was."""
+        return self.host.said("The script was not saved", lambda: self.script.write(path), f"Script saved to {path}")

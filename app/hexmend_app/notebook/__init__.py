@@ -1,0 +1,1 @@
+"""Pictures of meshes for notebooks; joined through the entry-point group `hexmend.pictures`."""

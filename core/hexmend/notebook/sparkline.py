@@ -1,0 +1,60 @@
+"""A line of a word's size that shows how a figure went."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from html import escape
+
+_WIDTH, _HEIGHT, _EDGE = 120, 24, 3
+#: Places of a line: more cannot be told apart.
+_MOST = 2 * _WIDTH
+
+
+def sparkline(values: Sequence[float | int | None], title: str, marked: int | None = None) -> str:
+    """An SVG of values from left to right, with a dot at one of them; what is None or not finite leaves a gap.
+
+    Parameters
+    ----------
+    values : sequence of float or None
+    title : str
+        For who points at it, and for who cannot see it.
+    marked : int, optional
+        The place in `values` that has the dot.
+
+    Returns
+    -------
+    str
+        "" where there are less than two values.
+
+    Examples
+    --------
+    >>> sparkline([1.0], "one")
+    ''
+    >>> sparkline([0.0, 0.5, 1.0], "rises").count("<polyline")
+    1
+    """
+    known = [value for value in values if value is not None and math.isfinite(value)]
+    if len(known) < 2:
+        return ""
+    low, span = min(known), (max(known) - min(known)) or 1.0
+    across, up = (_WIDTH - 2 * _EDGE) / max(len(values) - 1, 1), _HEIGHT - 2 * _EDGE
+
+    def place(at: int) -> str:
+        return f"{_EDGE + across * at:.1f},{_HEIGHT - _EDGE - up * ((values[at] or 0.0) - low) / span:.1f}"
+
+    lines: list[list[str]] = [[]]
+    for at in sorted({*range(0, len(values), math.ceil(len(values) / _MOST)), len(values) - 1}):
+        if values[at] is None or not math.isfinite(values[at]):
+            lines.append([])
+        else:
+            lines[-1].append(place(at))
+    drawn = "".join(f'<polyline points="{" ".join(line)}"/>' for line in lines if len(line) > 1)
+    dot = ""
+    if marked is not None and 0 <= marked < len(values) and values[marked] is not None:
+        x, y = place(marked).split(",")
+        dot = f'<circle cx="{x}" cy="{y}" r="2.5" fill="#0072b2" stroke="none"/>'
+    return (
+        f'<svg role="img" width="{_WIDTH}" height="{_HEIGHT}" viewBox="0 0 {_WIDTH} {_HEIGHT}" fill="none" '
+        f'stroke="#0072b2" stroke-width="1.5"><title>{escape(title)}</title>{drawn}{dot}</svg>'
+    )

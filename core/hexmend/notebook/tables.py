@@ -1,0 +1,79 @@
+"""HTML of meshes and results: tables, pictures in the page itself, and lines of convergence."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from html import escape
+
+from hexmend.figures import Figure
+from hexmend.mesh import Mesh
+from hexmend.notebook.sparkline import sparkline
+from hexmend.optimise import Result
+from hexmend.quality.summary import FIGURES, Summary, summarise
+
+_ROW = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start"
+_IMAGE = "width: 480px; max-width: 100%; border-radius: 4px"
+_WORSE = "text-align: right; color: #b3261e; font-weight: 600"
+_QUIET = "opacity: 0.7; font-size: 90%"
+
+#: Figures of a run that are drawn over its iterations.
+_LINES = ("q_min", "q_mean", "inverted", "objective")
+
+
+def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
+    """A mesh with its figures.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    picture : bytes, optional
+        A PNG.
+    problem : str
+        Why there is no picture.
+    """
+    summary = summarise(mesh)
+    rows = [f"<tr><th>{_head(one)}</th>{_cell(one, summary)}</tr>" for one in FIGURES.values()]
+    return _page(_title(mesh), picture, problem, f"<table>{''.join(rows)}</table>")
+
+
+def of_result(result: Result, picture: bytes | None = None, problem: str = "") -> str:
+    """A run with the figures before and after, what is worse in red, and how they came about."""
+    head = "<tr><th></th><th>before</th><th>after</th><th>by iteration</th></tr>"
+    rows = [
+        f"<tr><th>{_head(one)}</th>{_cell(one, result.before)}{_cell(one, result.after, one.key in result.worse)}"
+        f"<td>{_line(one, result)}</td></tr>"
+        for one in FIGURES.values()
+    ]
+    said = f"<p>{escape(result.message)}</p>"
+    return _page(_title(result.mesh), picture, problem, f"{said}<table>{head}{''.join(rows)}</table>")
+
+
+def _title(mesh: Mesh) -> str:
+    return escape(mesh.name or "A mesh without a name")
+
+
+def _page(title: str, picture: bytes | None, problem: str, inside: str) -> str:
+    image = ""
+    if picture is not None:
+        data = b64encode(picture).decode("ascii")
+        image = f'<img alt="{title}, coloured by q(H)" style="{_IMAGE}" src="data:image/png;base64,{data}"/>'
+    note = f'<p style="{_QUIET}">{escape(problem)}</p>' if problem else ""
+    return f'<div><strong>{title}</strong><div style="{_ROW}">{image}<div>{inside}</div></div>{note}</div>'
+
+
+def _head(figure: Figure) -> str:
+    return f'<span title="{escape(figure.help)}">{escape(figure.label)}</span>'
+
+
+def _cell(figure: Figure, summary: Summary, worse: bool = False) -> str:
+    value = getattr(summary, figure.key)
+    text = escape(figure.text(value)) if value is not None else "∞"
+    return f'<td style="{_WORSE}">{text}</td>' if worse else f"<td>{text}</td>"
+
+
+def _line(figure: Figure, result: Result) -> str:
+    if figure.key not in _LINES:
+        return ""
+    values: Sequence[float | int | None] = [row[figure.key] for row in result.history]
+    return sparkline(values, f"{figure.label} by iteration", result.kept)

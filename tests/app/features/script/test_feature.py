@@ -1,0 +1,55 @@
+"""The script in the window: seen as it grows, copied, saved, and run."""
+
+import subprocess
+import sys
+
+import pytest
+from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushButton
+
+from hexmend.run import Stop
+from hexmend_app.state.run import Phase
+from tests.app.driving import choose, click, named, phase, press
+from tests.patience import PATIENCE
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    window.show_panel("script")
+    qtbot.waitUntil(window.features["script"].panel.isVisible)
+    return window.features["script"].panel
+
+
+def shown(window, panel):
+    window.refresh()
+    return panel.findChild(QPlainTextEdit).toPlainText()
+
+
+def test_what_is_done_is_seen_as_it_is_done(window, panel, qtbot):
+    assert "import hexmend as hx" in shown(window, panel)
+    before = shown(window, panel)
+    choose(window, "local-sd", Stop(max_iterations=2, tolerance=0))
+    click(window, "Run")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    after = shown(window, panel)
+    assert after.startswith(before.rstrip())
+    assert "hx.smooth(" in after[len(before.rstrip()) :]
+
+
+def test_it_is_copied(window, panel):
+    QApplication.clipboard().clear()
+    press(named(panel, QPushButton, "Copy the script"))
+    assert QApplication.clipboard().text() == window.features["script"].script.text
+
+
+def test_it_is_saved_under_a_python_name_and_runs(window, panel, tmp_path, monkeypatch):
+    asked = str(tmp_path / "again"), "Python script (*.py)"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *args: asked)
+    window.session.commands.save(tmp_path / "out.vtu")
+    (tmp_path / "out.vtu").unlink()
+    press(named(panel, QPushButton, "Save the script"))
+    subprocess.run([sys.executable, tmp_path / "again.py"], check=True)
+    assert (tmp_path / "out.vtu").exists()
+
+
+def test_why_it_was_not_saved_is_said(window, tmp_path):
+    assert not window.features["script"].save(tmp_path / "nowhere" / "script.py")
