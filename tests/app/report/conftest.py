@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from hexmend import gallery
 from hexmend.optimise import Stop
@@ -16,6 +19,9 @@ from hexmend_app.report.case import Case, run_methods
 
 #: WebGL without a graphics card.
 SOFTWARE = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+
+#: A promise that is kept when some frames have been drawn.
+_FRAMES = "() => new Promise((done) => { let n = 4; const next = () => n-- ? requestAnimationFrame(next) : done(); next(); })"
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
@@ -46,13 +52,13 @@ class Opened:
 
     def drawn(self) -> None:
         """Wait until what was asked for is on the screen: faces are found in one frame and drawn in the next."""
-        for _ in range(3):
-            self.page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.page.evaluate(_FRAMES)
 
     def canvas(self) -> bytes:
-        """The picture of the mesh."""
+        """The picture of the mesh: red, green and blue of each pixel."""
         self.drawn()
-        return self.page.locator("canvas").first.screenshot()
+        with Image.open(BytesIO(self.page.locator("canvas").first.screenshot())) as picture:
+            return picture.convert("RGB").tobytes()
 
     def control(self, name: str):
         """A control of the first mesh."""
@@ -79,9 +85,10 @@ def browser(tmp_path_factory) -> Iterator[Callable[..., Opened]]:
 
     @contextmanager
     def opened(arguments: tuple[str, ...] = SOFTWARE, **options) -> Iterator[Opened]:
-        program = started.chromium.launch(executable_path=CHROMIUM, args=list(arguments), env={"HOME": folder, "TMPDIR": folder})
+        env = os.environ | {"HOME": folder, "TMPDIR": folder}
+        program = started.chromium.launch(executable_path=CHROMIUM, args=list(arguments), env=env)
         try:
-            context = program.new_context(viewport={"width": 1366, "height": 768}, **options)
+            context = program.new_context(viewport={"width": 1000, "height": 640}, **options)
             yield Opened(context.new_page())
         finally:
             program.close()
