@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hexmend_app.cli import runs
@@ -24,7 +23,9 @@ class Figures:
     """A figure set."""
 
     name = "figures"
-    help = "Write the figure set of a mesh: before and after, distributions, convergence, the table, captions, commands."
+    help = (
+        "Write the figure set of a mesh: before and after, distributions, convergence, the table, captions, commands."
+    )
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         parser.add_argument("mesh", metavar="MESH", help="the mesh file; with --thesis, plane")
@@ -32,7 +33,11 @@ class Figures:
         parser.add_argument("--format", metavar="A,B,...", help="png, pdf, svg (default png)")
         parser.add_argument("--width-mm", metavar="X", help="of each figure, in mm (default 170)")
         parser.add_argument(
-            "--only", metavar="PART", action="append", default=[], help="surface, cut, distributions, convergence, table"
+            "--only",
+            metavar="PART",
+            action="append",
+            default=[],
+            help="surface, cut, distributions, convergence, table",
         )
         runs.add_arguments(parser)
         parser.add_argument("--thesis", action="store_true", help="figures 4.5 to 4.9 of the thesis, of the mesh plane")
@@ -47,11 +52,12 @@ class Figures:
             return _thesis(args)
         if args.quick:
             raise wrong("--quick", "", "--thesis beside it")
-        given = runs.words(args, ("mesh", "output", "only"))
+        given = runs.words(args, ("mesh", "output", "only", "force"))
         smoothers, stop = runs.methods(args)
         names = runs.names(args, len(smoothers))
         style = _style(args)
         prepare_off_screen()
+        from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
         from hexmend.report import made_folder
         from hexmend_app.report.captions import write_captions
@@ -62,6 +68,7 @@ class Figures:
             if part not in PARTS:
                 raise wrong("--only", part, f"one of {', '.join(PARTS)}")
         mesh, source = source_of(args.mesh)
+        check_memory(args, smoothers, mesh, "draw fewer methods (--methods)")
         folder = made_folder(args.output)
         with Progress() as progress:
             case = run_methods(mesh, source, smoothers, stop, names, progress.show)

@@ -19,7 +19,7 @@ class Report:
     """A report as HTML or PDF."""
 
     name = "report"
-    help = "Write one page on meshes: before and after, the worst hexes, what is locked; HTML that needs no network, or PDF."
+    help = "Write a report on meshes, before and after, with all that is known of them: one HTML page, or PDF."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         parser.add_argument("mesh", metavar="MESH", nargs="+", help="the mesh files")
@@ -30,6 +30,7 @@ class Report:
     def run(self, args: argparse.Namespace) -> int:
         from dataclasses import replace
 
+        from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
         from hexmend.io.atomic import check_writable
         from hexmend.io.suffixes import suffix_for
@@ -40,7 +41,7 @@ class Report:
         alive = suffix_for(path, "a report", _SUFFIXES) == ".html"
         check_writable(path)  # what is wrong is said before the work, not after
         check_matplotlib()
-        given = runs.words(args, ("mesh", "output", "title"))
+        given = runs.words(args, ("mesh", "output", "title", "force"))
         smoothers, stop = runs.methods(args)
         names, scene = runs.names(args, len(smoothers)), runs.scene(args)
         prepare_off_screen()
@@ -55,6 +56,7 @@ class Report:
         chapters, interrupted = [], False
         for one in args.mesh:
             mesh, source = source_of(one)
+            check_memory(args, smoothers, mesh, "report on fewer methods (--methods)")
             with Progress() as progress:
                 case = run_methods(mesh, source, smoothers, stop, names, progress.show)
             again = _again(one, case.name, given, runs.method_words(args))

@@ -21,6 +21,7 @@ NONE = "none"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
     from hexmend.cli.command.limits import add_limits
+    from hexmend.cli.command.memory import add_force
     from hexmend.cli.command.method import add_boundary
 
     looks.prepare(parser)
@@ -38,6 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_boundary(parser)
     add_limits(parser)
+    add_force(parser)
     parser.add_argument(
         "--names", metavar="A,B,...", help="what captions call the mesh as given, and then what each method made of it"
     )

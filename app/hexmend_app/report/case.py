@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import shlex
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from hexmend.advice import Advice, advise
 from hexmend.errors import FileError
 from hexmend.io import read
 from hexmend.mesh import Mesh
@@ -58,8 +59,10 @@ class Version:
     summary : Summary
     row : Row, optional
         What the method tells; None for the mesh as it was given.
-    result : Result, optional
-        The run that led to it, where that made an iteration.
+    history : sequence of mapping
+        Rows of the run that led to it, as `hexmend.optimise.Result.history` has them.
+    advice : Advice, optional
+        Why that run ended, and what would help.
     """
 
     name: str
@@ -67,13 +70,15 @@ class Version:
     figures: ElementQuality
     summary: Summary
     row: Row | None = None
-    result: Result | None = None
+    history: Sequence[Mapping[str, Any]] = ()
+    advice: Advice | None = None
 
     @classmethod
     def of(cls, name: str, mesh: Mesh, row: Row | None = None, result: Result | None = None) -> Version:
-        """A mesh that is yet to be measured."""
+        """A mesh that is yet to be measured, with the run that led to it."""
         figures = measure(mesh.points, mesh.hexes)
-        return cls(name, mesh, figures, summarise(mesh, figures), row, result)
+        told = (result.history, advise(result)) if result is not None else ()
+        return cls(name, mesh, figures, summarise(mesh, figures), row, *told)
 
     def record(self) -> dict[str, Any]:
         """Its figures, as tables take them."""

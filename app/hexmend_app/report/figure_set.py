@@ -6,14 +6,15 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from hexmend.movement import MOVEMENTS
 from hexmend.report import comparison_rows, comparison_table, write_documents
 from hexmend.report.run_figures import write_convergence, write_distributions
 from hexmend.report.tables import Table
 from hexmend_app.report.case import Case
 from hexmend_app.scene.export.sheet import draw_sheet
 from hexmend_app.scene.export.subject import Subject
-from hexmend_app.state.scene import Cut, Panel, Place, Scene
-from hexmend_app.state.scene.cut import Plane
+from hexmend_app.state.look import Traces
+from hexmend_app.state.scene import Colours, Cut, Panel, Place, Plane, Scene
 
 #: Panels in a row at most, the height of one by its width, and of what stands around them, in mm.
 _IN_A_ROW, _PANEL, _AROUND = 3, 0.9, (5.0, 10.0)
@@ -78,6 +79,19 @@ def write_figures(case: Case, folder: Path, style: Style, parts: Sequence[str] =
             yield figure
 
 
+def stationary(scene: Scene) -> Scene:
+    """A scene without what needs a mesh that has moved, and without panels: those of a set are its meshes."""
+    moved = scene.colours.metric in MOVEMENTS
+    return replace(
+        scene,
+        colours=Colours() if moved else scene.colours,
+        movement=Traces(),
+        structure=replace(scene.structure, original=False, kinds=False),
+        panels=(),
+        cameras={},
+    )
+
+
 def table_of(case: Case) -> Table:
     """The thesis's table of methods."""
     summary = case.initial.summary
@@ -99,11 +113,13 @@ def _cut(case: Case, folder: Path, style: Style) -> Figure:
 
 
 def _sheet(case: Case, folder: Path, style: Style, part: str, scene: Scene, how: str) -> Figure:
-    """One panel a version, with one camera."""
-    count = len(case.versions)
+    """One panel a version, with one camera; where that stands exactly, panels have the shape of the scene's page."""
+    scene, count = stationary(scene), len(case.versions)
     columns = min(count, _IN_A_ROW)
     caption, bar = _AROUND
-    high = -(-count // columns) * (style.width / columns * _PANEL + caption) + bar
+    wide, tall = scene.page.size
+    shape = _PANEL if scene.camera.stand is None else tall / wide
+    high = -(-count // columns) * (style.width / columns * shape + caption) + bar
     page = replace(scene.page, width=style.width, height=high, pixels=None, columns=columns)
     panels = tuple(Panel(mesh=k, caption=one.name) for k, one in enumerate(case.versions, 1))
     bar_of = replace(scene.bar, place=Place.BELOW) if scene.bar.place is Place.RIGHT else scene.bar
@@ -122,11 +138,13 @@ def _distributions(case: Case, folder: Path, style: Style) -> Figure:
     paths = tuple(folder / f"distributions.{suffix}" for suffix in style.formats)
     for path in paths:
         write_distributions(path, counts, title=case.name, width_mm=style.width)
-    return Figure("distributions", f"Numbers of hexes of {case.name} by their quality q(H): {_listed([*counts])}.", paths)
+    return Figure(
+        "distributions", f"Numbers of hexes of {case.name} by their quality q(H): {_listed([*counts])}.", paths
+    )
 
 
 def _convergence(case: Case, folder: Path, style: Style) -> Figure | None:
-    histories = {one.name: one.result.history for one in case.versions if one.result is not None}
+    histories = {one.name: one.history for one in case.versions if one.history}
     if not histories:
         return None
     paths = tuple(folder / f"convergence.{suffix}" for suffix in style.formats)
@@ -141,7 +159,8 @@ def _table(case: Case, folder: Path, style: Style) -> Figure:
         "stop": case.stop.values(),
         "interrupted": case.interrupted,
         "initial": case.initial.record(),
-        "rows": [one.record() | {"name": one.name} for one in case.versions[1:]] + [row.record() for row in case.failed],
+        "rows": [one.record() | {"name": one.name} for one in case.versions[1:]]
+        + [row.record() for row in case.failed],
     }
     table = table_of(case)
     paths = write_documents(folder, "table", table, comparison_rows(record), record)

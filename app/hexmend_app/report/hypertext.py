@@ -70,9 +70,7 @@ def table(table: Table, words: int = 0) -> str:
         for column, text in enumerate(table.head)
         for kind in [' class="words"' if column >= width - words else ""]
     )
-    rows = "".join(
-        f"<tr>{''.join(cell(text, column) for column, text in enumerate(row))}</tr>" for row in table.rows
-    )
+    rows = "".join(f"<tr>{''.join(cell(text, column) for column, text in enumerate(row))}</tr>" for row in table.rows)
     title = f"<caption>{escape(table.title)}</caption>" if table.title else ""
     notes = "".join(f'<p class="soft">{escape(note)}</p>' for note in table.notes)
     return f'<div class="wide"><table>{title}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>{notes}'

@@ -11,7 +11,6 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from hexmend import __version__
-from hexmend.advice import advise
 from hexmend.figures import count, quality, significant
 from hexmend.io.atomic import replacing
 from hexmend.report.tables import Table
@@ -164,11 +163,10 @@ def _locked(case: Case, held: Sequence[Locked]) -> list[str]:
     words = held[0].words() or "Nothing is locked: no inverted hex is held in inversion by fixed nodes alone."
     parts = [html.paragraph(words)]
     for one in case.versions[1:]:
-        if one.result is None:
-            continue
-        advice = advise(one.result)
-        parts.append(html.paragraph(f"{one.name}: {' '.join(filter(None, [advice.left, advice.surface]))}"))
-        parts.append(html.listed(f"{tip.title}: {tip.text}" for tip in advice.suggestions))
+        if one.advice is not None:
+            said = " ".join(filter(None, [one.advice.left, one.advice.surface]))
+            parts.append(html.paragraph(f"{one.name}: {said}"))
+            parts.append(html.listed(f"{tip.title}: {tip.text}" for tip in one.advice.suggestions))
     return parts
 
 

@@ -40,4 +40,3 @@ def check_paper() -> None:
             f"a report as PDF needs Pango: run  apt-get install libpangoft2-1.0-0  or write .html, which a browser "
             f"prints ({str(error).splitlines()[0]})"
         ) from None
-

@@ -65,14 +65,15 @@ def viewer(mesh: Mesh, states: Sequence[Shown], picture: str) -> str:
     """
     if mesh.n_hexes > MOST_HEXES:
         said = f"The mesh cannot be turned here: a page holds {MOST_HEXES:,} hexes, and it has {mesh.n_hexes:,}."
-        return f'<div class="viewer">{picture}<p class="cannot screen">{said} Open it in the viewer: hexmend MESH</p></div>'
+        said += " Open it in the viewer: hexmend MESH"
+        return f'<div class="viewer">{picture}<p class="cannot screen">{said}</p></div>'
     head, blob = packed(mesh, states)
     colour = "#{:02x}{:02x}{:02x}".format(*INVERTED)
     parts = [
         f'<div class="viewer" style="--inverted: {colour}">',
         picture,
         '<p class="cannot screen" hidden></p>',
-        '<noscript><p class="cannot">Without JavaScript the mesh cannot be turned; the picture shows it.</p></noscript>',
+        '<noscript><p class="cannot">The mesh cannot be turned without JavaScript.</p></noscript>',
         resource("report/viewer.html").read_text(encoding="utf-8"),
         f'<script type="application/json" data-of="head">{in_script(head)}</script>',
         f'<script type="text/plain" data-of="bytes">{blob}</script>',

@@ -43,9 +43,10 @@ class Locked:
         if not many:
             return ""
         rest = many - freed
-        what = f"{count(many)} inverted {'hex is' if many == 1 else 'hexes are'} locked: at a corner with σ ≤ 0 all four nodes"
+        which = "hex is" if many == 1 else "hexes are"
         return (
-            f"{what} are fixed, so that no method that keeps these nodes can mend them. "
+            f"{count(many)} inverted {which} locked: at a corner with σ ≤ 0 all four nodes are fixed, so that no "
+            f"method that keeps these nodes can mend them. "
             f"{count(freed)} can be freed where the boundary slides (--boundary slide), {count(rest)} cannot."
         )
 

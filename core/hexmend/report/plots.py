@@ -213,12 +213,10 @@ def new_figure(width: float, height: float) -> Figure:
 
 def check_matplotlib() -> None:
     """Raise `HexmendError` where matplotlib is missing."""
-    try:
-        import matplotlib as _  # noqa: F401
-    except ImportError:
-        raise HexmendError(
-            "figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'"
-        ) from None
+    from importlib.util import find_spec
+
+    if find_spec("matplotlib") is None:
+        raise HexmendError("figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'")
 
 
 def _figure(width: float = WIDTH) -> tuple[Figure, Axes]:

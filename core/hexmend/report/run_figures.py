@@ -110,6 +110,6 @@ def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> l
 
 
 def _has(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> bool:
-    """Whether a figure tells something: an objective that is always infinite does not, nor do none that are inverted."""
+    """Whether a figure tells something: an objective that is always infinite does not, nor does a count that is 0."""
     values = [row[key] for rows in histories.values() for row in rows]
     return any(values) if key == "inverted" else any(value is not None for value in values)

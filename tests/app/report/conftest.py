@@ -21,7 +21,9 @@ from hexmend_app.report.case import Case, run_methods
 SOFTWARE = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 
 #: A promise that is kept when some frames have been drawn.
-_FRAMES = "() => new Promise((done) => { let n = 4; const next = () => n-- ? requestAnimationFrame(next) : done(); next(); })"
+_FRAMES = (
+    "() => new Promise((done) => { let n = 4; const next = () => n-- ? requestAnimationFrame(next) : done(); next(); })"
+)
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 

@@ -22,7 +22,9 @@ def written(case, tmp_path_factory):
 
     prepare_off_screen()
     path = tmp_path_factory.mktemp("report") / "report.html"
-    write_page(path, page("Report", [chapter(case, STYLE, [["info", "mesh"]], alive=True)], "hexmend report", alive=True))
+    write_page(
+        path, page("Report", [chapter(case, STYLE, [["info", "mesh"]], alive=True)], "hexmend report", alive=True)
+    )
     return path
 
 
@@ -125,7 +127,9 @@ def test_a_click_tells_the_hex_and_its_values(fresh, case):
     fresh.drawn()
     box = fresh.control("canvas").bounding_box()
     fresh.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    number, before, after = re.search(r"Hex ([\d,]+) – .*?q\(H\) ([\d.]+).*q\(H\) ([\d.]+)", fresh.text("told")).groups()
+    number, before, after = re.search(
+        r"Hex ([\d,]+) – .*?q\(H\) ([\d.]+).*q\(H\) ([\d.]+)", fresh.text("told")
+    ).groups()
     hex = int(number.replace(",", ""))
     for version, said in ((case.versions[0], before), (case.versions[-1], after)):
         assert float(said) == pytest.approx(measure(version.mesh.points, version.mesh.hexes).q[hex], abs=1e-4)
