@@ -30,6 +30,7 @@ run: $(VENV)/.app $(VENV)/.kernels
 # keeps less.
 test: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
+	@scripts/debian-packages chromium
 	@MALLOC_ARENA_MAX=2 MALLOC_TRIM_THRESHOLD_=131072 $(BIN)/python -m pytest -n 2 --dist worksteal
 
 lint: $(VENV)/.test

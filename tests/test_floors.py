@@ -39,6 +39,7 @@ APP = [
     {"formats"},
     {"state"},
     {"scene"},
+    {"report"},
     {"widgets"},
     {"canvas"},
     {"feature"},
@@ -183,6 +184,7 @@ def test_importing_all_of_the_core_brings_no_window_along():
 @pytest.mark.parametrize(("floor", "forbidden"), [
     ("state", {"PySide6.QtWidgets", "PySide6.QtGui", "pyvista", "vtk", "vtkmodules", "pyvistaqt", "pyqtgraph", "qtpy"}),
     ("scene", {"PySide6", "pyvistaqt", "pyqtgraph", "qtpy"}),
+    ("report", {"PySide6", "pyvista", "vtk", "vtkmodules", "pyvistaqt", "pyqtgraph", "qtpy"}),
 ])  # fmt: skip
 def test_the_lower_floors_of_the_app_know_less(floor, forbidden):
     rows = [

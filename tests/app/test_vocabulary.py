@@ -10,7 +10,7 @@ import hexmend_app
 from hexmend.smoothers import METHODS
 
 ROOT = Path(hexmend_app.__file__).parent
-FOLDERS = ("features", "widgets", "canvas", "shell", "state", "cli")
+FOLDERS = ("features", "widgets", "canvas", "shell", "state", "report", "cli")
 FILES = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py"))
 BANNED = re.compile(r"\b(elements?|clip(s|ped|ping)?)\b", re.IGNORECASE)
 

@@ -93,6 +93,16 @@ def ask_comparison(parent: QWidget, stem: str) -> str:
     return _ask_to_save(parent, "Save the table as", f"{stem}-comparison.csv", kinds)
 
 
+def ask_figures(parent: QWidget, stem: str) -> str:
+    """Where to make a folder of figures that is not there yet, "" for nowhere."""
+    asked = QFileDialog.getExistingDirectory(parent, "Make the folder of figures in", str(folder()))
+    if not asked:
+        return ""
+    remember_folder(Path(asked) / stem)
+    names = (f"{stem}-figures{f'-{count}' if count else ''}" for count in [0, *range(2, 10_000)])
+    return next((str(path) for name in names if not (path := Path(asked) / name).exists()), "")
+
+
 def remember_folder(path: Path) -> None:
     """Begin the next dialog, of whatever kind, where this file lies."""
     FOLDER.set(path.resolve().parent)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from hexmend.report.plots import check_figure, new_figure, save_figure
+from hexmend.report.plots import WIDTH, check_figure, new_figure, save_figure
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,10 @@ class DrawnChart:
     whole: bool = False
 
 
-def write_convergence_figure(path: Path, charts: Sequence[DrawnChart], *, title: str, xlabel: str) -> None:
-    """Write charts below one another, as SVG, PDF or PNG by the path's suffix.
+def write_convergence_figure(
+    path: Path, charts: Sequence[DrawnChart], *, title: str, xlabel: str, width: float = WIDTH
+) -> None:
+    """Write charts below one another, as SVG, PDF or PNG by the path's suffix; `width` in inches.
 
     Raises
     ------
@@ -59,7 +61,7 @@ def write_convergence_figure(path: Path, charts: Sequence[DrawnChart], *, title:
         For another suffix, and where matplotlib is missing or the file cannot be written.
     """
     check_figure(path)
-    figure = new_figure(7.5, 1.2 + 1.7 * max(1, len(charts)))
+    figure = new_figure(width, width / WIDTH * (1.2 + 1.7 * max(1, len(charts))))
     all_axes = figure.subplots(max(1, len(charts)), 1, sharex=True, squeeze=False)[:, 0]
     for axes, chart in zip(all_axes, charts, strict=False):
         for curve in chart.curves:

@@ -16,9 +16,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Okabe and Ito's colours, which colour-blind readers can tell apart too.
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _MARKERS = "osD^vPX"
 
+
+#: Inches that a figure is wide where nobody says, and its height by its width.
+WIDTH, _HEIGHT = 7.5, 0.6
 
 #: Where a broken bar ends, of the height of the tallest bin.
 _BROKEN = 1.08
@@ -48,7 +51,7 @@ def scaling(
     """
     figure, axes = _figure()
     for k, (method, points) in enumerate(ours.items()):
-        colour, marker = _COLOURS[k % len(_COLOURS)], _MARKERS[k % len(_MARKERS)]
+        colour, marker = COLOURS[k % len(COLOURS)], _MARKERS[k % len(_MARKERS)]
         axes.plot(*zip(*sorted(points), strict=True), color=colour, marker=marker, markersize=5, label=method)
         if thesis.get(method):
             pale = {"color": colour, "marker": marker, "markersize": 3, "linestyle": "--", "alpha": 0.45}
@@ -79,7 +82,7 @@ def distributions(stem: Path, counts: Mapping[str, Sequence[int]], title: str) -
     figure, axes = _figure()
     for k, (label, numbers) in enumerate(counts.items()):
         edges = [bin / len(numbers) for bin in range(len(numbers) + 1)]
-        axes.stairs(numbers, edges, color=_COLOURS[k % len(_COLOURS)], linewidth=1.6, label=label)
+        axes.stairs(numbers, edges, color=COLOURS[k % len(COLOURS)], linewidth=1.6, label=label)
     axes.set(xlim=(0, 1), xlabel="q(H)", ylabel="hexes", title=title)
     axes.grid(alpha=0.3)
     axes.legend(loc="upper left", frameon=False)
@@ -117,6 +120,7 @@ def write_histogram_figure(
     ticks: Sequence[tuple[float, str]],
     extent: tuple[float, float],
     log: bool = False,
+    width: float = WIDTH,
 ) -> None:
     """Write one figure of distributions, as SVG, PDF or PNG by the path's suffix.
 
@@ -132,6 +136,8 @@ def write_histogram_figure(
         Of the figure, in the same places.
     log : bool
         Heights by powers of ten.
+    width : float
+        Of the figure, in inches.
 
     Raises
     ------
@@ -139,7 +145,7 @@ def write_histogram_figure(
         For another suffix, and where matplotlib is missing or the file cannot be written.
     """
     check_figure(path)
-    figure, axes = _figure()
+    figure, axes = _figure(width)
     top = max((height for outline in outlines for height in outline.heights), default=0) or 1.0
     for outline in outlines:
         edges = [bin / len(outline.heights) for bin in range(len(outline.heights) + 1)]
@@ -191,7 +197,7 @@ def check_figure(path: Path) -> None:
     suffix_for(path, "a figure", FIGURE_SUFFIXES)
 
 
-def new_figure(width: float = 7.5, height: float = 4.5) -> Figure:
+def new_figure(width: float, height: float) -> Figure:
     """An empty figure of so many inches.
 
     Raises
@@ -199,17 +205,22 @@ def new_figure(width: float = 7.5, height: float = 4.5) -> Figure:
     HexmendError
         Where matplotlib is missing.
     """
-    try:
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise HexmendError(
-            "figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'"
-        ) from None
+    check_matplotlib()
+    from matplotlib.figure import Figure
+
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def _figure() -> tuple[Figure, Axes]:
-    figure = new_figure()
+def check_matplotlib() -> None:
+    """Raise `HexmendError` where matplotlib is missing."""
+    from importlib.util import find_spec
+
+    if find_spec("matplotlib") is None:
+        raise HexmendError("figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'")
+
+
+def _figure(width: float = WIDTH) -> tuple[Figure, Axes]:
+    figure = new_figure(width, _HEIGHT * width)
     return figure, figure.subplots()
 
 

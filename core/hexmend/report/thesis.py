@@ -59,7 +59,7 @@ def write_study(folder: Path, study: Mapping[str, Any]) -> list[Path]:
     """
     problem = None
     try:
-        figures, paths = _write_figures(folder, study)
+        figures, paths = write_plots(folder, study)
     except HexmendError as error:
         problem, figures, paths = error, [], []
     write_json(folder / "study.json", study)
@@ -147,8 +147,22 @@ def _number(figure: Mapping[str, str]) -> list[int]:
     return [int(part) for part in figure["number"].split(".")]
 
 
-def _write_figures(folder: Path, study: Mapping[str, Any]) -> tuple[list[dict[str, str]], list[Path]]:
-    """What plots show, and the files."""
+def write_plots(folder: Path, study: Mapping[str, Any]) -> tuple[list[dict[str, str]], list[Path]]:
+    """Draw figures 4.4 and 4.9, as far as their tables were measured.
+
+    Parameters
+    ----------
+    folder : Path
+    study : mapping
+        `hexmend.study.thesis.Study.record`.
+
+    Returns
+    -------
+    figures : list of dict
+        Number, caption and file of each.
+    paths : list of Path
+        All files, of which each figure has one to be shown.
+    """
     figures, paths = [], []
     ours: dict[str, list[tuple[int, float]]] = {}
     theirs: dict[str, list[tuple[int, float]]] = {}

@@ -1,0 +1,136 @@
+"""The figure set, drawn figure by figure while the window goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QTimer
+
+from hexmend.errors import HexmendError
+from hexmend_app.feature import Action, Feature, Host
+from hexmend_app.state.scene import Page
+from hexmend_app.widgets.questions import ask_figures
+
+if TYPE_CHECKING:
+    from hexmend_app.report.figure_set import Figure
+
+#: Kinds of file that every figure is written as.
+_FORMATS = ("png", "pdf", "svg")
+
+
+class FeatureFigures(Feature):
+    """Writes pictures before and after as they are looked at, plots and the table into a folder."""
+
+    order = 13
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._folder = Path()
+        self._done: list[Figure] = []
+        self._coming: Iterator[Figure] | None = None
+        self._again: list[str] = []
+        self._next = QTimer(self, interval=0)
+        self._next.timeout.connect(self._draw_one)
+        self.session.document.mesh_replaced.connect(self.cancel)
+
+    def actions(self) -> Sequence[Action]:
+        """Export the figure set."""
+        return (
+            Action(
+                id="figure_set",
+                text="E&xport the figure set…",
+                menu="File",
+                part=1,
+                icon="image-multiple-outline",
+                help="Save before and after, distributions, convergence and the table, with captions and commands.",
+                handle=self.ask,
+                enabled=lambda: self.canvas is not None and not self.session.smoothing.busy and not self.going_on,
+            ),
+        )
+
+    def close(self) -> None:
+        """Give up what is being written."""
+        self.cancel()
+
+    @property
+    def going_on(self) -> bool:
+        """Whether figures are being drawn."""
+        return self._coming is not None
+
+    def ask(self) -> None:
+        """Ask where the folder goes, and write into it."""
+        folder = ask_figures(self.host.window, self.host.stem)
+        if folder:
+            self.write(Path(folder))
+
+    def write(self, folder: Path) -> None:
+        """Write the figure set into a folder, which is made; its captions come last."""
+        self.cancel()
+        try:
+            self._begin(folder)
+        except HexmendError as error:
+            self.host.messages.show_error("The figures were not made", str(error))
+            return
+        self._next.start()
+        self._say()
+
+    def cancel(self) -> None:
+        """Give up what is being drawn; figures that are written stay."""
+        if self.going_on:
+            self._next.stop()
+            self._coming.close()
+            self._coming = None
+            self.host.busy.done("figures")
+
+    def _begin(self, folder: Path) -> None:
+        from hexmend.io.recipes import write_recipe
+        from hexmend.report import made_folder
+        from hexmend.report.plots import check_matplotlib
+        from hexmend_app.features.figures.session_case import case_of, method_words, recipe_of
+        from hexmend_app.report.figure_set import Style, stationary, write_figures
+        from hexmend_app.state.scene import write_scene
+
+        check_matplotlib()
+        made_folder(folder)
+        scene = stationary(self.canvas.scene(Page(pixels=(self.canvas.width(), self.canvas.height()))))
+        write_scene(folder / "scene.toml", scene)
+        recipe = recipe_of(self.session)
+        if recipe is not None:
+            write_recipe(folder / "recipe.toml", recipe)
+        path = self.session.document.path
+        methods = method_words(self.session, str(folder / "recipe.toml") if recipe is not None else "")
+        self._again = ["figures", str(path) if path is not None else "MESH", *methods]
+        self._again += ["--scene", str(folder / "scene.toml"), "--format", ",".join(_FORMATS), "-o", str(folder)]
+        case = case_of(self.session)
+        self._folder, self._done = folder, []
+        self._coming = write_figures(case, folder, Style(scene, formats=_FORMATS))
+
+    def _draw_one(self) -> None:
+        try:
+            figure = next(self._coming, None)
+        except Exception as error:  # whatever it is, it has to be said
+            self.cancel()
+            self.host.messages.show_error("The figures were not made", f"One of them could not be drawn: {error}")
+            return
+        if figure is not None:
+            self._done.append(figure)
+            self._say()
+            return
+        self.cancel()
+        self.host.said("The captions were not written", self._write_captions, f"Figure set saved to {self._folder}")
+
+    def _write_captions(self) -> None:
+        from hexmend_app.report.captions import write_captions
+        from hexmend_app.report.case import command_line
+
+        figures = [(one, command_line([*self._again, "--only", one.part])) for one in self._done]
+        write_captions(self._folder, self.session.document.name, figures)
+
+    def _say(self) -> None:
+        from hexmend_app.report.figure_set import PARTS
+
+        at = min(len(self._done), len(PARTS) - 1)
+        what = f"Drawing figure {at + 1} of {len(PARTS)}: {list(PARTS)[at]}…"
+        self.host.busy.show_work("figures", what, "Cancel", "Give the rest up; what is written stays.", self.cancel)

@@ -1,0 +1,41 @@
+"""What stands beside a figure set: its captions, and the commands that repeat it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from hexmend.figures import printable
+from hexmend.report import write_text
+from hexmend.report.markdown import escaped
+from hexmend_app.report.figure_set import Figure
+
+#: Suffixes of what can be shown in Markdown, and what stands for a file that cannot.
+_SEEN = (".png", ".svg")
+
+
+def write_captions(folder: Path, title: str, figures: Sequence[tuple[Figure, str]]) -> list[Path]:
+    """Write captions.md and commands.sh.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the figures are.
+    title : str
+    figures : sequence of (Figure, command)
+    """
+    texts, lines = [f"# {escaped(title)}"], ["#!/bin/sh", "# Run from where the first command was given."]
+    done: set[str] = set()
+    for figure, command in figures:
+        names = ", ".join(f"[{path.name}]({path.name})" for path in figure.paths)
+        shown = [f"![{escaped(figure.part)}]({path.name})\n" for path in figure.paths if path.suffix in _SEEN][:1]
+        texts += ["\n".join([f"## {figure.part}\n", *shown, f"{escaped(figure.caption)} ({names})"])]
+        lines.append(f"\n# {printable(figure.part)}: {printable(figure.caption)}")
+        if command not in done:
+            lines.append(command)
+        done.add(command)
+    captions, script = folder / "captions.md", folder / "commands.sh"
+    write_text(captions, "\n\n".join(texts) + "\n")
+    write_text(script, "\n".join(lines) + "\n")
+    script.chmod(script.stat().st_mode | 0o111)
+    return [captions, script]

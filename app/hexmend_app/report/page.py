@@ -1,0 +1,217 @@
+"""The report as one page that needs nothing besides itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from html import escape
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from hexmend import __version__
+from hexmend.figures import count, quality, significant
+from hexmend.io.atomic import replacing
+from hexmend.report.tables import Table
+from hexmend.study.bench import machine
+from hexmend.study.row import Row
+from hexmend_app.report import hypertext as html
+from hexmend_app.report.case import Case, Version, command_line
+from hexmend_app.report.figure_set import Style, table_of, write_figures
+from hexmend_app.report.viewer import Shown, script, viewer
+from hexmend_app.report.worst import Locked, worst_table
+from hexmend_app.resources import resource
+
+#: What a browser lets the page do: nothing beyond itself.
+_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
+
+#: The suffix of each part of the figure set in the page.
+_PICTURES = {"surface": ".png", "cut": ".png", "distributions": ".svg", "convergence": ".svg"}
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """What the page tells of one mesh.
+
+    Parameters
+    ----------
+    name : str
+    row : sequence of str
+        Of the table of contents.
+    body : str
+        HTML.
+    """
+
+    name: str
+    row: Sequence[str]
+    body: str
+
+
+def chapter(case: Case, style: Style, again: Sequence[Sequence[str]], *, alive: bool) -> Chapter:
+    """Tell of a mesh.
+
+    Parameters
+    ----------
+    case : Case
+    style : Style
+        Of its figures.
+    again : sequence of sequence of str
+        The words of commands that repeat it.
+    alive : bool
+        Whether the mesh can be turned in the page, which takes a browser.
+    """
+    held = [Locked.of(one.mesh, one.figures) for one in case.versions]
+    body = [_preface(case), *_figures(case, style, alive)]
+    body += [html.heading(3, "Figures of quality"), html.table(table_of(case)), *map(_failed, case.failed)]
+    body += [html.heading(3, "The worst hexes"), *_worst(case, held)]
+    body += [html.heading(3, "What is locked, and what would help"), *_locked(case, held)]
+    body += [html.heading(3, "Runs"), *_runs(case)]
+    body += [html.heading(3, "Where this comes from"), _origin(case)]
+    body += [html.heading(3, "Commands that repeat it"), html.commands(map(command_line, again))]
+    first, last = case.initial.summary, case.versions[-1].summary
+    row = [case.name, count(first.hexes), _change(first.inverted, last.inverted, count)]
+    row += [_change(one, other, quality) for one, other in (
+        (first.q_min, last.q_min), (first.q_mean, last.q_mean), (first.scaled_jacobian_min, last.scaled_jacobian_min)
+    )]  # fmt: skip
+    return Chapter(case.name, row, "\n".join(filter(None, body)))
+
+
+def page(title: str, chapters: Sequence[Chapter], command: str, *, alive: bool) -> str:
+    """The page of some chapters.
+
+    Parameters
+    ----------
+    title : str
+    chapters : sequence of Chapter
+    command : str
+        What makes it again.
+    alive : bool
+        Whether it has a program, which takes a browser.
+    """
+    style = resource("report/page.css").read_text(encoding="utf-8")
+    made = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
+    head = ["mesh", "hexes", "inverted", "q min", "q mean", "scaled Jacobian min"]
+    contents = Table("", head, [one.row for one in chapters])
+    parts = [
+        "<!DOCTYPE html>",
+        '<html lang="en"><head><meta charset="utf-8">',
+        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        f"<title>{escape(title)}</title><style>{style}</style></head><body>",
+        f"<header>{html.heading(1, title)}",
+        f'<p class="soft">Made by Hexmend {escape(__version__)} on {made}.</p></header><main>',
+        html.table(contents),
+    ]
+    for number, one in enumerate(chapters, 1):
+        kind = {"class_": "first"} if number == 1 else {}
+        parts += [f"<section>{html.heading(2, one.name, id=f'mesh-{number}', **kind)}", one.body, "</section>"]
+    parts += [f"</main><footer><p>{escape('This page was made by:')}</p>{html.commands([command])}</footer>"]
+    parts += [f"<script>{script()}</script>"] if alive else []
+    return "\n".join([*parts, "</body></html>"])
+
+
+def write_page(path: Path, text: str) -> None:
+    """Write a page as a whole or not at all."""
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def _preface(case: Case) -> str:
+    first = case.initial.summary
+    said = [f"{count(first.hexes)} hexes, {count(first.nodes)} nodes, of which {count(first.free_nodes)} are free."]
+    said.append(f"{_inverted(first.inverted)} as the mesh was given; the least q is {quality(first.q_min)}.")
+    for one in case.versions[1:]:
+        said.append(f"{one.name}: {_inverted(one.summary.inverted).lower()}, least q {quality(one.summary.q_min)}.")
+    if case.interrupted:
+        said.append("The runs were interrupted: what is told is what was reached until then.")
+    return html.paragraph(" ".join(said))
+
+
+def _inverted(number: int) -> str:
+    return f"{count(number)} {'is' if number == 1 else 'are'} inverted" if number else "None is inverted"
+
+
+def _figures(case: Case, style: Style, alive: bool) -> list[str]:
+    """The mesh, and the pictures."""
+    pictures = {}
+    with TemporaryDirectory(prefix="hexmend-report-") as folder:
+        for part, suffix in _PICTURES.items():
+            how = Style(style.scene, style.width, (suffix[1:],))
+            for figure in write_figures(case, Path(folder), how, [part]):
+                pictures[part] = html.picture(figure.paths[0], figure.caption)
+    mesh = case.initial.mesh
+    states = [Shown(one.name, one.mesh.points) for one in case.versions]
+    whole = viewer(mesh, states, pictures["surface"]) if alive else pictures["surface"]
+    plots = [pictures[part] for part in ("distributions", "convergence") if part in pictures]
+    return [html.heading(3, "The mesh"), whole, pictures["cut"], f'<div class="pair">{"".join(plots)}</div>']
+
+
+def _failed(row: Row) -> str:
+    return html.paragraph(f"{row.method}: {row.message}")
+
+
+def _worst(case: Case, held: Sequence[Locked]) -> list[str]:
+    return [
+        html.table(worst_table(one.name, one.mesh, one.figures, own), words=1)
+        for one, own in zip(case.versions, held, strict=True)
+    ]
+
+
+def _locked(case: Case, held: Sequence[Locked]) -> list[str]:
+    """What is locked before; what the runs left, and what is known to help."""
+    words = held[0].words() or "Nothing is locked: no inverted hex is held in inversion by fixed nodes alone."
+    parts = [html.paragraph(words)]
+    for one in case.versions[1:]:
+        if one.advice is not None:
+            said = " ".join(filter(None, [one.advice.left, one.advice.surface]))
+            parts.append(html.paragraph(f"{one.name}: {said}"))
+            parts.append(html.listed(f"{tip.title}: {tip.text}" for tip in one.advice.suggestions))
+    return parts
+
+
+def _runs(case: Case) -> list[str]:
+    """Parameters, outcome and times of each method."""
+    rows = [_run(one) for one in case.versions[1:] if one.row is not None]
+    if not rows:
+        return [html.paragraph("No method was run.")]
+    head = ["method", "preparation, s", "run, s", "iterations", "outcome", "parameters"]
+    limits = ", ".join(f"{name} {_value(value)}" for name, value in case.stop.values().items())
+    return [html.table(Table("", head, rows, [f"Limits of each run: {limits}."]), words=2)]
+
+
+def _run(one: Version) -> list[str]:
+    row = one.row
+    values = dict(row.parameters)
+    if row.stages:
+        said = "; ".join(f"{stage.method}: {_values(stage.parameters)}" for stage in row.stages)
+    else:
+        said = _values(values)
+    name = one.name if one.name == row.method else f"{one.name} ({row.method})"
+    return [name, significant(row.setup_seconds), significant(row.seconds), count(row.iterations), row.message, said]
+
+
+def _values(values: Mapping[str, object]) -> str:
+    return ", ".join(f"{name} {_value(value)}" for name, value in values.items()) or "none"
+
+
+def _value(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _origin(case: Case) -> str:
+    pairs = {}
+    if case.source is not None:
+        pairs |= {
+            "file": case.source.path,
+            "size": f"{count(case.source.size)} bytes, read in {significant(case.source.seconds, 3)} s",
+            "SHA-256": case.source.sha256,
+        }
+    if case.initial.mesh.notes:
+        pairs["on reading"] = " ".join(case.initial.mesh.notes)
+    pairs["Hexmend"] = __version__
+    return html.facts(pairs | {name: str(value) for name, value in machine().items()})
+
+
+def _change(first: float, last: float, text: Callable[[Any], str]) -> str:
+    return text(first) if first == last else f"{text(first)} → {text(last)}"

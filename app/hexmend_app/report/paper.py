@@ -1,0 +1,42 @@
+"""The report as PDF: the page, without its program, set on A4 by WeasyPrint."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hexmend.errors import HexmendError
+from hexmend.io.atomic import replacing
+
+
+def write_paper(path: Path, text: str) -> None:
+    """Write a page as PDF, as a whole or not at all.
+
+    Raises
+    ------
+    HexmendError
+        Where WeasyPrint, or Pango that it sets letters with, is missing.
+    FileError
+        Where the file cannot be written.
+    """
+    check_paper()
+    from weasyprint import HTML
+    from weasyprint.urls import URLFetcher
+
+    fetcher = URLFetcher(allowed_protocols=["data"])  # the page names nothing outside itself
+    with replacing(path) as temporary:
+        HTML(string=text, url_fetcher=fetcher).write_pdf(temporary)
+
+
+def check_paper() -> None:
+    """Raise `HexmendError` where no PDF can be written."""
+    try:
+        import weasyprint as _  # noqa: F401
+    except ImportError:
+        raise HexmendError(
+            "a report as PDF needs WeasyPrint: run  pip install 'hexmend[app]'  or write .html, which a browser prints"
+        ) from None
+    except OSError as error:
+        raise HexmendError(
+            f"a report as PDF needs Pango: run  apt-get install libpangoft2-1.0-0  or write .html, which a browser "
+            f"prints ({str(error).splitlines()[0]})"
+        ) from None

@@ -1,0 +1,179 @@
+"""The mesh as the page of a report holds it: what `resources/report/*.js` turn, cut and colour without a network."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hexmend.mesh import Mesh
+from hexmend.quality import METRICS, ElementQuality, Metric, measure
+from hexmend_app.resources import resource
+from hexmend_app.scene.colours import INVERTED, MAPS, table
+
+#: Hexes beyond which a page grows too large for a browser.
+MOST_HEXES = 250_000
+
+#: In how many steps the values are kept that a click tells exactly, and those of other metrics; the number after them
+#: stands for none.
+_EXACT, _STEPS = {"q": 65534, "scaled-jacobian": 65534}, 4000
+
+#: Places are kept to this share of the mesh's size, which no screen shows.
+_FINEST = 2.0**-21
+
+#: Shares of the values at the ends of the colours, of a metric whose range has no end: far outliers do not count.
+_ENDS = (0.005, 0.995)
+
+#: What the page is made alive with, in this order.
+_SCRIPTS = ("mesh.js", "camera.js", "painter.js", "viewer.js")
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """A state of a mesh.
+
+    Parameters
+    ----------
+    name : str
+    points : (n, 3) float64
+    """
+
+    name: str
+    points: np.ndarray
+
+
+def script() -> str:
+    """The program of the page."""
+    return "\n".join(resource(f"report/{name}").read_text(encoding="utf-8") for name in _SCRIPTS)
+
+
+def viewer(mesh: Mesh, states: Sequence[Shown], picture: str) -> str:
+    """A section of a page in which a mesh can be turned, as HTML.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    states : sequence of Shown
+        As it was given first, then as methods left it.
+    picture : str
+        HTML that stands in its place where it cannot be drawn, and on paper.
+    """
+    if mesh.n_hexes > MOST_HEXES:
+        said = f"The mesh cannot be turned here: a page holds {MOST_HEXES:,} hexes, and it has {mesh.n_hexes:,}."
+        said += " Open it in the viewer: hexmend MESH"
+        return f'<div class="viewer">{picture}<p class="cannot screen">{said}</p></div>'
+    head, blob = packed(mesh, states)
+    colour = "#{:02x}{:02x}{:02x}".format(*INVERTED)
+    parts = [
+        f'<div class="viewer" style="--inverted: {colour}">',
+        picture,
+        '<p class="cannot screen" hidden></p>',
+        '<noscript><p class="cannot">The mesh cannot be turned without JavaScript.</p></noscript>',
+        resource("report/viewer.html").read_text(encoding="utf-8"),
+        f'<script type="application/json" data-of="head">{in_script(head)}</script>',
+        f'<script type="text/plain" data-of="bytes">{blob}</script>',
+        "</div>",
+    ]
+    return "\n".join(parts)
+
+
+def in_script(data: Any) -> str:
+    """JSON that ends no script, whatever texts it holds."""
+    return json.dumps(data, allow_nan=False).replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def packed(mesh: Mesh, states: Sequence[Shown]) -> tuple[dict[str, Any], str]:
+    """A mesh for the page.
+
+    Returns
+    -------
+    head : dict
+        What the arrays are, and where each begins among the bytes and how many numbers it has.
+    blob : str
+        The bytes: of each array the first bytes of all its numbers, then the second ones..., which gzip makes smaller;
+        then gzip, then base64.
+    """
+    used = mesh.topology.used
+    low, high = (end(axis=0) for end in (mesh.points[used].min, mesh.points[used].max))
+    middle, size = (low + high) / 2, float(np.linalg.norm(high - low)) / 2 or 1.0
+    places = [np.where(used[:, None], (one.points - middle) / size, 0.0) for one in states]
+    figures = [measure(one.points, mesh.hexes) for one in states]
+    arrays = _Arrays()
+    kinds, values = zip(*(_metric(one, mesh, states, figures) for one in METRICS.values()), strict=True)
+    head = {
+        "hexes": arrays.add(np.diff(mesh.hexes, axis=0, prepend=0).astype(np.int32)),
+        "box": {"low": ((low - middle) / size).tolist(), "high": ((high - middle) / size).tolist()},
+        "metrics": kinds,
+        "states": [
+            {
+                "name": one.name,
+                "points": arrays.add((np.rint(places[k] / _FINEST) * _FINEST).astype(np.float32)),
+                "inverted": arrays.add(figures[k].inverted.astype(np.uint8)),
+                "values": [arrays.add(metric[k]) for metric in values],
+            }
+            for k, one in enumerate(states)
+        ],
+        "maps": [{"name": name, "table": arrays.add(table(name))} for name in MAPS],
+        "inverted": INVERTED,
+    }
+    return head, arrays.blob()
+
+
+class _Arrays:
+    """Bytes of arrays, one after another."""
+
+    def __init__(self) -> None:
+        self._pieces: list[bytes] = []
+        self._size = 0
+
+    def add(self, array: np.ndarray) -> tuple[int, int]:
+        """Take an array; where it begins and how many numbers it has."""
+        plain = np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<"), copy=False)
+        start = self._size
+        self._pieces.append(plain.reshape(-1, 1).view(np.uint8).T.tobytes())
+        self._size += plain.nbytes
+        return start, plain.size
+
+    def blob(self) -> str:
+        return base64.b64encode(gzip.compress(b"".join(self._pieces), 9, mtime=0)).decode("ascii")
+
+
+def _metric(
+    metric: Metric, mesh: Mesh, states: Sequence[Shown], figures: Sequence[ElementQuality]
+) -> tuple[dict[str, Any], list[np.ndarray]]:
+    """What the page knows of a metric, and its values of each state, (m,) uint16."""
+    values = [metric.of(one.points, mesh.hexes, own) for one, own in zip(states, figures, strict=True)]
+    low, high = _range(metric, values, figures)
+    most = _EXACT.get(metric.name, _STEPS)
+    with np.errstate(invalid="ignore", over="ignore"):
+        steps = [np.rint(np.clip((one - low) / (high - low), 0, 1) * most) for one in values]
+    kept = [np.where(np.isnan(one), most + 1, one).astype(np.uint16) for one in steps]
+    declared = np.isfinite(metric.full_range).all()
+    kind = {
+        "name": metric.name,
+        "title": metric.title,
+        "unit": metric.unit,
+        "better": metric.better,
+        "steps": most,
+        "from": low,
+        "to": high,
+        "low": max(low, 0.0) if declared else low,  # what is negative is inverted, and has a colour of its own
+        "high": high,
+    }
+    return kind, kept
+
+
+def _range(metric: Metric, values: Sequence[np.ndarray], figures: Sequence[ElementQuality]) -> tuple[float, float]:
+    """The values that are kept: those that a metric can take, or, where that has no end, those of most sound hexes."""
+    if np.isfinite(metric.full_range).all():
+        return tuple(map(float, metric.full_range))
+    every = np.concatenate(values)
+    sound = every[np.isfinite(every) & ~np.concatenate([one.inverted for one in figures])]
+    low, high = np.quantile(sound, _ENDS).tolist() if sound.size else (0.0, 1.0)
+    lacking = max(1e-6 * max(abs(low), abs(high)), 1e-300) - (high - low)
+    return (low, high) if lacking <= 0 else (low - lacking / 2, high + lacking / 2)

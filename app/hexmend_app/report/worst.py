@@ -1,0 +1,93 @@
+"""The worst hexes of a mesh, and what holds those that are locked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.figures import count, quality
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh import Mesh
+from hexmend.quality import ElementQuality, corner_determinants, locked, worst
+from hexmend.report.tables import Table
+from hexmend.surface import freed_by_sliding
+
+#: Hexes that are told of one by one.
+MOST = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Locked:
+    """Which hexes fixed nodes alone hold in inversion.
+
+    Parameters
+    ----------
+    locked : (m,) bool
+    freed : (m,) bool
+        Those of them that nothing holds any more once the boundary slides.
+    """
+
+    locked: np.ndarray
+    freed: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: Mesh, figures: ElementQuality) -> Locked:
+        """Look for them."""
+        held = locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
+        return cls(held, freed_by_sliding(mesh, held))
+
+    def words(self) -> str:
+        """How many there are, as sentences; "" for none."""
+        many, freed = int(self.locked.sum()), int(self.freed.sum())
+        if not many:
+            return ""
+        rest = many - freed
+        which = "hex is" if many == 1 else "hexes are"
+        return (
+            f"{count(many)} inverted {which} locked: at a corner with σ ≤ 0 all four nodes are fixed, so that no "
+            f"method that keeps these nodes can mend them. "
+            f"{count(freed)} can be freed where the boundary slides (--boundary slide), {count(rest)} cannot."
+        )
+
+
+def worst_table(name: str, mesh: Mesh, figures: ElementQuality, held: Locked) -> Table:
+    """The worst hexes by q: number from 0, q, scaled Jacobian, centre in the mesh's unit, and what is to be said of it.
+
+    Inverted hexes come first.
+    """
+    order = worst(np.where(figures.inverted, figures.q - 1, figures.q), figures, min(MOST, mesh.n_hexes))
+    rows = [
+        [
+            count(int(hex)),
+            quality(figures.q[hex]),
+            quality(figures.scaled_jacobian[hex]),
+            ", ".join(_number(part) for part in mesh.points[mesh.hexes[hex]].mean(axis=0)),
+            reason(mesh, figures, held, int(hex)),
+        ]
+        for hex in order
+    ]
+    return Table(f"The worst hexes: {name}", ["hex", "q", "scaled Jacobian", "centre", "state"], rows)
+
+
+def reason(mesh: Mesh, figures: ElementQuality, held: Locked, hex: int) -> str:
+    """What keeps a hex as it is, in words."""
+    if held.locked[hex]:
+        return f"locked: {_corners(mesh, hex)}; {'sliding frees it' if held.freed[hex] else 'sliding does not free it'}"
+    free = int(mesh.free[mesh.hexes[hex]].sum())
+    state = "inverted, not locked" if figures.inverted[hex] else "sound"
+    return f"{state}, {f'{free} of 8 nodes free' if free else 'all 8 nodes fixed'}"
+
+
+def _corners(mesh: Mesh, hex: int) -> str:
+    """The corners that fixed nodes alone hold in inversion, by their nodes."""
+    tetrahedra = mesh.hexes[hex][CORNER_TETRAHEDRA]  # (8, 4)
+    sigma = corner_determinants(mesh.points, mesh.hexes, np.array([hex]))[0]
+    corners = np.flatnonzero(mesh.fixed[tetrahedra].all(axis=1) & ~(sigma > 0))
+    nodes = ", ".join(str(int(mesh.hexes[hex][corner])) for corner in corners)
+    which = "at node" if corners.size == 1 else "at nodes"
+    return f"σ = {sigma[corners].min():.3g} {which} {nodes}, and all nodes there are fixed"
+
+
+def _number(value: float) -> str:
+    return f"{value:.5g}"

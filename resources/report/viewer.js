@@ -1,0 +1,298 @@
+// The viewer on the page: its controls, what they choose, and when it is drawn.
+
+class Viewer {
+  /**
+   * @param {HTMLElement} root With the controls, each named by `data-is`.
+   * @param {HexMesh} mesh
+   */
+  constructor(root, mesh) {
+    this.root = root;
+    this.mesh = mesh;
+    this.is = Object.fromEntries([...root.querySelectorAll("[data-is]")].map((one) => [one.dataset.is, one]));
+    this.painter = new Painter(this.is.canvas);
+    this.camera = new Camera(mesh.states[0].points);
+    this.chosen = -1;
+    this.fill();
+    this.listen();
+    this.reset();
+    new ResizeObserver(() => this.soon()).observe(this.is.canvas);
+    root.classList.add("alive");
+    this.skin = mesh.skin(new Uint8Array(mesh.count).fill(1));
+    this.chooseMetric();
+  }
+
+  /** Put the mesh's states, metrics and maps into the lists. */
+  fill() {
+    const { states, metrics } = this.mesh.head;
+    options(this.is.metric, metrics.map((metric) => metric.title));
+    options(this.is.map, this.mesh.maps.map((map) => map.name));
+    options(this.is.method, states.slice(1).map((state) => state.name));
+    this.is.movement.hidden = states.length < 2;
+    this.is.method.parentElement.hidden = states.length < 3;
+  }
+
+  listen() {
+    const { is } = this;
+    is.metric.addEventListener("change", () => this.chooseMetric());
+    for (const name of ["map", "method"]) is[name].addEventListener("change", () => this.rebuild());
+    is.axis.addEventListener("input", () => {
+      const axis = Number(is.axis.value);
+      is.other.checked = axis >= 0 && this.camera.axes()[2][axis] < 0; // the side of who looks is hidden
+      this.rebuild();
+    });
+    for (const name of ["at", "other", "low", "high", "inverted"]) {
+      is[name].addEventListener("input", () => this.rebuild());
+    }
+    is.between.addEventListener("input", () => this.go());
+    for (const name of ["edges", "ghost"]) is[name].addEventListener("input", () => this.soon());
+    is.reset.addEventListener("click", () => {
+      this.reset();
+      this.chooseMetric();
+    });
+    for (const button of this.root.querySelectorAll("[data-look]")) {
+      button.addEventListener("click", () => {
+        this.camera.look(button.dataset.look);
+        this.soon();
+      });
+    }
+    steer(is.canvas, this.camera, () => this.soon(), (x, y) => this.choose(x, y));
+  }
+
+  /** Everything as it was when the page was opened. */
+  reset() {
+    const { is } = this;
+    this.root.querySelector("form").reset();
+    is.between.value = is.between.max;
+    this.camera.reset();
+    this.chosen = -1;
+  }
+
+  /** The number of the state that is shown: the nearer one. */
+  get state() {
+    return this.states[this.between < 0.5 ? 0 : 1];
+  }
+
+  get states() {
+    const last = this.mesh.states.length - 1;
+    return [0, Math.min(last, this.is.method.selectedIndex + 1)];
+  }
+
+  get between() {
+    return this.mesh.states.length < 2 ? 0 : Number(this.is.between.value);
+  }
+
+  get metric() {
+    return Math.max(0, this.is.metric.selectedIndex);
+  }
+
+  chooseMetric() {
+    const metric = this.mesh.head.metrics[this.metric];
+    for (const [name, value] of [["low", metric.from], ["high", metric.to]]) {
+      Object.assign(this.is[name], { min: metric.from, max: metric.to, step: (metric.to - metric.from) / 1000 });
+      this.is[name].value = value;
+    }
+    this.rebuild();
+  }
+
+  /** Go between before and after; another state's values are others. */
+  go() {
+    if (this.shownState !== this.state) this.rebuild();
+    else this.soon();
+    this.tell();
+  }
+
+  rebuild() {
+    cancelAnimationFrame(this.building);
+    this.building = requestAnimationFrame(() => this.build());
+  }
+
+  /** Find the faces that are seen, and their colours. */
+  build() {
+    const { is, mesh, metric } = this;
+    const kind = mesh.head.metrics[metric];
+    const bounds = ["low", "high"].map((name) => Number(is[name].value));
+    const ends = [bounds[0] > kind.from ? bounds[0] : -Infinity, bounds[1] < kind.to ? bounds[1] : Infinity];
+    const axis = Number(is.axis.value);
+    const cut = axis < 0 ? null : { axis, at: Number(is.at.value), other: is.other.checked };
+    this.shownState = this.state;
+    const some = { state: this.state, metric, low: ends[0], high: ends[1], inverted: is.inverted.checked };
+    const shown = mesh.shown(cut, some);
+    const faces = mesh.skin(shown);
+    const place = (state, hex) => {
+      const share = (mesh.value(state, metric, hex) - kind.low) / (kind.high - kind.low);
+      return kind.better < 0 ? 1 - share : share;
+    };
+    this.painter.take("faces", faces, mesh, this.states, place);
+    this.hidden = shown.includes(0);
+    if (this.hidden) this.painter.take("ghost", this.skin, mesh, this.states, place);
+    const { table } = mesh.maps[is.map.selectedIndex];
+    this.painter.colours(table);
+    this.bar(kind, table);
+    for (const name of ["at", "other"]) is[name].disabled = !cut;
+    const all = shown.reduce((sum, one) => sum + one, 0);
+    is.count.textContent = `${all.toLocaleString("en")} of ${mesh.count.toLocaleString("en")} hexes`;
+    is.bounds.textContent = ends.every((end) => !Number.isFinite(end)) ? "all" : bounds.map(figure).join(" to ");
+    this.tell();
+    this.soon();
+  }
+
+  /** The colour bar. */
+  bar(kind, table) {
+    const turned = kind.better < 0;
+    const stops = Array.from({ length: 33 }, (_, k) => {
+      const at = 3 * Math.round((255 * (turned ? 32 - k : k)) / 32);
+      return `rgb(${table[at]},${table[at + 1]},${table[at + 2]})`;
+    });
+    this.is.gradient.style.background = `linear-gradient(to right, ${stops.join(",")})`;
+    const ticks = Array.from({ length: 5 }, (_, k) => figure(kind.low + ((kind.high - kind.low) * k) / 4));
+    this.is.ticks.replaceChildren(...ticks.map((text) => element("span", text)));
+    this.is.title.textContent = kind.unit ? `${kind.title}, ${kind.unit}` : kind.title;
+  }
+
+  /** Say which state is shown, and what is known of the chosen hex. */
+  tell() {
+    const { mesh, chosen, is } = this;
+    const names = this.states.map((state) => mesh.head.states[state].name);
+    const share = this.between;
+    is.moment.textContent = share <= 0 ? names[0] : share >= 1 ? names[1] : `${Math.round(100 * share)} % of the way`;
+    if (chosen < 0) {
+      is.told.textContent = "Click a hex: its number and values are told here.";
+      return;
+    }
+    const [first, second] = [...new Set(this.states)].map((state) => {
+      const own = mesh.head.metrics.map(({ title }, metric) => [title, mesh.value(state, metric, chosen)]);
+      const wanted = own.filter((_, metric) => metric < 2 || metric === this.metric);
+      const said = wanted.map(([title, value]) => `${title} ${figure(value)}`).join(", ");
+      return `${said}${mesh.states[state].inverted[chosen] ? ", inverted" : ""}`;
+    });
+    const after = second ? `; ${names[1]}: ${second}` : "";
+    is.told.textContent = `Hex ${chosen.toLocaleString("en")} – ${names[0]}: ${first}${after}.`;
+  }
+
+  /** Choose the hex at a place of the canvas, in its own pixels. */
+  choose(x, y) {
+    const { canvas } = this.is;
+    const share = canvas.width / canvas.clientWidth;
+    const below = canvas.height - 1 - Math.floor(y * share);
+    this.chosen = this.painter.pick(this.camera.matrices(), this.how, Math.floor(x * share), below);
+    this.tell();
+    this.soon();
+  }
+
+  get how() {
+    const { is } = this;
+    const apart = this.mesh.head.inverted.map((part) => part / 255);
+    const ghost = this.hidden && is.ghost.checked;
+    return { between: this.between, edges: is.edges.checked, apart, chosen: this.chosen, ghost };
+  }
+
+  /** Draw before the next frame, once. */
+  soon() {
+    this.due ??= requestAnimationFrame(() => {
+      this.due = undefined;
+      this.draw();
+    });
+  }
+
+  draw() {
+    const { canvas } = this.is;
+    const share = Math.min(2, window.devicePixelRatio || 1);
+    const size = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.max(1, Math.round(side * share)));
+    if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
+    if (this.camera.aspect !== size[0] / size[1]) this.camera.fit(size[0] / size[1]);
+    this.painter.draw(this.camera.matrices(), this.how);
+  }
+}
+
+/** Let mouse, fingers and keys steer a camera; a click or tap chooses what is there. */
+function steer(canvas, camera, moved, chosen) {
+  const pointers = new Map();
+  let went = 0;
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
+    if (pointers.size === 1) went = 0;
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const before = pointers.get(event.pointerId);
+    if (!before) return;
+    const now = [event.offsetX, event.offsetY];
+    const [right, down] = now.map((place, k) => place - before[k]);
+    const others = [...pointers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
+    went += Math.hypot(right, down);
+    if (others.length) {
+      const [apart, wasApart] = [now, before].map(([x, y]) => Math.hypot(x - others[0][0], y - others[0][1]));
+      camera.closer(apart / Math.max(1, wasApart));
+      camera.shift(right / 2 / canvas.clientHeight, -down / 2 / canvas.clientHeight);
+    } else if (event.buttons > 1 || event.shiftKey) {
+      camera.shift(right / canvas.clientHeight, -down / canvas.clientHeight);
+    } else {
+      camera.turn(-right * 0.008, down * 0.008);
+    }
+    pointers.set(event.pointerId, now);
+    moved();
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    if (pointers.size === 1 && went < 4 && event.button === 0) chosen(event.offsetX, event.offsetY);
+  });
+  for (const name of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
+  }
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("wheel", (event) => {
+    if (document.activeElement !== canvas && !event.ctrlKey) return; // the page scrolls
+    event.preventDefault();
+    camera.closer(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)));
+    moved();
+  }, { passive: false });
+  const keys = {
+    ArrowLeft: () => camera.turn(0.1, 0),
+    ArrowRight: () => camera.turn(-0.1, 0),
+    ArrowUp: () => camera.turn(0, -0.1),
+    ArrowDown: () => camera.turn(0, 0.1),
+    "+": () => camera.closer(1.15),
+    "-": () => camera.closer(1 / 1.15),
+    0: () => camera.reset(),
+  };
+  canvas.addEventListener("keydown", (event) => {
+    if (!keys[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    keys[event.key]();
+    moved();
+  });
+}
+
+/** A number in four figures. */
+function figure(value) {
+  return Number.isNaN(value) ? "none" : Number(value.toPrecision(4)).toString();
+}
+
+function element(name, text) {
+  const answer = document.createElement(name);
+  answer.textContent = text;
+  return answer;
+}
+
+function options(list, texts) {
+  list.replaceChildren(...texts.map((text) => element("option", text)));
+}
+
+/** Bring a viewer to life as it comes into sight; where that cannot be, its picture stays, and it is said why. */
+async function start(root) {
+  const [head, blob] = ["head", "bytes"].map((name) => root.querySelector(`script[data-of="${name}"]`).textContent);
+  try {
+    new Viewer(root, new HexMesh(JSON.parse(head), await unpacked(blob)));
+  } catch (error) {
+    const said = root.querySelector(".cannot");
+    said.textContent = `The mesh cannot be turned here: ${error.message}. The picture shows it as it is.`;
+    said.hidden = false;
+  }
+}
+
+const seen = new IntersectionObserver((entries) => {
+  for (const entry of entries.filter((one) => one.isIntersecting)) {
+    seen.unobserve(entry.target);
+    start(entry.target);
+  }
+}, { rootMargin: "300px" });
+for (const root of document.querySelectorAll(".viewer")) seen.observe(root);

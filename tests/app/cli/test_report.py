@@ -1,0 +1,114 @@
+"""`hexmend report` and `hexmend figures`, in a process that has a display or has none."""
+
+import hashlib
+import json
+import shlex
+import tomllib
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from hexmend.cli import main as program
+from hexmend.run import memory
+from hexmend_app.cli import figure_set, report
+
+ROOT = Path(__file__).resolve().parents[3]
+METHODS = ["--methods", "laplacian,mend", "--max-iterations", "8"]
+
+
+@pytest.fixture
+def hexmend(monkeypatch):
+    """Runs the command line; gives its exit status."""
+    own = {"report": lambda: report.command, "figures": lambda: figure_set.command}
+    monkeypatch.setattr(program, "commands", lambda: own)
+    return lambda *words: program.main([*map(str, words)])
+
+
+def test_the_project_joins_with_them():
+    points = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["entry-points"]
+    for name, command in (("report", report.command), ("figures", figure_set.command)):
+        assert EntryPoint(name, points["hexmend.commands"][name], "hexmend.commands").load() is command
+
+
+def test_a_report_names_its_mesh_its_methods_and_how_to_repeat_it(hexmend, mesh_file, tmp_path):
+    path = tmp_path / "report.html"
+    assert hexmend("report", mesh_file, *METHODS, "--title", "a < b", "-o", path) == 0
+    text = path.read_text(encoding="utf-8")
+    assert hashlib.sha256(mesh_file.read_bytes()).hexdigest() in text
+    assert "<h1>a &lt; b</h1>" in text
+    for said in ("laplacian", "mend", "The worst hexes", "What is locked", "max_iterations 8", "SHA-256"):
+        assert said in text
+    assert f"hexmend figures {mesh_file} {' '.join(METHODS)} -o bridge-figures" in text
+    assert "http" not in text.replace("http-equiv", "")  # nothing is asked of a network
+
+
+def test_a_report_on_paper_has_its_pictures(hexmend, mesh_file, tmp_path):
+    pytest.importorskip("weasyprint")
+    path = tmp_path / "report.pdf"
+    assert hexmend("report", mesh_file, mesh_file, "--methods", "none", "-o", path) == 0
+    assert path.read_bytes().startswith(b"%PDF-")
+    assert path.read_bytes().count(b"/Subtype /Image") >= 2
+
+
+def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_path):
+    folder = tmp_path / "set"
+    names = ["--names", "Given,Smoothed,Mended", "--width-mm", "120", "--format", "png,svg", "--view", "-x"]
+    assert hexmend("figures", mesh_file, *METHODS, *names, "-o", folder) == 0
+    kinds = {"surface": "png svg", "cut": "png svg", "distributions": "png svg", "convergence": "png svg"}
+    expected = {f"{part}.{kind}" for part, several in kinds.items() for kind in several.split()}
+    expected |= {f"table.{kind}" for kind in ("csv", "md", "tex", "json")} | {"captions.md", "commands.sh"}
+    assert {path.name for path in folder.iterdir()} == expected
+    with Image.open(folder / "surface.png") as picture:
+        assert picture.width == round(120 / 25.4 * 300)
+    assert "Given, Smoothed and Mended" in (folder / "captions.md").read_text()
+    assert [row["name"] for row in json.loads((folder / "table.json").read_text())["rows"]] == ["Smoothed", "Mended"]
+    lines = (folder / "commands.sh").read_text().splitlines()
+    again = [shlex.split(line)[1:] for line in lines if line.startswith("hexmend")]
+    assert [words[-1] for words in again] == ["surface", "cut", "distributions", "convergence", "table"]
+    before = (folder / "distributions.svg").read_bytes(), (folder / "surface.png").read_bytes()
+    for words in (again[0], again[2]):
+        assert hexmend(*words) == 0
+    assert ((folder / "distributions.svg").read_bytes(), (folder / "surface.png").read_bytes()) == before
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["report", "-o", "a.docx"], "a.docx"),
+        (["report", "-o", "a.html", "--methods", "lapalcian"], "lapalcian"),
+        (["report", "-o", "a.html", "--names", "one"], "--names 'one' cannot be used: expected 2 different names"),
+        (["figures", "-o", "set", "--format", "gif"], "--format 'gif' cannot be used"),
+        (["figures", "-o", "set", "--width-mm", "1"], "a width from 40 to 1000 mm"),
+        (["figures", "-o", "set", "--only", "table,cut"], "--only 'table,cut' cannot be used: expected one of surface"),
+        (["figures", "-o", "set", "--thesis"], "expected a mesh of the gallery: plane"),
+        (["figures", "-o", "set", "--quick"], "--quick"),
+    ],
+)
+def test_what_cannot_be_used_is_said_before_the_work(hexmend, mesh_file, tmp_path, monkeypatch, capsys, words, said):
+    monkeypatch.chdir(tmp_path)
+    command, *others = words
+    assert hexmend(command, mesh_file, *others) in (2, 3)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("words", [["report", "-o", "a.html"], ["figures", "-o", "set"]])
+def test_runs_for_which_memory_will_not_suffice_are_refused(hexmend, mesh_file, tmp_path, monkeypatch, capsys, words):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(memory, "available", lambda: 1000)
+    command, *others = words
+    assert hexmend(command, mesh_file, *others) == 3
+    assert "--force" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_real_mesh_fits_into_a_page(hexmend, real_mesh, tmp_path):
+    path = tmp_path / "report.html"
+    assert (
+        hexmend("report", real_mesh("pierrot_32735.mesh"), "--methods", "mend", "--max-iterations", "2", "-o", path)
+        == 0
+    )
+    assert path.stat().st_size < 10e6

@@ -1,0 +1,99 @@
+"""A report on a small tangled mesh, and Debian's browser to open it in."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from hexmend import gallery
+from hexmend.optimise import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.report.case import Case, run_methods
+
+#: WebGL without a graphics card.
+SOFTWARE = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+
+#: A promise that is kept when some frames have been drawn.
+_FRAMES = (
+    "() => new Promise((done) => { let n = 4; const next = () => n-- ? requestAnimationFrame(next) : done(); next(); })"
+)
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+@pytest.fixture(scope="session")
+def case() -> Case:
+    """A mesh with inverted hexes, and what two methods made of it."""
+    mesh = gallery.make("bridge-sharp", size=864, scramble=0.4, seed=1)
+    return run_methods(mesh, None, [METHODS["laplacian"](), METHODS["mend"]()], Stop(max_iterations=20))
+
+
+class Opened:
+    """A page in the browser, with what it complained of and asked for."""
+
+    def __init__(self, page):
+        self.page = page
+        self.complaints: list[str] = []
+        self.asked: list[str] = []
+        page.on("console", lambda message: self.complaints.append(message.text))
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("request", lambda request: self.asked.append(request.url))
+
+    def open(self, path: Path, alive: bool = True) -> None:
+        """Open a file, and wait until its mesh is drawn."""
+        self.page.goto(path.as_uri())
+        self.page.wait_for_selector(".viewer.alive" if alive else ".viewer .cannot:not([hidden])", state="attached")
+        self.drawn()
+
+    def drawn(self) -> None:
+        """Wait until what was asked for is on the screen: faces are found in one frame and drawn in the next."""
+        self.page.evaluate(_FRAMES)
+
+    def canvas(self) -> bytes:
+        """The picture of the mesh: red, green and blue of each pixel."""
+        self.drawn()
+        with Image.open(BytesIO(self.page.locator("canvas").first.screenshot())) as picture:
+            return picture.convert("RGB").tobytes()
+
+    def control(self, name: str):
+        """A control of the first mesh."""
+        return self.page.locator(f"[data-is={name}]").first
+
+    def text(self, name: str) -> str:
+        """What it says."""
+        self.drawn()
+        return self.control(name).inner_text()
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory) -> Iterator[Callable[..., Opened]]:
+    """Makes pages; options are those of a context, and `arguments` of the browser."""
+    if CHROMIUM is None:
+        pytest.skip("there is no chromium")
+    playwright = pytest.importorskip("playwright.sync_api")
+    folder = str(tmp_path_factory.mktemp("browser"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TMPDIR", folder)
+        patch.setenv("HOME", folder)
+        manager = playwright.sync_playwright()
+        started = manager.start()
+
+    @contextmanager
+    def opened(arguments: tuple[str, ...] = SOFTWARE, **options) -> Iterator[Opened]:
+        env = os.environ | {"HOME": folder, "TMPDIR": folder}
+        program = started.chromium.launch(executable_path=CHROMIUM, args=list(arguments), env=env)
+        try:
+            context = program.new_context(viewport={"width": 1000, "height": 640}, **options)
+            yield Opened(context.new_page())
+        finally:
+            program.close()
+
+    yield opened
+    started.stop()

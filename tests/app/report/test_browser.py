@@ -1,0 +1,206 @@
+"""The report in a real browser: the mesh can be turned, cut and coloured, and nothing is asked of any network."""
+
+import io
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from hexmend.quality import measure
+from hexmend_app.report.figure_set import Style
+from hexmend_app.report.page import chapter, page, write_page
+from hexmend_app.state.scene import Page, Scene
+
+STYLE = Style(Scene(page=Page(dpi=72)))
+
+
+@pytest.fixture(scope="module")
+def written(case, tmp_path_factory):
+    from hexmend_app.scene.graphics import prepare_off_screen
+
+    prepare_off_screen()
+    path = tmp_path_factory.mktemp("report") / "report.html"
+    write_page(
+        path, page("Report", [chapter(case, STYLE, [["info", "mesh"]], alive=True)], "hexmend report", alive=True)
+    )
+    return path
+
+
+@pytest.fixture(scope="module")
+def report(browser, written):
+    with browser() as opened:
+        opened.open(written)
+        yield opened
+
+
+@pytest.fixture
+def fresh(report):
+    """The page as it was opened."""
+    report.control("reset").click()
+    report.drawn()
+    return report
+
+
+def colours(picture):
+    """How many there are, in steps that the eye tells apart."""
+    return len(np.unique(pixels(picture) // 16, axis=0))
+
+
+def share(picture, red, green, blue, near=40):
+    """How much of a picture has nearly a colour."""
+    return float((np.abs(pixels(picture).astype(int) - (red, green, blue)).max(axis=1) < near).mean())
+
+
+def pixels(picture):
+    return np.frombuffer(picture, np.uint8).reshape(-1, 3)
+
+
+def test_it_opens_without_complaint_and_asks_nothing_of_a_network(fresh, written):
+    assert colours(fresh.canvas()) > 20
+    assert fresh.complaints == []
+    assert fresh.asked == [written.as_uri()]
+
+
+@pytest.mark.parametrize(("control", "value"), [
+    ("axis", "1"), ("metric", "Scaled Jacobian"), ("map", "inferno"), ("method", "mend"),
+])  # fmt: skip
+def test_a_choice_changes_the_picture(fresh, control, value):
+    before = fresh.canvas()
+    fresh.control(control).select_option(value)
+    assert fresh.canvas() != before
+
+
+@pytest.mark.parametrize(("control", "value"), [("between", "0"), ("between", "0.4"), ("low", "0.8"), ("high", "0.6")])
+def test_a_slider_changes_the_picture(fresh, control, value):
+    fresh.control("method").select_option("mend")
+    before = fresh.canvas()
+    fresh.control(control).fill(value)
+    assert fresh.canvas() != before
+
+
+def test_reset_brings_back_the_first_picture(fresh):
+    first = fresh.canvas()
+    fresh.control("axis").select_option("0")
+    fresh.control("metric").select_option("Skew")
+    fresh.page.get_by_role("button", name="X", exact=True).click()
+    assert fresh.canvas() != first
+    fresh.control("reset").click()
+    fresh.page.mouse.move(0, 0)
+    assert fresh.canvas() == first
+
+
+def test_mouse_and_keys_turn_it(fresh):
+    seen = {fresh.canvas()}
+    box = fresh.control("canvas").bounding_box()
+    middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    for button in ("left", "right"):
+        fresh.page.mouse.move(*middle)
+        fresh.page.mouse.down(button=button)
+        fresh.page.mouse.move(middle[0] + 60, middle[1] + 20, steps=3)
+        fresh.page.mouse.up(button=button)
+        seen.add(fresh.canvas())
+    fresh.control("canvas").focus()
+    for key in ("ArrowLeft", "ArrowUp", "+"):
+        fresh.page.keyboard.press(key)
+        seen.add(fresh.canvas())
+    fresh.page.mouse.move(*middle)
+    fresh.page.mouse.wheel(0, 200)
+    seen.add(fresh.canvas())
+    assert len(seen) == 7
+
+
+def test_before_more_is_inverted_than_after(fresh):
+    """Magenta is what is inverted: the mesh was tangled, and is mended."""
+    magenta = 231, 25, 138
+    fresh.control("method").select_option("mend")
+    fresh.control("high").fill("0.5")  # what lies inside is seen
+    after = share(fresh.canvas(), *magenta)
+    fresh.control("between").fill("0")
+    assert share(fresh.canvas(), *magenta) > 0.02 > after
+
+
+def test_a_click_tells_the_hex_and_its_values(fresh, case):
+    fresh.control("method").select_option("mend")
+    fresh.control("axis").select_option("1")
+    fresh.drawn()
+    box = fresh.control("canvas").bounding_box()
+    fresh.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    number, before, after = re.search(
+        r"Hex ([\d,]+) – .*?q\(H\) ([\d.]+).*q\(H\) ([\d.]+)", fresh.text("told")
+    ).groups()
+    hex = int(number.replace(",", ""))
+    for version, said in ((case.versions[0], before), (case.versions[-1], after)):
+        assert float(said) == pytest.approx(measure(version.mesh.points, version.mesh.hexes).q[hex], abs=1e-4)
+
+
+def test_it_counts_what_is_shown(fresh, case):
+    first, mended = case.versions[0], case.versions[-1]
+    fresh.control("method").select_option("mend")
+    fresh.control("high").fill("0.7")
+    assert fresh.text("count") == f"{int((mended.figures.q <= 0.7).sum()):,} of {first.mesh.n_hexes:,} hexes"
+    fresh.control("between").fill("0")
+    apart = first.figures.inverted
+    assert fresh.text("count").startswith(f"{int((apart | (first.figures.q <= 0.7)).sum()):,} of")
+    fresh.control("inverted").uncheck()
+    assert fresh.text("count").startswith(f"{int((~apart & (first.figures.q <= 0.7)).sum()):,} of")
+
+
+def test_fingers_turn_and_zoom_it(browser, written):
+    with browser(has_touch=True) as opened:
+        opened.open(written)
+        seen = {opened.canvas()}
+        tell = opened.page.context.new_cdp_session(opened.page)
+        box = opened.control("canvas").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        for fingers in ([[(x, y)], [(x + 60, y)]], [[(x - 30, y), (x + 30, y)], [(x - 90, y), (x + 90, y)]]):
+            for kind, places in zip(("touchStart", "touchMove"), fingers, strict=True):
+                points = [{"x": px, "y": py, "id": k} for k, (px, py) in enumerate(places)]
+                tell.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+            tell.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+            seen.add(opened.canvas())
+        assert len(seen) == 3
+
+
+def test_without_webgl_the_picture_stands_in_its_place(browser, written):
+    with browser(("--disable-3d-apis",)) as opened:
+        opened.open(written, alive=False)
+        assert "cannot be turned here: there is no WebGL 2" in opened.page.locator(".viewer .cannot").inner_text()
+        assert opened.page.locator(".viewer > figure img").is_visible()
+        assert not opened.control("canvas").is_visible()
+
+
+def test_on_paper_there_are_pictures_and_no_controls(fresh):
+    fresh.page.emulate_media(media="print")
+    try:
+        assert fresh.page.locator(".viewer > figure img").is_visible()
+        assert not fresh.control("canvas").is_visible()
+        assert not fresh.control("reset").is_visible()
+        assert fresh.page.pdf(format="A4").count(b"/Type /Page\n") > 1
+    finally:
+        fresh.page.emulate_media(media="screen")
+
+
+def test_it_is_dark_where_that_is_asked_for(fresh):
+    shades = []
+    for scheme in ("light", "dark"):
+        fresh.page.emulate_media(color_scheme=scheme)
+        shades.append(np.median(np.asarray(Image.open(io.BytesIO(fresh.page.screenshot())).convert("L"))))
+    fresh.page.emulate_media(color_scheme="light")
+    assert shades[0] > 200 > 60 > shades[1]
+
+
+def test_names_from_outside_are_text(browser, case, tmp_path):
+    name = "</script><script>document.title='taken'</script><img src=x onerror=\"document.title='taken'\">$x_"
+    versions = tuple(replace(one, name=f"{k}{name}") for k, one in enumerate(case.versions))
+    hostile = replace(case, name=name, versions=versions)
+    path = tmp_path / "report.html"
+    write_page(path, page(name, [chapter(hostile, STYLE, [["info", name]], alive=True)], name, alive=True))
+    with browser() as opened:
+        opened.open(path)
+        assert opened.page.title() == name
+        assert opened.page.locator("img[src=x]").count() == 0
+        assert opened.control("method").locator("option").first.inner_text() == f"1{name}"
+        assert opened.complaints == []
+        assert opened.asked == [path.as_uri()]

@@ -1,0 +1,66 @@
+"""What the page holds of a mesh: as it was measured, within what a screen shows."""
+
+import base64
+import gzip
+
+import numpy as np
+import pytest
+
+from hexmend.quality import METRICS
+from hexmend_app.report import viewer as module
+from hexmend_app.report.viewer import Shown, in_script, packed, viewer
+
+
+@pytest.fixture(scope="module")
+def kept(case):
+    return packed(case.initial.mesh, [Shown(one.name, one.mesh.points) for one in case.versions])
+
+
+def array(blob, place, kind):
+    """An array of the blob, its bytes put together again."""
+    data, (start, count) = gzip.decompress(base64.b64decode(blob)), place
+    width = np.dtype(kind).itemsize
+    planes = np.frombuffer(data, np.uint8)[start : start + count * width].reshape(width, count)
+    return np.ascontiguousarray(planes.T).view(kind).ravel()
+
+
+def test_hexes_and_places_come_back(kept, case):
+    head, blob = kept
+    mesh = case.initial.mesh
+    assert (np.cumsum(array(blob, head["hexes"], "<i4").reshape(-1, 8), axis=0) == mesh.hexes).all()
+    size = np.linalg.norm(np.ptp(mesh.points, axis=0)) / 2
+    for state, version in zip(head["states"], case.versions, strict=True):
+        points = array(blob, state["points"], "<f4").reshape(-1, 3) * size
+        way = points - version.mesh.points
+        assert np.abs(way - way.mean(axis=0)).max() < 1e-6 * size
+        assert (array(blob, state["inverted"], "u1") == version.figures.inverted).all()
+
+
+@pytest.mark.parametrize("name", [*METRICS])
+def test_values_come_back(kept, case, name):
+    head, blob = kept
+    at = [*METRICS].index(name)
+    kind = head["metrics"][at]
+    assert kind["name"] == name
+    for state, version in zip(head["states"], case.versions, strict=True):
+        steps = array(blob, state["values"][at], "<u2").astype(float)
+        values = kind["from"] + (kind["to"] - kind["from"]) * steps / kind["steps"]
+        measured = METRICS[name].of(version.mesh.points, version.mesh.hexes, version.figures)
+        wanted = np.clip(measured, kind["from"], kind["to"])
+        assert np.abs(values - wanted).max() <= 0.51 * (kind["to"] - kind["from"]) / kind["steps"]
+
+
+def test_the_same_mesh_makes_the_same_page(kept, case):
+    assert packed(case.initial.mesh, [Shown(one.name, one.mesh.points) for one in case.versions]) == kept
+
+
+def test_no_name_ends_a_script():
+    assert "<" not in in_script({"name": "</script><!--"})
+
+
+def test_a_mesh_too_large_for_a_browser_is_a_picture_with_the_reason(case, monkeypatch):
+    monkeypatch.setattr(module, "MOST_HEXES", 10)
+    page = viewer(case.initial.mesh, [Shown("initial", case.initial.mesh.points)], "<figure>picture</figure>")
+    assert "<figure>picture</figure>" in page
+    assert "a page holds 10 hexes, and it has" in page
+    assert "<canvas" not in page
