@@ -1,4 +1,4 @@
-"""Writes the tables of methods, metrics, formats, limits and memory into docs, between marks; a test compares.
+"""Writes the tables of what is declared once into docs, between their marks; a test compares.
 
 Use: python scripts/tables.py
 """
@@ -20,6 +20,8 @@ from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import amount, needed
 from hexmend.smoothers import METHODS
+from hexmend.study.many.case import Limits
+from hexmend.study.many.columns import COLUMNS
 from hexmend_app.state.scene import Scene
 from hexmend_app.state.scene.helps import helps
 from hexmend_app.state.scene.table import Key, keys
@@ -162,6 +164,18 @@ def _default(one: Key) -> str:
     )
 
 
+def task() -> str:
+    """What a study's task may take."""
+    return parameters(Limits)
+
+
+def study() -> str:
+    """The columns of a study's table."""
+    kinds = {str: "text", int: "whole number", float: "number"}
+    rows = ((f"`{column.name}`", kinds[column.type], column.help) for column in COLUMNS)
+    return table(("column", "type", "what"), rows)
+
+
 #: Which table stands in which file.
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "methods": ("docs/methods.md", methods),
@@ -171,6 +185,8 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "formats": ("docs/formats.md", formats),
     "scene": ("docs/figures.md", scene),
     "memory": ("docs/performance.md", memory),
+    "task": ("docs/study-many.md", task),
+    "study": ("docs/study-many.md", study),
 }
 
 

@@ -123,17 +123,18 @@ def from_toml(text: str) -> Recipe:
         Naming line and column where it is no TOML, else the stage, the key and what was expected there.
     """
     data = parsed(text, "a recipe")
-    _check_format(data)
-    _check_keys("the recipe", data, ("format", "title", "stage"))
+    check_format(data)
+    check_keys("the recipe", data, ("format", "title", "stage"))
     title, stages = data.get("title", ""), data.get("stage", [])
     if not isinstance(title, str):
         raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
     if not isinstance(stages, list) or not all(isinstance(stage, dict) for stage in stages) or not stages:
         raise ParameterError('the recipe has no stage: expected [[stage]] and a line such as  method = "mend"')
-    return Recipe.of(*(_read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
+    return Recipe.of(*(read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
 
 
-def _check_format(data: Mapping[str, Any]) -> None:
+def check_format(data: Mapping[str, Any]) -> None:
+    """Raise `ParameterError` where a recipe does not say of which format it is, or is of a newer one."""
     number = data.get("format")
     if number is None:
         raise ParameterError(f"the recipe has no format: expected  format = {FORMAT}  as its first line")
@@ -143,26 +144,29 @@ def _check_format(data: Mapping[str, Any]) -> None:
         raise ParameterError(f"format = {number} is newer than this version of Hexmend, which reads {FORMAT}")
 
 
-def _read_stage(number: int, data: Mapping[str, Any]) -> Stage:
+def read_stage(number: int, data: Mapping[str, Any]) -> Stage:
+    """The stage that data as of `Stage.values` describe; `ParameterError` names its number where they are none."""
     try:
-        _check_keys("the stage", data, ("method", "parameters", "stop"))
+        check_keys("the stage", data, ("method", "parameters", "stop"))
         if "method" not in data:
             raise ParameterError('it has no method: expected a line such as  method = "mend"')
         cls = METHODS[str(data["method"])]
-        smoother = from_values(cls, _table(data, "parameters"), owner=cls.name)
-        return Stage(smoother, from_values(Stop, _table(data, "stop"), owner="stop"))
+        smoother = from_values(cls, table_in(data, "parameters"), owner=cls.name)
+        return Stage(smoother, from_values(Stop, table_in(data, "stop"), owner="stop"))
     except ParameterError as error:
         raise ParameterError(f"stage {number}: {error}") from None
 
 
-def _table(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+def table_in(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    """The table of this name, empty where there is none. Raises `ParameterError` where it is something else."""
     table = data.get(key, {})
     if not isinstance(table, dict):
-        raise ParameterError(f"{key} = {table!r} is no table: expected [stage.{key}] and lines of  name = value")
+        raise ParameterError(f"{key} = {table!r} is no table: expected  {key} = {{ name = value, ... }}")
     return table
 
 
-def _check_keys(owner: str, data: Mapping[str, Any], known: Iterable[str]) -> None:
+def check_keys(owner: str, data: Mapping[str, Any], known: Iterable[str]) -> None:
+    """Raise `ParameterError` for the first key of `data` that is not known, with what may have been meant."""
     for key in data:
         if key not in known:
             raise ParameterError(f"{owner} has no key {key!r}: {hint(key, known)}")

@@ -1,4 +1,4 @@
-"""`hexmend study`: the thesis's experiments, done again."""
+"""`hexmend study`: the thesis's experiments, done again; or methods on many meshes, as a recipe says."""
 
 from __future__ import annotations
 
@@ -9,38 +9,80 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from hexmend.study.measured import Measured
 
+_OF_THE_THESIS = ("--quick", "--max-seconds", "--only", "--force")
+_OF_A_RECIPE = ("--jobs", "--scheduler", "--again", "--write-meshes")
+
 
 class Study:
-    """Chapter 4, and what 5.2 hopes for, on the gallery's meshes."""
+    """Chapter 4, and what 5.2 hopes for, on the gallery's meshes; or any methods on any meshes."""
 
     name = "study"
-    help = "Do the thesis's experiments again: tables, figures and claims, ours beside the published."
+    help = "Run methods and lists of their values on many meshes, as a recipe says; or the thesis's experiments again."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         from hexmend.cli.command.memory import add_force
 
         parser.add_argument(
-            "study", metavar="NAME", choices=["thesis"], help="thesis: the tables of Chapter 4 and outlooks of 5.2"
+            "study",
+            metavar="RECIPE.toml|thesis",
+            help="the recipe of a study of meshes; thesis: the tables of Chapter 4 and outlooks of 5.2",
         )
-        parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the report")
+        parser.add_argument("meshes", metavar="MESH", nargs="*", help="recipe: the meshes")
         parser.add_argument(
-            "--quick", action="store_true", help="small meshes and a few seconds a run: minutes in place of hours"
+            "-o", "--output", metavar="DIR", help="folder of the report (recipe: its name if not given)"
+        )
+        parser.add_argument(
+            "--quick",
+            action="store_true",
+            help="thesis: small meshes and a few seconds a run: minutes in place of hours",
         )
         parser.add_argument(
             "--max-seconds",
             metavar="S",
-            help="most seconds of a run, in place of 4 hours, or of 5 s and for local-sd 60 s with --quick",
+            help="thesis: most seconds of a run, in place of 4 hours, or of 5 s and for local-sd 60 s with --quick",
         )
         parser.add_argument(
             "--only",
             metavar="TABLE",
             action="append",
             default=[],
-            help="one of the tables, as 4.1, or of the sections, as 5.2.5; may be repeated",
+            help="thesis: one of the tables, as 4.1, or of the sections, as 5.2.5; may be repeated",
         )
         add_force(parser)
+        parser.add_argument("--jobs", metavar="N", type=int, help="recipe: tasks at a time (default: as many as cores)")
+        parser.add_argument(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="recipe: do tasks on the workers of this Dask scheduler, as tcp://host:8786",
+        )
+        parser.add_argument("--again", action="store_true", help="recipe: do again what is done")
+        parser.add_argument(
+            "--write-meshes", action="store_true", help="recipe: write the meshes that result into DIR/meshes"
+        )
 
     def run(self, args: argparse.Namespace) -> int:
+        from hexmend.errors import ParameterError
+
+        others = _OF_A_RECIPE if args.study == "thesis" else _OF_THE_THESIS
+        for option in others:
+            if getattr(args, option.strip("-").replace("-", "_")):
+                of = "a recipe's study" if args.study == "thesis" else "the thesis's"
+                raise ParameterError(f"{option} is an option of {of}: leave it out")
+        if args.study != "thesis":
+            if not args.study.endswith(".toml"):
+                raise ParameterError(
+                    f"{args.study!r} is no study: expected a recipe, as RECIPE.toml MESH..., or the word thesis"
+                )
+            from hexmend.cli.command.many import study_meshes
+
+            return study_meshes(args)
+        if args.meshes:
+            raise ParameterError(f"{args.meshes[0]!r}: the thesis's study makes its meshes itself: name none")
+        if not args.output:
+            raise ParameterError("the thesis's study needs a folder for its report: add  -o DIR")
+        return self._thesis(args)
+
+    def _thesis(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
         from hexmend.parameters import from_strings

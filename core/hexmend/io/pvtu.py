@@ -19,10 +19,7 @@ _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']PUnstructuredGrid[\"']")
 
 def read(path: Path) -> Mesh:
     """Read a PVTU file and the files that it names, put together without their ghost cells."""
-    with Document(path, "PUnstructuredGrid") as document:
-        names = [piece.get("Source") for piece in document.root.first("PUnstructuredGrid").all("Piece")]
-        if not names:
-            raise document.error("names no pieces")
+    names = _names(path)
     if len(set(names)) < len(names):
         raise FileError(path, "names a piece twice", "Write it again with the program that made it.")
     grids = [grid for name in names for grid in _piece(path, name)]
@@ -30,20 +27,43 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, replace(joined(grids), field_data=fields))
 
 
+def pieces(path: Path) -> list[Path]:
+    """The files that a PVTU file names, there or not. Raises `FileError` where it is none, or names others' files."""
+    return [_place(path, name) for name in _names(path)]
+
+
+def _names(path: Path) -> list[str]:
+    with Document(path, "PUnstructuredGrid") as document:
+        names = [piece.get("Source") for piece in document.root.first("PUnstructuredGrid").all("Piece")]
+        if not names:
+            raise document.error("names no pieces")
+    return names
+
+
 def _piece(path: Path, name: str) -> list[Grid]:
     """The grids of a file beside another one."""
     from hexmend.io.files import check_readable
 
-    shown = "".join(c if c.isprintable() else "?" for c in name[:80])
-    relative = PurePosixPath(name.replace("\\", "/"))
-    if not name or relative.is_absolute() or ".." in relative.parts or ":" in name or "\0" in name:
-        raise FileError(path, f"names the piece {shown!r}: expected a file beside it or below", "Put its pieces there.")
-    place = path.parent / relative
+    place = _place(path, name)
     try:
         check_readable(place, "a VTU file")
         return grids_of(place)
     except FileError as error:
-        raise FileError(path, f"its piece {shown}: {error.problem}", error.remedy) from None
+        raise FileError(path, f"its piece {_shown(name)}: {error.problem}", error.remedy) from None
+
+
+def _shown(name: str) -> str:
+    return "".join(c if c.isprintable() else "?" for c in name[:80])
+
+
+def _place(path: Path, name: str) -> Path:
+    """The file beside another one, or below, that a piece's name stands for."""
+    relative = PurePosixPath(name.replace("\\", "/"))
+    if not name or relative.is_absolute() or ".." in relative.parts or ":" in name or "\0" in name:
+        raise FileError(
+            path, f"names the piece {_shown(name)!r}: expected a file beside it or below", "Put its pieces there."
+        )
+    return path.parent / relative
 
 
 FORMATS.add(

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io.atomic import replacing
@@ -11,6 +13,8 @@ from hexmend.io.suffixes import suffix_for
 from hexmend.io.text import read_text
 from hexmend.recipe import Recipe, from_toml, to_toml
 from hexmend.toml_text import LARGEST
+
+T = TypeVar("T")
 
 
 def read_recipe(path: str | os.PathLike[str]) -> Recipe:
@@ -21,8 +25,25 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
     FileError
         Where the file cannot be read or is no recipe: it names the line, or the stage and the key.
     """
+    return read_with(from_toml, path)
+
+
+def read_with(reader: Callable[[str], T], path: str | os.PathLike[str]) -> T:
+    """What a function makes of the text of a recipe, of whichever kind.
+
+    Parameters
+    ----------
+    reader : callable
+        Takes the text; raises `ParameterError`.
+    path : path-like
+
+    Raises
+    ------
+    FileError
+        As `read_recipe` does.
+    """
     try:
-        return from_toml(read_text(path, "a recipe", LARGEST))
+        return reader(read_text(path, "a recipe", LARGEST))
     except ParameterError as error:
         raise FileError(Path(path), str(error), "Correct the file.") from None
 

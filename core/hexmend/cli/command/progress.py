@@ -90,7 +90,7 @@ class _Live:
         if self._line is None:
             if monotonic() < self._due:
                 return
-            self._line = _drawn_line()
+            self._line = drawn_line("{task.fields[method]} {task.completed:,} of {task.total:,}: {task.description}")
             self._line.start()
         if run is not self._run:
             if self._task is not None:
@@ -106,7 +106,8 @@ class _Live:
             self._line.stop()
 
 
-def _drawn_line() -> rich.progress.Progress:
+def drawn_line(words: str) -> rich.progress.Progress:
+    """A line that turns and tells the time, with these words of a task of rich's; it vanishes when it is stopped."""
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
     from rich.table import Column
@@ -115,7 +116,8 @@ def _drawn_line() -> rich.progress.Progress:
         SpinnerColumn(table_column=Column(no_wrap=True)),
         TimeElapsedColumn(table_column=Column(no_wrap=True)),
         TextColumn(
-            "{task.fields[method]} {task.completed:,} of {task.total:,}: {task.description}",
+            words,
+            markup=False,
             table_column=Column(no_wrap=True, ratio=1),  # what gives way where the terminal is narrow
         ),
         console=Console(stderr=True, highlight=False),

@@ -1,0 +1,101 @@
+"""What the table of a study says of each task: one declaration for CSV, Parquet, the check of stored rows, and docs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isfinite
+from typing import Any
+
+from hexmend.quality.summary import FIGURES
+
+#: Figures of `Summary` that a run changes: each is told before and after.
+CHANGING = tuple(key for key in FIGURES if key not in ("hexes", "nodes", "free_nodes"))
+
+
+class Status(StrEnum):
+    """How a task ended; all but the first have a reason."""
+
+    DONE = "done"
+    UNREADABLE = "unreadable"
+    FAILED = "failed"
+    MEMORY = "out of memory"
+    TIME = "out of time"
+    #: The process or the machine is to blame, and not what was to be done: another time it may go well.
+    LOST = "lost"
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column: its name, its type and a sentence of help."""
+
+    name: str
+    type: type
+    help: str
+
+
+def _figures(when: str, words: str) -> tuple[Column, ...]:
+    return tuple(
+        Column(
+            f"{key}_{when}",
+            int if "inverted" in key else float,
+            f"{label[:1].upper()}{label[1:]}, {words}.",
+        )
+        for key, label in ((key, FIGURES[key].label) for key in CHANGING)
+    )
+
+
+#: Where a row belongs: what the client knows.
+PLACE = (
+    Column("mesh", str, "The mesh file, as it was named."),
+    Column("case", str, "What the study calls the method with what was chosen from its lists."),
+    Column("method", str, "The method's name, or a recipe's title."),
+    Column("parameters", str, "Every value of the method, as `name=value` words; none for a recipe."),
+    Column("mesh_hash", str, "SHA-256 of the mesh file."),
+    Column("key", str, "The task's: its result is `tasks/KEY.json`."),
+)
+
+#: What a task's process answers.
+ANSWER = (
+    Column("status", str, f"How the task ended: {', '.join(Status)}."),
+    Column("reason", str, "Why there is no result, in a sentence."),
+    Column("hexes", int, "Number of hexes."),
+    Column("nodes", int, "Number of nodes that a hex uses."),
+    Column("free_nodes", int, "Number of nodes that are not fixed."),
+    *_figures("before", "of the mesh as given"),
+    *_figures("after", "of the result"),
+    Column("worse", str, "What is worse than before, of inverted, q_min and scaled_jacobian."),
+    Column("outcome", str, "Why the run ended, as in `smooth --json`."),
+    Column("message", str, "The same with its figures, in sentences."),
+    Column("iterations", int, "Iterations until the run ended."),
+    Column("kept", int, "Number of the iteration that is the result."),
+    Column("seconds", float, "Seconds in the method, without its preparation."),
+    Column("setup_seconds", float, "Seconds of its preparation."),
+    Column("task_seconds", float, "Seconds of the whole process, with its start, reading and writing."),
+    Column("threads", int, "Threads that the task computed with."),
+    Column("peak_mb", float, "The most memory that the process has held, MiB."),
+    Column("output", str, "The mesh that was written, if meshes are."),
+)
+
+COLUMNS = PLACE + ANSWER
+
+
+def answer(status: Status, reason: str = "", **figures: Any) -> dict[str, Any]:
+    """A task's answer; None stands for what there is not, and for what is no finite number."""
+    known = {name: None if isinstance(one, float) and not isfinite(one) else one for name, one in figures.items()}
+    return {column.name: None for column in ANSWER} | known | {"status": str(status), "reason": reason}
+
+
+def is_answer(row: object) -> bool:
+    """Whether data from a file is an answer: all columns and no other, each None or of its type."""
+    return (
+        isinstance(row, Mapping)
+        and set(row) == {column.name for column in ANSWER}
+        and row["status"] in set(Status)
+        and all(row[column.name] is None or _fits(row[column.name], column.type) for column in ANSWER)
+    )
+
+
+def _fits(value: object, type_: type) -> bool:
+    return type(value) is type_ or (type_ is float and type(value) is int)

@@ -1,0 +1,140 @@
+"""A task in a process of its own: whatever happens there is a row, with what is to blame."""
+
+import os
+import sys
+
+import pytest
+
+from hexmend import __version__, gallery, io, smooth
+from hexmend.study.many.case import Case
+from hexmend.study.many.columns import is_answer
+from hexmend.study.many.plan import plan_of
+from hexmend.study.many.process import run_task
+from hexmend.study.many.task import Task, content_hash
+
+
+def task(mesh, case=None, **values):
+    """A task of a case on a mesh; without a case, `mend` a few times."""
+    if case is None:
+        (made,) = plan_of('format = 1\nmethods = ["mend"]\nstop = { max_iterations = 4 }', mesh.parent).cases
+        case = made.values()
+    return Task(str(mesh), content_hash(mesh), case, **{"version": __version__} | values)
+
+
+def trial(laboratory, does, **values):
+    """The answer to a task that does this."""
+    stage = {"method": "trial", "parameters": {"does": does}, "stop": {"max_iterations": 3}}
+    one = task(laboratory.mesh(), {"recipe": None, "stages": [stage]}, **values)
+    return run_task(one, memory_mb=2000, threads=1)
+
+
+def test_a_result_is_that_of_the_method(tmp_path):
+    mesh = gallery.make("bridge-sharp", size=864, scramble=0.4)
+    io.write(tmp_path / "bridge.vtu", mesh)
+    out = tmp_path / "out.vtu"
+    row = run_task(task(tmp_path / "bridge.vtu", output=str(out)), memory_mb=0, threads=2)
+    (case,) = plan_of('format = 1\nmethods = ["mend"]\nstop = { max_iterations = 4 }', tmp_path).cases
+    result = smooth(io.read(tmp_path / "bridge.vtu"), case.what, case.stop)
+    assert (row["status"], row["reason"], row["threads"]) == ("done", "", 2)
+    for key, value in result.before.to_dict().items():
+        assert row[key if key in row else f"{key}_before"] == value
+    assert {key: row[f"{key}_after"] for key in ("inverted", "q_min", "objective")} == {
+        key: getattr(result.after, key) for key in ("inverted", "q_min", "objective")
+    }
+    assert (row["iterations"], row["outcome"]) == (result.iterations, result.outcome.key)
+    assert 0 < row["seconds"] < row["task_seconds"]
+    assert 10 < row["peak_mb"] < 2000
+    assert (io.read(out).points == result.mesh.points).all()
+    assert is_answer(row)
+
+
+@pytest.mark.parametrize(("does", "status", "said"), [
+    ("rest", "done", ""),
+    ("print", "done", ""),
+    ("raise", "failed", "ValueError: it does not like this mesh"),
+    ("crash", "lost", "Its process ended by SIGSEGV: it did not say why."),
+    ("vanish", "lost", "Its process ended with status 7: it did not say why."),
+])  # fmt: skip
+def test_what_a_method_does_is_its_own_row_s_matter(laboratory, does, status, said):
+    row = trial(laboratory, does)
+    assert (row["status"], row["reason"]) == (status, said)
+    assert is_answer(row)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not hold memory so")
+def test_memory_is_held(laboratory):
+    row = trial(laboratory, "eat", max_memory_mb=700)
+    assert (row["status"], row["reason"]) == ("out of memory", "It needed more memory than it may have.")
+    assert row["hexes"] == 8
+    assert 100 < row["peak_mb"] < 700
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not hold memory so")
+def test_memory_that_does_not_suffice_for_reading_is_told_as_such(tmp_path):
+    io.write(tmp_path / "large.vtu", gallery.make("cube", size=125_000))
+    row = run_task(task(tmp_path / "large.vtu", max_memory_mb=120), memory_mb=0, threads=1)
+    assert row["status"] == "out of memory"
+
+
+def test_a_task_that_takes_too_long_is_ended(laboratory):
+    row = trial(laboratory, "wait", max_seconds=1.5)
+    assert (row["status"], row["reason"]) == ("out of time", "It was not done within 1.5 s, and was ended.")
+    assert laboratory.said("did") == []
+
+
+def test_a_task_that_is_no_longer_wanted_is_ended(laboratory):
+    asked = []
+    stage = {"method": "trial", "parameters": {"does": "wait"}, "stop": {}}
+    one = task(laboratory.mesh(), {"recipe": None, "stages": [stage]})
+    assert run_task(one, memory_mb=0, unwanted=lambda: asked.append(1) or len(asked) == 3) is None
+    assert len(asked) == 3
+
+
+@pytest.mark.parametrize(("values", "status", "said"), [
+    ({"version": "0.0.1"}, "lost", "0.0.1 where it was planned"),
+    ({"mesh_hash": "0"}, "lost", "cube.vtk is another file where the task ran than where it was planned."),
+    ({"case": {"recipe": None, "stages": [{"method": "nothing"}]}}, "failed", "there is no method 'nothing'"),
+    ({"surface": "{mesh}", "surface_hash": "{hash}"}, "unreadable", "cube.vtk: "),
+    ({"mesh": "/nowhere/cube.vtk"}, "lost", "Where the task ran: cube.vtk: there is no such file"),
+    ({"output": "{mesh}/out.vtk"}, "lost", "out.vtk: cannot be written"),
+])  # fmt: skip
+def test_what_cannot_be_done_is_told(laboratory, values, status, said):
+    mesh = laboratory.mesh()
+    text = {"{mesh}": str(mesh), "{hash}": content_hash(mesh)}
+    for key, value in values.items():
+        for word, meant in text.items() if isinstance(value, str) else ():
+            values = values | {key: (value := value.replace(word, meant))}
+    (case,) = plan_of('format = 1\nmethods = ["mend"]', mesh.parent).cases
+    known = {"mesh": str(mesh), "mesh_hash": text["{hash}"], "case": case.values(), "version": __version__}
+    row = run_task(Task(**known | values), memory_mb=0)
+    assert row["status"] == status
+    assert said in row["reason"]
+
+
+def test_the_key_tells_what_decides_the_result_and_nothing_else(tmp_path):
+    for name in ("a.vtk", "b.vtk", "c.mesh"):
+        io.write(tmp_path / name, gallery.make("cube", size=8))
+    io.write(tmp_path / "d.vtk", gallery.make("cube", size=27))
+    (case,) = plan_of('format = 1\nmethods = ["mend"]', tmp_path).cases
+    a = task(tmp_path / "a.vtk", case.values())
+    assert task(tmp_path / "b.vtk", case.values(), max_seconds=3, output="x.vtk").key == a.key
+    others = [
+        task(tmp_path / "c.mesh", case.values()),
+        task(tmp_path / "d.vtk", case.values()),
+        task(tmp_path / "a.vtk"),
+        task(tmp_path / "a.vtk", Case("gone", case.what, None).values() | {"recipe": "mend"}),
+        task(tmp_path / "a.vtk", case.values(), surface_hash="0"),
+        task(tmp_path / "a.vtk", case.values(), version="0.0.1"),
+    ]
+    assert len({one.key for one in others} | {a.key}) == 7
+
+
+def test_the_pieces_of_a_mesh_count(tmp_path):
+    whole = '<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="a.vtu"/></PUnstructuredGrid></VTKFile>'
+    (tmp_path / "whole.pvtu").write_text(whole)
+    hashes = set()
+    for size in (8, 27):
+        io.write(tmp_path / "a.vtu", gallery.make("cube", size=size))
+        hashes.add(content_hash(tmp_path / "whole.pvtu"))
+    os.unlink(tmp_path / "a.vtu")
+    assert len(hashes | {content_hash(tmp_path / "whole.pvtu")}) == 3

@@ -1,0 +1,80 @@
+"""Answers that are kept: which of them hold, and which are asked for again."""
+
+import json
+
+import pytest
+
+from hexmend.study.many.columns import COLUMNS, Status, answer, is_answer
+from hexmend.study.many.store import Store
+from hexmend.study.many.task import Task
+
+TASK = Task("/some/mesh.vtk", "0", {"recipe": None, "stages": []}, "0.1", max_seconds=5, max_memory_mb=100)
+
+
+def kept(folder, task=TASK, status=Status.DONE, **figures):
+    Store(folder).keep(TASK, answer(status, **figures))
+    return Store(folder).kept(task)
+
+
+def test_an_answer_is_what_it_was(tmp_path):
+    row = answer(Status.DONE, hexes=8, q_min_after=1, objective_after=float("inf"), worse="q_min", task_seconds=0.5)
+    Store(tmp_path).keep(TASK, row)
+    assert Store(tmp_path).kept(TASK) == row
+    assert row["objective_after"] is None
+    assert [path.name for path in tmp_path.iterdir()] == [f"{TASK.key}.json"]
+
+
+@pytest.mark.parametrize(("status", "changes", "holds"), [
+    (Status.DONE, {"max_seconds": 1, "max_memory_mb": 1}, True),
+    (Status.FAILED, {"max_seconds": 9}, True),
+    (Status.UNREADABLE, {}, True),
+    (Status.LOST, {}, False),
+    (Status.TIME, {"max_memory_mb": 9}, True),
+    (Status.TIME, {"max_seconds": 9}, False),
+    (Status.MEMORY, {"max_seconds": 9}, True),
+    (Status.MEMORY, {"max_memory_mb": 0}, False),
+])  # fmt: skip
+def test_a_failure_holds_while_what_it_failed_by_is_the_same(tmp_path, status, changes, holds):
+    task = Task(**{**vars(TASK), **changes})
+    assert (kept(tmp_path, task, status) is not None) == holds
+
+
+def test_what_failed_by_the_memory_that_was_free_is_tried_again(tmp_path):
+    task = Task(**{**vars(TASK), "max_memory_mb": 0})
+    Store(tmp_path).keep(task, answer(Status.MEMORY))
+    assert Store(tmp_path).kept(task) is None
+
+
+def test_a_result_holds_while_its_mesh_is_there(tmp_path):
+    task = Task(**{**vars(TASK), "output": str(tmp_path / "out.vtk")})
+    assert kept(tmp_path, task) is None
+    (tmp_path / "out.vtk").touch()
+    assert kept(tmp_path, task) is not None
+
+
+@pytest.mark.parametrize("spoil", [
+    lambda stored: None,
+    lambda stored: [stored],
+    lambda stored: stored | {"key": "0" * 32},
+    lambda stored: stored | {"answer": None},
+    lambda stored: stored | {"answer": stored["answer"] | {"status": "splendid"}},
+    lambda stored: stored | {"answer": stored["answer"] | {"hexes": "8"}},
+    lambda stored: stored | {"answer": stored["answer"] | {"hexes": True}},
+    lambda stored: stored | {"answer": stored["answer"] | {"more": 1}},
+    lambda stored: stored | {"answer": stored["answer"] | {"message": "a" * 1_000_000}},
+    lambda stored: {"key": stored["key"], "answer": {}},
+])  # fmt: skip
+def test_a_file_that_holds_no_answer_is_none(tmp_path, spoil):
+    assert kept(tmp_path) is not None
+    (path,) = tmp_path.iterdir()
+    stored = json.loads(path.read_text())
+    path.write_text(json.dumps(spoil(stored)))
+    assert Store(tmp_path).kept(TASK) is None
+    path.write_text("[" * 100_000)
+    assert Store(tmp_path).kept(TASK) is None
+
+
+def test_columns_have_names_of_their_own_and_say_what_they_are():
+    assert len({column.name for column in COLUMNS}) == len(COLUMNS)
+    assert all(column.help.endswith(".") and column.type in (str, int, float) for column in COLUMNS)
+    assert is_answer(answer(Status.FAILED, "It did not work."))
