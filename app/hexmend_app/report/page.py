@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from hexmend import __version__
-from hexmend.figures import count, quality, significant
+from hexmend.figures import count, printable, quality, significant
 from hexmend.io.atomic import replacing
 from hexmend.report.tables import Table
 from hexmend.study.bench import machine
@@ -203,7 +203,7 @@ def _origin(case: Case) -> str:
     pairs = {}
     if case.source is not None:
         pairs |= {
-            "file": case.source.path,
+            "file": printable(case.source.path),
             "size": f"{count(case.source.size)} bytes, read in {significant(case.source.seconds, 3)} s",
             "SHA-256": case.source.sha256,
         }
