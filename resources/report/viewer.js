@@ -12,6 +12,7 @@ class Viewer {
     this.painter = new Painter(this.is.canvas);
     this.camera = new Camera(mesh.states[0].points);
     this.chosen = -1;
+    this.alone = false; // whether the chosen hex is shown with a hint of what is around it, and nothing else
     this.fill();
     this.listen();
     this.reset();
@@ -35,6 +36,9 @@ class Viewer {
     const { is } = this;
     is.metric.addEventListener("change", () => this.chooseMetric());
     for (const name of ["map", "method"]) is[name].addEventListener("change", () => this.rebuild());
+    for (const name of ["axis", "at", "other", "low", "high", "inverted"]) {
+      is[name].addEventListener("input", () => (this.alone = false));
+    }
     is.axis.addEventListener("input", () => {
       const axis = Number(is.axis.value);
       is.other.checked = axis >= 0 && this.camera.axes()[2][axis] < 0; // the side of who looks is hidden
@@ -65,6 +69,7 @@ class Viewer {
     is.between.value = is.between.max;
     this.camera.reset();
     this.chosen = -1;
+    this.alone = false;
   }
 
   /** The number of the state that is shown: the nearer one. */
@@ -116,7 +121,8 @@ class Viewer {
     const cut = axis < 0 ? null : { axis, at: Number(is.at.value), other: is.other.checked };
     this.shownState = this.state;
     const some = { state: this.state, metric, low: ends[0], high: ends[1], inverted: is.inverted.checked };
-    const shown = mesh.shown(cut, some);
+    const shown = this.alone ? new Uint8Array(mesh.count) : mesh.shown(cut, some);
+    if (this.alone) shown[this.chosen] = 1;
     const faces = mesh.skin(shown);
     const place = (state, hex) => {
       const share = (mesh.value(state, metric, hex) - kind.low) / (kind.high - kind.low);
@@ -124,7 +130,8 @@ class Viewer {
     };
     this.painter.take("faces", faces, mesh, this.states, place);
     this.hidden = shown.includes(0);
-    if (this.hidden) this.painter.take("ghost", this.skin, mesh, this.states, place);
+    const hint = this.alone ? mesh.skin(mesh.around(this.chosen)) : this.skin;
+    if (this.hidden) this.painter.take("ghost", hint, mesh, this.states, place);
     const { table } = mesh.maps[is.map.selectedIndex];
     this.painter.colours(table);
     this.bar(kind, table);
@@ -174,16 +181,35 @@ class Viewer {
     const { canvas } = this.is;
     const share = canvas.width / canvas.clientWidth;
     const below = canvas.height - 1 - Math.floor(y * share);
-    this.chosen = this.painter.pick(this.camera.matrices(), this.how, Math.floor(x * share), below);
+    const found = this.painter.pick(this.camera.matrices(), this.how, Math.floor(x * share), below);
+    if (this.alone && found < 0) return;
+    this.chosen = found;
     this.tell();
     this.soon();
+  }
+
+  /** Show a hex in a state, with a hint of the hexes around it. */
+  approach(hex, state) {
+    this.reset();
+    this.is.method.selectedIndex = Math.max(0, state - 1);
+    this.is.between.value = Math.min(1, state);
+    [this.chosen, this.alone] = [hex, true];
+    const { points } = this.mesh.states[state];
+    const corners = Array.from({ length: 8 }, (_, k) => this.mesh.hexes[8 * hex + k]);
+    const places = corners.map((node) => points.subarray(3 * node, 3 * node + 3));
+    const middle = [0, 1, 2].map((axis) => places.reduce((sum, place) => sum + place[axis] / 8, 0));
+    const radius = Math.max(...places.map((place) => Math.hypot(...place.map((part, axis) => part - middle[axis]))));
+    this.camera.approach(middle, 3 * radius);
+    this.chooseMetric();
+    this.root.scrollIntoView({ block: "nearest" });
   }
 
   get how() {
     const { is } = this;
     const apart = this.mesh.head.inverted.map((part) => part / 255);
-    const ghost = this.hidden && is.ghost.checked;
-    return { between: this.between, edges: is.edges.checked, apart, chosen: this.chosen, ghost };
+    const ghost = this.hidden && is.ghost.checked ? (this.alone ? 0.16 : 0.07) : 0;
+    const chosen = this.alone ? -1 : this.chosen; // it needs no mark where there is no other
+    return { between: this.between, edges: is.edges.checked, apart, chosen, ghost };
   }
 
   /** Draw before the next frame, once. */
@@ -277,11 +303,26 @@ function options(list, texts) {
   list.replaceChildren(...texts.map((text) => element("option", text)));
 }
 
+/** Let numbers of hexes in tables lead to them. */
+function linkTables(section, viewer) {
+  for (const table of section.querySelectorAll("[data-version]")) {
+    for (const cell of table.querySelectorAll("tbody td:first-child")) {
+      const button = element("button", cell.textContent);
+      button.type = "button";
+      button.title = "Show this hex";
+      const hex = Number(cell.textContent.replaceAll(",", ""));
+      button.addEventListener("click", () => viewer.approach(hex, Number(table.dataset.version)));
+      cell.replaceChildren(button);
+    }
+  }
+}
+
 /** Bring a viewer to life as it comes into sight; where that cannot be, its picture stays, and it is said why. */
 async function start(root) {
   const [head, blob] = ["head", "bytes"].map((name) => root.querySelector(`script[data-of="${name}"]`).textContent);
   try {
-    new Viewer(root, new HexMesh(JSON.parse(head), await unpacked(blob)));
+    const viewer = new Viewer(root, new HexMesh(JSON.parse(head), await unpacked(blob)));
+    linkTables(root.closest("section"), viewer);
   } catch (error) {
     const said = root.querySelector(".cannot");
     said.textContent = `The mesh cannot be turned here: ${error.message}. The picture shows it as it is.`;

@@ -153,8 +153,8 @@ def _failed(row: Row) -> str:
 
 def _worst(case: Case, held: Sequence[Locked]) -> list[str]:
     return [
-        html.table(worst_table(one.name, one.mesh, one.figures, own), words=1)
-        for one, own in zip(case.versions, held, strict=True)
+        f'<div data-version="{version}">{html.table(worst_table(one.name, one.mesh, one.figures, own), words=1)}</div>'
+        for version, (one, own) in enumerate(zip(case.versions, held, strict=True))
     ]
 
 
