@@ -52,6 +52,12 @@ class Camera {
     }
   }
 
+  /** Look at a ball. */
+  approach(middle, radius) {
+    this.target = [...middle];
+    this.zoom = Math.min(500, (this.away * Math.sin(HALF)) / radius);
+  }
+
   /** Turn by angles. */
   turn(round, above) {
     this.round += round;

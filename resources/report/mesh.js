@@ -112,6 +112,14 @@ class HexMesh {
     return answer;
   }
 
+  /** A hex and those that share a node with it, (m). */
+  around(hex) {
+    const nodes = new Set(this.hexes.subarray(8 * hex, 8 * hex + 8));
+    const answer = new Uint8Array(this.count);
+    for (let k = 0; k < this.hexes.length; k++) if (nodes.has(this.hexes[k])) answer[k >> 3] = 1;
+    return answer;
+  }
+
   /** The faces that can be seen, as 6 hex + face: those of shown hexes beyond which none is shown. */
   skin(shown) {
     const answer = [];

@@ -152,7 +152,8 @@ class Painter {
    * Draw.
    *
    * @param {{view: Float32Array, projection: Float32Array}} camera
-   * @param {{between: number, edges: boolean, apart: number[], chosen: number, ghost: boolean}} how
+   * @param {{between: number, edges: boolean, apart: number[], chosen: number, ghost: number}} how `ghost` is how dense
+   *   what is only hinted at is; 0 leaves it out.
    */
   draw(camera, how) {
     const { gl, uniforms } = this;
@@ -164,7 +165,7 @@ class Painter {
       gl.enable(gl.BLEND);
       gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
       gl.depthMask(false);
-      gl.uniform1f(uniforms.opacity, 0.07);
+      gl.uniform1f(uniforms.opacity, how.ghost);
       gl.uniform1f(uniforms.edges, 0);
       this.drawPart(this.parts.ghost);
       gl.depthMask(true);

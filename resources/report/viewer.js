@@ -12,6 +12,7 @@ class Viewer {
     this.painter = new Painter(this.is.canvas);
     this.camera = new Camera(mesh.states[0].points);
     this.chosen = -1;
+    this.alone = false; // whether the chosen hex is shown with a hint of what is around it, and nothing else
     this.fill();
     this.listen();
     this.reset();
@@ -35,6 +36,9 @@ class Viewer {
     const { is } = this;
     is.metric.addEventListener("change", () => this.chooseMetric());
     for (const name of ["map", "method"]) is[name].addEventListener("change", () => this.rebuild());
+    for (const name of ["axis", "at", "other", "low", "high", "inverted"]) {
+      is[name].addEventListener("input", () => (this.alone = false));
+    }
     is.axis.addEventListener("input", () => {
       const axis = Number(is.axis.value);
       is.other.checked = axis >= 0 && this.camera.axes()[2][axis] < 0; // the side of who looks is hidden
@@ -65,6 +69,7 @@ class Viewer {
     is.between.value = is.between.max;
     this.camera.reset();
     this.chosen = -1;
+    this.alone = false;
   }
 
   /** The number of the state that is shown: the nearer one. */
@@ -116,7 +121,8 @@ class Viewer {
     const cut = axis < 0 ? null : { axis, at: Number(is.at.value), other: is.other.checked };
     this.shownState = this.state;
     const some = { state: this.state, metric, low: ends[0], high: ends[1], inverted: is.inverted.checked };
-    const shown = mesh.shown(cut, some);
+    const shown = this.alone ? new Uint8Array(mesh.count) : mesh.shown(cut, some);
+    if (this.alone) shown[this.chosen] = 1;
     const faces = mesh.skin(shown);
     const place = (state, hex) => {
       const share = (mesh.value(state, metric, hex) - kind.low) / (kind.high - kind.low);
@@ -124,7 +130,8 @@ class Viewer {
     };
     this.painter.take("faces", faces, mesh, this.states, place);
     this.hidden = shown.includes(0);
-    if (this.hidden) this.painter.take("ghost", this.skin, mesh, this.states, place);
+    const hint = this.alone ? mesh.skin(mesh.around(this.chosen)) : this.skin;
+    if (this.hidden) this.painter.take("ghost", hint, mesh, this.states, place);
     const { table } = mesh.maps[is.map.selectedIndex];
     this.painter.colours(table);
     this.bar(kind, table);
@@ -174,16 +181,35 @@ class Viewer {
     const { canvas } = this.is;
     const share = canvas.width / canvas.clientWidth;
     const below = canvas.height - 1 - Math.floor(y * share);
-    this.chosen = this.painter.pick(this.camera.matrices(), this.how, Math.floor(x * share), below);
+    const found = this.painter.pick(this.camera.matrices(), this.how, Math.floor(x * share), below);
+    if (this.alone && found < 0) return;
+    this.chosen = found;
     this.tell();
     this.soon();
+  }
+
+  /** Show a hex in a state, with a hint of the hexes around it. */
+  approach(hex, state) {
+    this.reset();
+    this.is.method.selectedIndex = Math.max(0, state - 1);
+    this.is.between.value = Math.min(1, state);
+    [this.chosen, this.alone] = [hex, true];
+    const { points } = this.mesh.states[state];
+    const corners = Array.from({ length: 8 }, (_, k) => this.mesh.hexes[8 * hex + k]);
+    const places = corners.map((node) => points.subarray(3 * node, 3 * node + 3));
+    const middle = [0, 1, 2].map((axis) => places.reduce((sum, place) => sum + place[axis] / 8, 0));
+    const radius = Math.max(...places.map((place) => Math.hypot(...place.map((part, axis) => part - middle[axis]))));
+    this.camera.approach(middle, 3 * radius);
+    this.chooseMetric();
+    this.root.scrollIntoView({ block: "nearest" });
   }
 
   get how() {
     const { is } = this;
     const apart = this.mesh.head.inverted.map((part) => part / 255);
-    const ghost = this.hidden && is.ghost.checked;
-    return { between: this.between, edges: is.edges.checked, apart, chosen: this.chosen, ghost };
+    const ghost = this.hidden && is.ghost.checked ? (this.alone ? 0.16 : 0.07) : 0;
+    const chosen = this.alone ? -1 : this.chosen; // it needs no mark where there is no other
+    return { between: this.between, edges: is.edges.checked, apart, chosen, ghost };
   }
 
   /** Draw before the next frame, once. */
@@ -204,64 +230,6 @@ class Viewer {
   }
 }
 
-/** Let mouse, fingers and keys steer a camera; a click or tap chooses what is there. */
-function steer(canvas, camera, moved, chosen) {
-  const pointers = new Map();
-  let went = 0;
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
-    if (pointers.size === 1) went = 0;
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    const before = pointers.get(event.pointerId);
-    if (!before) return;
-    const now = [event.offsetX, event.offsetY];
-    const [right, down] = now.map((place, k) => place - before[k]);
-    const others = [...pointers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
-    went += Math.hypot(right, down);
-    if (others.length) {
-      const [apart, wasApart] = [now, before].map(([x, y]) => Math.hypot(x - others[0][0], y - others[0][1]));
-      camera.closer(apart / Math.max(1, wasApart));
-      camera.shift(right / 2 / canvas.clientHeight, -down / 2 / canvas.clientHeight);
-    } else if (event.buttons > 1 || event.shiftKey) {
-      camera.shift(right / canvas.clientHeight, -down / canvas.clientHeight);
-    } else {
-      camera.turn(-right * 0.008, down * 0.008);
-    }
-    pointers.set(event.pointerId, now);
-    moved();
-  });
-  canvas.addEventListener("pointerup", (event) => {
-    if (pointers.size === 1 && went < 4 && event.button === 0) chosen(event.offsetX, event.offsetY);
-  });
-  for (const name of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
-  }
-  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-  canvas.addEventListener("wheel", (event) => {
-    if (document.activeElement !== canvas && !event.ctrlKey) return; // the page scrolls
-    event.preventDefault();
-    camera.closer(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)));
-    moved();
-  }, { passive: false });
-  const keys = {
-    ArrowLeft: () => camera.turn(0.1, 0),
-    ArrowRight: () => camera.turn(-0.1, 0),
-    ArrowUp: () => camera.turn(0, -0.1),
-    ArrowDown: () => camera.turn(0, 0.1),
-    "+": () => camera.closer(1.15),
-    "-": () => camera.closer(1 / 1.15),
-    0: () => camera.reset(),
-  };
-  canvas.addEventListener("keydown", (event) => {
-    if (!keys[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
-    event.preventDefault();
-    keys[event.key]();
-    moved();
-  });
-}
-
 /** A number in four figures. */
 function figure(value) {
   return Number.isNaN(value) ? "none" : Number(value.toPrecision(4)).toString();
@@ -276,23 +244,3 @@ function element(name, text) {
 function options(list, texts) {
   list.replaceChildren(...texts.map((text) => element("option", text)));
 }
-
-/** Bring a viewer to life as it comes into sight; where that cannot be, its picture stays, and it is said why. */
-async function start(root) {
-  const [head, blob] = ["head", "bytes"].map((name) => root.querySelector(`script[data-of="${name}"]`).textContent);
-  try {
-    new Viewer(root, new HexMesh(JSON.parse(head), await unpacked(blob)));
-  } catch (error) {
-    const said = root.querySelector(".cannot");
-    said.textContent = `The mesh cannot be turned here: ${error.message}. The picture shows it as it is.`;
-    said.hidden = false;
-  }
-}
-
-const seen = new IntersectionObserver((entries) => {
-  for (const entry of entries.filter((one) => one.isIntersecting)) {
-    seen.unobserve(entry.target);
-    start(entry.target);
-  }
-}, { rootMargin: "300px" });
-for (const root of document.querySelectorAll(".viewer")) seen.observe(root);

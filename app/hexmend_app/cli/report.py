@@ -32,6 +32,7 @@ class Report:
 
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
+        from hexmend.figures import printable
         from hexmend.io.atomic import check_writable
         from hexmend.io.suffixes import suffix_for
         from hexmend.report.plots import check_matplotlib
@@ -64,7 +65,7 @@ class Report:
             interrupted = case.interrupted
             if interrupted:
                 break
-        title = args.title or f"Report on {', '.join(one.name for one in chapters)}"
+        title = printable(args.title or "") or f"Report on {', '.join(one.name for one in chapters)}"
         titled = ["--title", args.title] if args.title else []
         command = command_line(["report", *args.mesh, *given, *titled, "-o", args.output])
         (write_page if alive else write_paper)(path, page(title, chapters, command, alive=alive))

@@ -62,9 +62,10 @@ def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], Stop]:
 
 def names(args: argparse.Namespace, count: int) -> list[str]:
     """What versions are called where that is said: those of the mesh as given and of so many methods."""
+    from hexmend.figures import printable
     from hexmend_app.cli.numbers import wrong
 
-    given = [name.strip() for name in args.names.split(",")] if args.names else []
+    given = [printable(name.strip()) for name in args.names.split(",")] if args.names else []
     if given and (len(given) != count + 1 or len(set(given)) != len(given) or not all(given)):
         raise wrong("--names", args.names, f"{count + 1} different names separated by commas, the mesh as given first")
     return given

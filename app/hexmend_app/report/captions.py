@@ -10,7 +10,10 @@ from hexmend.report import write_text
 from hexmend.report.markdown import escaped
 from hexmend_app.report.figure_set import Figure
 
-#: Suffixes of what can be shown in Markdown, and what stands for a file that cannot.
+#: What stands above the commands.
+_HEAD = "# Each line draws a figure again. Paths are those of the folder that Hexmend was run in."
+
+#: Suffixes of what can be shown in Markdown.
 _SEEN = (".png", ".svg")
 
 
@@ -24,7 +27,7 @@ def write_captions(folder: Path, title: str, figures: Sequence[tuple[Figure, str
     title : str
     figures : sequence of (Figure, command)
     """
-    texts, lines = [f"# {escaped(title)}"], ["#!/bin/sh", "# Run from where the first command was given."]
+    texts, lines = [f"# {escaped(title)}"], ["#!/bin/sh", _HEAD]
     done: set[str] = set()
     for figure, command in figures:
         names = ", ".join(f"[{path.name}]({path.name})" for path in figure.paths)

@@ -12,6 +12,7 @@ from typing import Any
 
 from hexmend.advice import Advice, advise
 from hexmend.errors import FileError
+from hexmend.figures import printable
 from hexmend.io import read
 from hexmend.mesh import Mesh
 from hexmend.optimise import Result, Stop
@@ -171,13 +172,13 @@ def run_methods(
             versions.append(Version.of(name, row.mesh, row, runs[0].result() if runs else None))
         if not go_on:
             break
-    return Case(mesh.name, source, tuple(versions), tuple(failed), stop, interrupted=not go_on)
+    return Case(printable(mesh.name), source, tuple(versions), tuple(failed), stop, interrupted=not go_on)
 
 
 def command_line(words: Sequence[str]) -> str:
-    """The words of a command as a shell takes them.
+    """The words of a command as a shell takes them; bytes of a path that are no letters are question marks.
 
     >>> command_line(["report", "two words.vtk"])
     "hexmend report 'two words.vtk'"
     """
-    return shlex.join(["hexmend", *words])
+    return shlex.join(["hexmend", *words]).encode("utf-8", "replace").decode()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import ceil, sqrt
 from pathlib import Path
 
 from hexmend.movement import MOVEMENTS
@@ -16,7 +17,7 @@ from hexmend_app.scene.export.subject import Subject
 from hexmend_app.state.look import Traces
 from hexmend_app.state.scene import Colours, Cut, Panel, Place, Plane, Scene
 
-#: Panels in a row at most, the height of one by its width, and of what stands around them, in mm.
+#: Panels in one row at most, the height of one by its width, and of what stands around them, in mm.
 _IN_A_ROW, _PANEL, _AROUND = 3, 0.9, (5.0, 10.0)
 
 
@@ -115,7 +116,7 @@ def _cut(case: Case, folder: Path, style: Style) -> Figure:
 def _sheet(case: Case, folder: Path, style: Style, part: str, scene: Scene, how: str) -> Figure:
     """One panel a version, with one camera; where that stands exactly, panels have the shape of the scene's page."""
     scene, count = stationary(scene), len(case.versions)
-    columns = min(count, _IN_A_ROW)
+    columns = count if count <= _IN_A_ROW else ceil(sqrt(count))
     caption, bar = _AROUND
     wide, tall = scene.page.size
     shape = _PANEL if scene.camera.stand is None else tall / wide

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from hexmend import __version__
-from hexmend.figures import count, quality, significant
+from hexmend.figures import count, printable, quality, significant
 from hexmend.io.atomic import replacing
 from hexmend.report.tables import Table
 from hexmend.study.bench import machine
@@ -153,8 +153,8 @@ def _failed(row: Row) -> str:
 
 def _worst(case: Case, held: Sequence[Locked]) -> list[str]:
     return [
-        html.table(worst_table(one.name, one.mesh, one.figures, own), words=1)
-        for one, own in zip(case.versions, held, strict=True)
+        f'<div data-version="{version}">{html.table(worst_table(one.name, one.mesh, one.figures, own), words=1)}</div>'
+        for version, (one, own) in enumerate(zip(case.versions, held, strict=True))
     ]
 
 
@@ -203,7 +203,7 @@ def _origin(case: Case) -> str:
     pairs = {}
     if case.source is not None:
         pairs |= {
-            "file": case.source.path,
+            "file": printable(case.source.path),
             "size": f"{count(case.source.size)} bytes, read in {significant(case.source.seconds, 3)} s",
             "SHA-256": case.source.sha256,
         }

@@ -30,7 +30,7 @@ _FINEST = 2.0**-21
 _ENDS = (0.005, 0.995)
 
 #: What the page is made alive with, in this order.
-_SCRIPTS = ("mesh.js", "camera.js", "painter.js", "viewer.js")
+_SCRIPTS = ("mesh.js", "camera.js", "steering.js", "painter.js", "viewer.js", "start.js")
 
 
 @dataclass(frozen=True, eq=False)

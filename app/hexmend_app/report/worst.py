@@ -56,7 +56,7 @@ def worst_table(name: str, mesh: Mesh, figures: ElementQuality, held: Locked) ->
 
     Inverted hexes come first.
     """
-    order = worst(np.where(figures.inverted, figures.q - 1, figures.q), figures, min(MOST, mesh.n_hexes))
+    order = worst(np.where(figures.inverted, figures.q - 1, figures.q), figures, MOST)
     rows = [
         [
             count(int(hex)),
@@ -73,7 +73,7 @@ def worst_table(name: str, mesh: Mesh, figures: ElementQuality, held: Locked) ->
 def reason(mesh: Mesh, figures: ElementQuality, held: Locked, hex: int) -> str:
     """What keeps a hex as it is, in words."""
     if held.locked[hex]:
-        return f"locked: {_corners(mesh, hex)}; {'sliding frees it' if held.freed[hex] else 'sliding does not free it'}"
+        return f"locked {_corners(mesh, hex)}; {'sliding frees it' if held.freed[hex] else 'sliding does not free it'}"
     free = int(mesh.free[mesh.hexes[hex]].sum())
     state = "inverted, not locked" if figures.inverted[hex] else "sound"
     return f"{state}, {f'{free} of 8 nodes free' if free else 'all 8 nodes fixed'}"
@@ -86,7 +86,7 @@ def _corners(mesh: Mesh, hex: int) -> str:
     corners = np.flatnonzero(mesh.fixed[tetrahedra].all(axis=1) & ~(sigma > 0))
     nodes = ", ".join(str(int(mesh.hexes[hex][corner])) for corner in corners)
     which = "at node" if corners.size == 1 else "at nodes"
-    return f"σ = {sigma[corners].min():.3g} {which} {nodes}, and all nodes there are fixed"
+    return f"{which} {nodes} by fixed nodes, σ = {sigma[corners].min():.3g}"
 
 
 def _number(value: float) -> str:

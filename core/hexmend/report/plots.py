@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -213,10 +214,12 @@ def new_figure(width: float, height: float) -> Figure:
 
 def check_matplotlib() -> None:
     """Raise `HexmendError` where matplotlib is missing."""
-    from importlib.util import find_spec
-
-    if find_spec("matplotlib") is None:
-        raise HexmendError("figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'")
+    try:
+        import_module("matplotlib.figure")
+    except ImportError:
+        raise HexmendError(
+            "figures need matplotlib, which is not installed: run  pip install 'hexmend[report]'"
+        ) from None
 
 
 def _figure(width: float = WIDTH) -> tuple[Figure, Axes]:

@@ -44,6 +44,17 @@ def test_a_report_names_its_mesh_its_methods_and_how_to_repeat_it(hexmend, mesh_
     assert "http" not in text.replace("http-equiv", "")  # nothing is asked of a network
 
 
+@pytest.mark.parametrize("name", ["two words & <b>$x_{.vtu", "odd\udcff.vtu", "-- 'quoted'.vtu"])
+def test_any_name_of_a_file_will_do(hexmend, mesh_file, tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    Path(name).write_bytes(mesh_file.read_bytes())
+    words = ["--methods", "none", "-o"]
+    assert hexmend("report", f"./{name}", *words, "report.html") == 0
+    assert hexmend("figures", f"./{name}", *words, "set") == 0
+    assert "<b>" not in Path("report.html").read_text(encoding="utf-8")
+    assert Path("set/captions.md").exists()
+
+
 def test_a_report_on_paper_has_its_pictures(hexmend, mesh_file, tmp_path):
     pytest.importorskip("weasyprint")
     path = tmp_path / "report.pdf"

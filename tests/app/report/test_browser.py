@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.quality import measure
+from hexmend.quality import measure, worst
 from hexmend_app.report.figure_set import Style
 from hexmend_app.report.page import chapter, page, write_page
 from hexmend_app.state.scene import Page, Scene
@@ -133,6 +133,18 @@ def test_a_click_tells_the_hex_and_its_values(fresh, case):
     hex = int(number.replace(",", ""))
     for version, said in ((case.versions[0], before), (case.versions[-1], after)):
         assert float(said) == pytest.approx(measure(version.mesh.points, version.mesh.hexes).q[hex], abs=1e-4)
+
+
+def test_the_table_of_the_worst_leads_to_them(fresh, case):
+    hex = int(worst(case.initial.figures.q - case.initial.figures.inverted, case.initial.figures, 1)[0])
+    before = fresh.canvas()
+    fresh.page.locator('[data-version="0"] button').first.click()
+    assert fresh.text("told").startswith(f"Hex {hex:,} – initial: q(H) ")
+    assert fresh.text("moment") == "initial"
+    assert fresh.text("count").startswith("1 of")
+    assert fresh.canvas() != before
+    fresh.control("axis").select_option("0")
+    assert not fresh.text("count").startswith("1 of")
 
 
 def test_it_counts_what_is_shown(fresh, case):

@@ -88,7 +88,7 @@ class FeatureFigures(Feature):
         from hexmend.io.recipes import write_recipe
         from hexmend.report import made_folder
         from hexmend.report.plots import check_matplotlib
-        from hexmend_app.features.figures.session_case import case_of, method_words, recipe_of
+        from hexmend_app.features.figures.session_case import case_of, recipes_of
         from hexmend_app.report.figure_set import Style, stationary, write_figures
         from hexmend_app.state.scene import write_scene
 
@@ -96,12 +96,12 @@ class FeatureFigures(Feature):
         made_folder(folder)
         scene = stationary(self.canvas.scene(Page(pixels=(self.canvas.width(), self.canvas.height()))))
         write_scene(folder / "scene.toml", scene)
-        recipe = recipe_of(self.session)
-        if recipe is not None:
-            write_recipe(folder / "recipe.toml", recipe)
+        recipes = recipes_of(self.session)
+        for name, recipe in recipes.items():
+            write_recipe(folder / name, recipe)
         path = self.session.document.path
-        methods = method_words(self.session, str(folder / "recipe.toml") if recipe is not None else "")
-        self._again = ["figures", str(path) if path is not None else "MESH", *methods]
+        methods = ",".join(str(folder / name) for name in recipes) or "none"
+        self._again = ["figures", str(path) if path is not None else "MESH", "--methods", methods]
         self._again += ["--scene", str(folder / "scene.toml"), "--format", ",".join(_FORMATS), "-o", str(folder)]
         case = case_of(self.session)
         self._folder, self._done = folder, []
@@ -126,7 +126,7 @@ class FeatureFigures(Feature):
         from hexmend_app.report.case import command_line
 
         figures = [(one, command_line([*self._again, "--only", one.part])) for one in self._done]
-        write_captions(self._folder, self.session.document.name, figures)
+        write_captions(self._folder, self.host.stem, figures)
 
     def _say(self) -> None:
         from hexmend_app.report.figure_set import PARTS

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from hexmend.parameters import declared
-from hexmend.recipe import Recipe
+from hexmend.parameters import from_values
+from hexmend.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend.study.row import Row
 from hexmend_app.report.case import INITIAL, Case, Version
@@ -31,33 +32,49 @@ def case_of(session: Session) -> Case:
             versions.append(version)
     names = {version.name for version in versions}
     named = [_renamed(version, k, names) for k, version in enumerate(versions)]
-    return Case(document.name, None, tuple(named[:_MOST]))
+    return Case(document.now.mesh.name, None, tuple(named[:_MOST]))
 
 
-def recipe_of(session: Session) -> Recipe | None:
-    """What was run last, where the mesh has changed by it."""
+def recipes_of(session: Session) -> dict[str, Recipe]:
+    """What makes the meshes of the case again from the mesh as it was opened, by the names of files.
+
+    Left out is what is not known: how the mesh came to be from which methods were compared, or the one that is shown.
+    """
+    document, comparison = session.document, session.comparison
+    run = _run(session)
+    found = {} if run is None else {"run.toml": run}
+    started = comparison.initial
+    if started is None or not comparison.results:
+        return found
+    if started.mesh.points is document.start.mesh.points:
+        before: Sequence[Stage] = ()
+    elif run is not None and started.mesh.points is document.now.mesh.points:
+        before = run.stages
+    else:
+        return found
+    stop = comparison.given().stop
+    for row in (one.row for one in comparison.results if one.row.method in METHODS):
+        method = METHODS[row.method]
+        stage = Stage(from_values(method, row.parameters, owner=row.method), stop)
+        title = f"{method.title} (compared)" if run is not None and run.title == method.title else method.title
+        found[f"{row.method}.toml"] = Recipe.of(*before, stage, title=title)
+    return found
+
+
+def _run(session: Session) -> Recipe | None:
+    """What was run last, where the mesh is its result."""
     work, document = session.smoothing.work, session.document
-    if work is None or document.now is document.start:
+    moment = session.history.moment_of(document.now)
+    if work is None or moment is None or moment.number != moment.record.result:
         return None
-    begun = session.order.begun
-    return work if isinstance(work, Recipe) else Recipe.of(begun if begun is not None else work)
-
-
-def method_words(session: Session, recipe: str) -> list[str]:
-    """The options of a command that runs the same; `recipe` is the file of `recipe_of`, "" for none."""
-    rows = [one.row for one in session.comparison.results if one.row.method in METHODS]
-    methods = [*filter(None, [recipe]), *(row.method for row in rows)]
-    return ["--methods", ",".join(methods) or "none", *(word for row in rows for word in _settings(row))]
-
-
-def _settings(row: Row) -> Sequence[str]:
-    defaults = {one.name: one.default for one in declared(METHODS[row.method])}
-    changed = {name: value for name, value in row.parameters.items() if value != defaults.get(name)}
-    return [word for name, value in changed.items() for word in ("--set", f"{row.method}.{name}={_word(value)}")]
-
-
-def _word(value: object) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    if moment.record.start.mesh.points is not document.start.mesh.points:
+        return None
+    if isinstance(work, Recipe):
+        return work
+    stage = session.order.begun or Stage(work)
+    # It may have been ended by hand.
+    stop = replace(stage.stop, max_iterations=moment.record.newest)
+    return Recipe.of(replace(stage, stop=stop), title=work.title)
 
 
 def _now(session: Session) -> Version:

@@ -1,5 +1,6 @@
 """The figure set of what a window shows."""
 
+import argparse
 import json
 import shlex
 
@@ -10,6 +11,7 @@ from PySide6.QtWidgets import QPushButton
 
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.cli import figure_set
 from hexmend_app.features.figures.session_case import case_of
 from hexmend_app.state.scene import read_scene
 from tests.app.driving import LEFT
@@ -47,7 +49,14 @@ def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtb
     commands = [line for line in (asked / "commands.sh").read_text().splitlines() if line.startswith("hexmend")]
     assert len(commands) == 5
     words = shlex.split(commands[0])
-    assert f"{asked}/recipe.toml,laplacian,getme" in words
+    assert f"{asked}/run.toml,{asked}/laplacian.toml,{asked}/getme.toml" in words
+    drawn = (asked / "distributions.svg").read_text()
+    again = figure_set.command
+    parser = argparse.ArgumentParser()
+    again.arguments(parser)
+    (repeated,) = [shlex.split(one)[2:] for one in commands if one.endswith("distributions")]
+    assert again.run(parser.parse_args(repeated)) == 0
+    assert (asked / "distributions.svg").read_text() == drawn
     assert str(window.session.document.path) in words
 
 
