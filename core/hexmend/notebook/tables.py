@@ -42,8 +42,8 @@ def of_result(result: Result, picture: bytes | None = None, problem: str = "") -
     """A run with the figures before and after, what is worse in red, and how they came about."""
     head = "<tr><th></th><th>before</th><th>after</th><th>by iteration</th></tr>"
     rows = [
-        f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, result.before)}{_cell(one, result.after, one.key in result.worse)}'
-        f"<td>{_line(one, result)}</td></tr>"
+        f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, result.before)}'
+        f"{_cell(one, result.after, one.key in result.worse)}<td>{_line(one, result)}</td></tr>"
         for one in FIGURES.values()
     ]
     table = f"<table>{head}{''.join(rows)}</table>"
