@@ -195,7 +195,7 @@ def _colours(parts: Sequence[np.ndarray], most: int) -> list[tuple[int, ...]]:
 
 
 def _along(line: np.ndarray) -> list[tuple[int, ...]]:
-    """Colours at even steps of those that a line of pixels (w, 3) goes through, that of a colour bar, and its swatches."""
+    """Colours at even steps of those that a line of pixels (w, 3) goes through, as a colour bar, and swatches."""
     through = Counter(map(tuple, line.tolist()))
     order = list(through)
     steps = [order[round(at)] for at in np.linspace(0, len(order) - 1, min(_BAR, len(order)))]
