@@ -36,7 +36,7 @@ def view(mesh: Mesh, metric: str = "q", **how: Any) -> Any:
     plotter.add_mesh(skin, scalars=declared.title, clim=_range(declared), show_edges=True, edge_opacity=0.5)
     plotter.add_axes()
     try:
-        return plotter.show(jupyter_backend=how.pop("jupyter_backend", "trame"), return_viewer=True, **how)
+        return plotter.show(jupyter_backend=how.pop("jupyter_backend", "html"), return_viewer=True, **how)
     except ImportError as error:
         raise HexmendError(f'the view needs what is not installed ({error}): pip install "hexmend[notebook]"') from None
 

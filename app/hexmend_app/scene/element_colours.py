@@ -17,12 +17,14 @@ class ElementColours:
     ----------
     values : (m,) float64
         What the colours show of each element.
+    kinds : (m,) bool or uint8
+        As in `Colouring.colours`.
     colouring : Colouring or None
         None before a frame has been measured.
     """
 
     def __init__(self) -> None:
-        self.values = np.empty(0)
+        self.values, self.kinds = np.empty(0), np.empty(0, dtype=bool)
         self.colouring: Colouring | None = None
         self._beside: tuple[float, float] | None = None
 
@@ -30,14 +32,14 @@ class ElementColours:
         """Take another frame."""
         self._frame = frame
         mesh, figures, scale, movement = frame.mesh, frame.figures, frame.look.scale, frame.movement
-        self._kinds, title = figures.inverted, ""
+        self.kinds, title = figures.inverted, ""
         if scale.metric not in MOVEMENTS:
             self.values = values(scale.metric, mesh.points, mesh.hexes, figures)
         elif movement is None:
             self.values = np.zeros(mesh.n_hexes)
         else:
             self.values = movement.values(scale.metric)
-            self._kinds = movement.kinds if scale.metric == "q-change" else figures.inverted
+            self.kinds = movement.kinds if scale.metric == "q-change" else figures.inverted
             title = movement.title(scale.metric)
         self.colouring = resolve(scale, self.values, figures.inverted, self._beside, title)
 
@@ -58,7 +60,7 @@ class ElementColours:
         opened : (k,) bool, optional
             Of a neutral look, which faces lie inside the mesh; None for all.
         """
-        kinds = self._kinds[hexes]
+        kinds = self.kinds[hexes]
         if not self._frame.look.neutral:
             return self.colouring.colours(self.values[hexes], kinds)
         return self.colouring.neutral(np.ones(len(kinds), bool) if opened is None else opened, kinds)
@@ -71,5 +73,5 @@ class ElementColours:
     @property
     def apart(self) -> list[tuple[str, int, tuple[int, int, int]]]:
         """What has a colour of its own whatever its value: name, number of elements, colour."""
-        counts = np.bincount(self._kinds, minlength=len(self.colouring.apart) + 1)
+        counts = np.bincount(self.kinds, minlength=len(self.colouring.apart) + 1)
         return [(one.name, int(counts[k]), one.colour) for k, one in enumerate(self.colouring.apart, start=1)]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend_app.state.document import State
+from hexmend_app.state.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,4 +60,23 @@ class Saved:
     session: bool
 
 
-Deed = Changed | Moved | WentBack | Saved
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """What is seen was written as a picture.
+
+    Parameters
+    ----------
+    path : Path
+    now : State
+    scene : Scene
+    alone : bool
+        Whether the picture shows nothing but the mesh as it is.
+    """
+
+    path: Path
+    now: State
+    scene: Scene
+    alone: bool
+
+
+Deed = Changed | Moved | WentBack | Saved | Drawn

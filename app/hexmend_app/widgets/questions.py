@@ -83,7 +83,10 @@ def ask_script(parent: QWidget, stem: str) -> str:
 
 def ask_film(parent: QWidget, stem: str) -> str:
     """Where to save a film of a run, "" for nowhere."""
-    kinds = "GIF animation (*.gif);;WebP animation, smaller and finer (*.webp);;PNG animation, exact (*.png)"
+    kinds = (
+        "GIF animation (*.gif);;MP4 film, for slides (*.mp4);;WebP animation, smaller and finer (*.webp);;"
+        "PNG animation, exact (*.png)"
+    )
     return _ask_to_save(parent, "Save the film as", f"{stem}.gif", kinds)
 
 

@@ -18,7 +18,7 @@ class Bench:
             action="append",
             default=[],
             help="kernels, processes, iterations, preconditioners, optima, tangled, boundaries, offsets, scaling, "
-            "sizes, memory, start, viewer, filters, views or watching; may be repeated",
+            "sizes, memory, peers, start, viewer, filters, views or watching; may be repeated",
         )
         parser.add_argument("--json", metavar="FILE", help="write the figures")
 

@@ -50,7 +50,7 @@ def view(mesh: Mesh, metric: str = "q", **how: Any) -> Any:
     metric : str
         The one that colours it: a name of `hexmend.METRICS`.
     **how
-        For PyVista's `Plotter.show`, such as `jupyter_backend="html"`, which needs no server.
+        For PyVista's `Plotter.show`, such as `jupyter_backend="trame"`, which draws where the notebook runs.
 
     Raises
     ------

@@ -15,6 +15,7 @@ from hexmend.quality.summary import FIGURES, Summary, summarise
 _ROW = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start"
 _IMAGE = "width: 480px; max-width: 100%; border-radius: 4px"
 _WORSE = "text-align: right; color: #b3261e; font-weight: 600"
+_LEFT, _SAID = "text-align: left", "max-width: 60em; margin: 0.3em 0"
 _QUIET = "opacity: 0.7; font-size: 90%"
 
 #: Figures of a run that are drawn over its iterations.
@@ -33,7 +34,7 @@ def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
         Why there is no picture.
     """
     summary = summarise(mesh)
-    rows = [f"<tr><th>{_head(one)}</th>{_cell(one, summary)}</tr>" for one in FIGURES.values()]
+    rows = [f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, summary)}</tr>' for one in FIGURES.values()]
     return _page(_title(mesh), picture, problem, f"<table>{''.join(rows)}</table>")
 
 
@@ -41,25 +42,25 @@ def of_result(result: Result, picture: bytes | None = None, problem: str = "") -
     """A run with the figures before and after, what is worse in red, and how they came about."""
     head = "<tr><th></th><th>before</th><th>after</th><th>by iteration</th></tr>"
     rows = [
-        f"<tr><th>{_head(one)}</th>{_cell(one, result.before)}{_cell(one, result.after, one.key in result.worse)}"
-        f"<td>{_line(one, result)}</td></tr>"
+        f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, result.before)}'
+        f"{_cell(one, result.after, one.key in result.worse)}<td>{_line(one, result)}</td></tr>"
         for one in FIGURES.values()
     ]
-    said = f"<p>{escape(result.message)}</p>"
-    return _page(_title(result.mesh), picture, problem, f"{said}<table>{head}{''.join(rows)}</table>")
+    table = f"<table>{head}{''.join(rows)}</table>"
+    return _page(_title(result.mesh), picture, problem, table, f'<p style="{_SAID}">{escape(result.message)}</p>')
 
 
 def _title(mesh: Mesh) -> str:
     return escape(mesh.name or "A mesh without a name")
 
 
-def _page(title: str, picture: bytes | None, problem: str, inside: str) -> str:
+def _page(title: str, picture: bytes | None, problem: str, inside: str, said: str = "") -> str:
     image = ""
     if picture is not None:
         data = b64encode(picture).decode("ascii")
         image = f'<img alt="{title}, coloured by q(H)" style="{_IMAGE}" src="data:image/png;base64,{data}"/>'
     note = f'<p style="{_QUIET}">{escape(problem)}</p>' if problem else ""
-    return f'<div><strong>{title}</strong><div style="{_ROW}">{image}<div>{inside}</div></div>{note}</div>'
+    return f'<div><strong>{title}</strong>{said}<div style="{_ROW}">{image}<div>{inside}</div></div>{note}</div>'
 
 
 def _head(figure: Figure) -> str:

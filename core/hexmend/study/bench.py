@@ -20,6 +20,7 @@ from hexmend.study.kernels import KERNELS, PRECONDITIONERS
 from hexmend.study.memory import MEMORY
 from hexmend.study.mending import OPTIMA, SIZES, TANGLED
 from hexmend.study.offsets import OFFSETS
+from hexmend.study.peers import PEERS
 from hexmend.study.processes import PROCESSES
 from hexmend.study.section import Section, by_size
 
@@ -38,7 +39,10 @@ THESIS_SECONDS_PER_NODE = {
 
 def sections() -> dict[str, Section]:
     """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
-    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, OFFSETS, SCALING, SIZES, MEMORY
+    own = (
+        KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, OFFSETS, SCALING, SIZES, MEMORY,
+        PEERS,
+    )  # fmt: skip
     found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:

@@ -29,10 +29,10 @@ _SEEDS = range(10)
 
 def _optima() -> dict[str, Any]:
     gallery = [make(name, size=size, scramble=scramble) for name, size, scramble in _MESHES]
-    return {"meshes": [_row(mesh) for mesh in itertools.chain(gallery, _real())]}
+    return {"meshes": [_row(mesh) for mesh in itertools.chain(gallery, real())]}
 
 
-def _real() -> list[Mesh]:
+def real() -> list[Mesh]:
     """The meshes of the folder that the variable HEXMEND_MESHES names, if it does, and that can be read."""
     folder = os.environ.get("HEXMEND_MESHES")
     found = []

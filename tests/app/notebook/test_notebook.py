@@ -14,7 +14,7 @@ from PIL import Image
 CELLS = (
     "import hexmend as hx\nmesh = hx.gallery.make('bridge-sharp', size=500, scramble=0.4, seed=1)\nmesh",
     "hx.smooth(mesh, 'local-sd')",
-    "hx.view(mesh, 'scaled-jacobian', jupyter_backend='html')",
+    "hx.view(mesh, 'scaled-jacobian')",
     "hx.view(mesh, 'no-such-metric')",
 )
 

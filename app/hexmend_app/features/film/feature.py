@@ -10,16 +10,13 @@ from PySide6.QtCore import QTimer
 
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
+from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.scene.export.shots import chosen, shots
 from hexmend_app.state.history import Record
 from hexmend_app.widgets.questions import ask_film
 
 if TYPE_CHECKING:
     from PIL import Image
-
-
-#: Most frames of a film, and its width in pixels: larger ones are not opened where they are sent to.
-FRAMES, WIDTH = 60, 960
 
 
 class FeatureFilm(Feature):
@@ -30,7 +27,8 @@ class FeatureFilm(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._path = Path()
-        self._count = 0
+        self._choice: FilmChoice | None = None  # what the user wanted last
+        self._count = self._rate = 0
         self._record: Record | None = None
         self._frames: list[Image.Image] = []
         self._coming: Iterator[Image.Image] | None = None
@@ -63,12 +61,19 @@ class FeatureFilm(Feature):
         return self._coming is not None
 
     def ask(self) -> None:
-        """Ask where the film goes, and make it."""
+        """Ask what the film is to be like and where it goes, and make it."""
+        timeline = self.session.timeline
+        view = self.canvas.width(), self.canvas.height()
+        usual = self._choice or FilmChoice(rate=round(timeline.speed))
+        dialog = FilmDialog(usual, view, timeline.record.newest, self.host.window)
+        if not dialog.exec():
+            return
+        self._choice = dialog.choice()
         path = ask_film(self.host.window, self.host.stem)
         if path:
-            self.film(Path(path))
+            self.film(Path(path), self._choice)
 
-    def film(self, path: Path) -> None:
+    def film(self, path: Path, choice: FilmChoice) -> None:
         """Make a film of the run that is gone through; it is written when its last frame is drawn."""
         from hexmend_app.scene.export.film import format_of, pictures
 
@@ -79,12 +84,15 @@ class FeatureFilm(Feature):
         except HexmendError as error:
             self.host.messages.show_error("The film was not made", str(error))
             return
-        numbers = chosen(history, record, FRAMES)
+        numbers = chosen(history, record, choice.frames)
         view = self.canvas.viewport
-        size = (WIDTH, round(WIDTH * self.canvas.height() / self.canvas.width() / 2) * 2)
+        size = choice.size((self.canvas.width(), self.canvas.height()))
         taken = shots(history, record, self.session.document.now.mesh, numbers)
         self._path, self._count, self._frames, self._record = path, len(numbers), [], record
-        self._coming = pictures(taken, view.frame.look, size, camera=view.camera, movement=view.frame.movement)
+        self._rate = choice.rate
+        self._coming = pictures(
+            taken, view.frame.look, size, camera=view.camera, movement=view.frame.movement, chart=choice.histogram
+        )
         self._next.start()
         self._say()
 
@@ -122,7 +130,7 @@ class FeatureFilm(Feature):
 
         self.host.said(
             "The film was not saved",
-            lambda: write_film(path, frames, self.session.timeline.speed),
+            lambda: write_film(path, frames, self._rate),
             f"Film of {len(frames)} frames saved to {path}",
         )
 

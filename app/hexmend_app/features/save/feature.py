@@ -7,9 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from hexmend.io.session import SUFFIX
+from hexmend.movement import MOVEMENTS
 from hexmend.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
+from hexmend_app.state.deeds import Drawn
+from hexmend_app.state.look import Arrows
 from hexmend_app.state.run import Phase
 from hexmend_app.state.scene import Page, Scene
 from hexmend_app.state.scene.carried import Pictured, carrying
@@ -124,8 +127,13 @@ class FeatureSave(Feature):
     def write_picture(self, path: Path, scene: Scene) -> bool:
         """Write a scene of what is seen; whether it was."""
         width, height = scene.page.size
-        return self.host.said(
+        written = self.host.said(
             "The picture was not saved",
             lambda: self.canvas.sheet(scene).write(path, self._carried(path, scene)),
             f"Picture of {width} × {height} pixels saved to {path}",
         )
+        if written:
+            still = scene.movement.arrows is Arrows.NONE and scene.colours.metric not in MOVEMENTS
+            alone = still and not self.session.views.all
+            self.session.commands.done.emit(Drawn(path, self.session.document.now, scene, alone))
+        return written

@@ -14,13 +14,26 @@ from hexmend.io.atomic import replacing
 from hexmend.optimise import Outcome, Result
 from hexmend.smoothers import METHODS
 from hexmend_app.features.script.runs import Told
-from hexmend_app.features.script.words import called, made
-from hexmend_app.state.deeds import Changed, Deed, Moved, Saved, WentBack
+from hexmend_app.features.script.words import called, lines_of, made
+from hexmend_app.state.deeds import Changed, Deed, Drawn, Moved, Saved, WentBack
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Moment, Record
+from hexmend_app.state.scene import to_toml
 from hexmend_app.state.session import Session
 from hexmend_app.state.session_data import SessionData, numbered
 from hexmend_app.state.stepping import Swept
+
+_RENDER_IMPORTS = "import subprocess", "import sys", "import tempfile", "from pathlib import Path"
+#: What draws a picture as the window has drawn it.
+_RENDER = """
+def render(mesh, scene, path):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        hx.write(folder / "mesh.vtu", mesh)
+        (folder / "scene.toml").write_text(scene, encoding="utf-8")
+        words = ["render", "--scene", folder / "scene.toml", folder / "mesh.vtu", "-o", path]
+        subprocess.run([sys.executable, "-m", "hexmend", *words], check=True, stdout=subprocess.DEVNULL)
+"""
 
 #: Outcomes of a run that hang on when it was ended, not on what it found.
 _BY_CLOCK = (Outcome.STOPPED.key, Outcome.MAX_SECONDS.key)
@@ -84,6 +97,8 @@ class Script(QObject):
         if plain:
             head += [*plain, ""]
         head += ["import hexmend as hx", *(one for one in imports if one not in plain)]
+        if "\nrender(" in body:
+            head = [*head[:2], *_RENDER_IMPORTS, "", *head[2:], "", _RENDER]
         return "\n".join([*head, "", body, ""]) if body else "\n".join([*head, ""])
 
     def write(self, path: str | Path) -> None:
@@ -117,6 +132,11 @@ class Script(QObject):
                 self._put(f"{'undo' if deed.undone else 'redo'} {deed.title}: on with {self.name(deed.now)}")
             case Saved(session=True):
                 self._put(f"the session was saved as {deed.path}")
+            case Drawn(alone=False):
+                self._put(f"the picture {deed.path} shows more than one mesh: it carries its scene, for hexmend render")
+            case Drawn():
+                drawn = f"{self.name(deed.now)}, {lines_of(to_toml(deed.scene))}, {_quoted(deed.path)}"
+                self._put("picture", f"render({drawn})")
             case Saved():
                 self._put("save", f"hx.write({_quoted(deed.path)}, {self.name(deed.now)})")
 

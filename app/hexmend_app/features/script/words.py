@@ -59,6 +59,17 @@ def called(mesh: str, change: Callable[..., Any], values: Sequence[Any]) -> str:
     return f"{change.__name__}({words})" + "[0].keeping_surface()" * (change is repair)
 
 
+def lines_of(text: str) -> str:
+    """Text of several lines, as lines where Python takes them as they are.
+
+    >>> print(lines_of("a = 1"))
+    \"\"\"\\
+    a = 1\"\"\"
+    """
+    plain = '"""' not in text and "\\" not in text and not text.endswith('"')
+    return f'"""\\\n{text}"""' if plain else repr(text)
+
+
 def numbers(values: int | Sequence[int] | np.ndarray) -> str:
     """Whole numbers: one, or a list, in which what is counted through is a range.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
@@ -12,7 +13,9 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
 from hexmend.movement import Moment, Movement
+from hexmend_app.scene.export.chart import histogram
 from hexmend_app.scene.export.frames import INK, colour_bar, letters, paper, pen_of, strip_height
+from hexmend_app.scene.export.movie import check_installed, write_movie
 from hexmend_app.scene.export.shots import Shot
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.pane import Pane
@@ -21,10 +24,14 @@ from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look, Since
 
 #: What can be written, by suffix: all are shown by browsers.
-FORMATS = {".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
+FORMATS = {".mp4": "MP4", ".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
 
-#: Colours of a GIF, shared by all its frames: what a map, an edge and a shade need.
-_COLOURS = 128
+#: Colours of a GIF, shared by all its frames: what a map, an edge and a shade need, and the colour bar, which would
+#: have bands if it had to do with those.
+_COLOURS, _BAR, _AXES = 116, 120, 16
+
+#: Share of the width that a histogram has.
+_CHART = 0.32
 
 #: How long the first and the last frame stand, in frames.
 _STAND = 8
@@ -38,6 +45,7 @@ def pictures(
     view: str | tuple[float, float, float] = "iso",
     camera: vtkCamera | None = None,
     movement: Movement | None = None,
+    chart: bool = False,
 ) -> Iterator[Image.Image]:
     """Draw frames one after another, off screen, with one camera.
 
@@ -54,10 +62,14 @@ def pictures(
     movement : Movement, optional
         Of the moment that every picture is compared with, where the look shows a movement; one since the iteration
         before is since the picture before.
+    chart : bool
+        Whether the distribution of what the colours show stands beside.
     """
     width, height = size
     strip = strip_height(size)
-    with Stage((width, height - (1 if look.neutral else 2) * strip)) as stage:
+    chart = chart and strip > 0 and not look.neutral
+    aside = round(_CHART * width) if chart else 0
+    with Stage((width - aside, height - (1 if look.neutral else 2) * strip)) as stage:
         viewport = Viewport(Pane(stage.window), pen=pen_of(size))
         seen_last: Moment | None = None
         for shot in shots:
@@ -81,9 +93,16 @@ def pictures(
 
 
 def _framed(seen: Image.Image, shot: Shot, viewport: Viewport, size: tuple[int, int], strip: int) -> Image.Image:
-    """A caption above, and below the colour bar where there are colours."""
+    """A caption above, below the colour bar where there are colours, and a histogram where the picture leaves room."""
     whole = paper(size, seen.mode)
     whole.paste(seen, (0, strip))
+    aside = size[0] - seen.width
+    if aside:
+        colours = viewport.colours
+        beside = histogram(
+            colours.values, colours.kinds, viewport.colouring, (aside, seen.height), strip / 30, seen.mode
+        )
+        whole.paste(beside, (seen.width, strip))
     if strip:
         at = (round(0.3 * strip), strip / 2)
         ImageDraw.Draw(whole).text(at, shot.caption, INK, letters(0.42 * strip), anchor="lm")
@@ -94,7 +113,7 @@ def _framed(seen: Image.Image, shot: Shot, viewport: Viewport, size: tuple[int, 
 
 
 def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
-    """Write frames as a GIF, an animated PNG or a WebP that repeats for ever; the first and the last stand longer.
+    """Write frames as MP4, or as a GIF, an animated PNG or a WebP that repeats; the first and the last stand longer.
 
     Parameters
     ----------
@@ -110,16 +129,20 @@ def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
         For a suffix that is none of `FORMATS`, or where the file cannot be written.
     """
     format = format_of(path)
-    each = round(1000 / rate)
-    lengths = [each] * len(frames)
-    lengths[0] = lengths[-1] = _STAND * each
+    lengths = [1] * len(frames)
+    lengths[0] = lengths[-1] = _STAND
     if format == "GIF":
         frames = _with_one_palette(frames)
     with replacing(path) as temporary:
+        if format == "MP4":
+            write_movie(temporary, frames, lengths, rate)
+            return
         first, *others = frames
         first.save(
-            temporary, format=format, save_all=True, append_images=others, duration=lengths, loop=0, optimize=True
-        )
+            temporary, format=format, save_all=True, append_images=others,
+            duration=[round(1000 / rate) * one for one in lengths],
+            loop=0, optimize=True,
+        )  # fmt: skip
 
 
 def format_of(path: Path) -> str:
@@ -128,16 +151,52 @@ def format_of(path: Path) -> str:
     Raises
     ------
     FileError
-        For another suffix.
+        For another suffix, or where what writes it is not installed.
     """
-    return FORMATS[suffix_for(path, "a film", FORMATS)]
+    format = FORMATS[suffix_for(path, "a film", FORMATS)]
+    if format == "MP4":
+        check_installed(path)
+    return format
 
 
 def _with_one_palette(frames: Sequence[Image.Image]) -> list[Image.Image]:
     """Frames of few colours, the same for all: what does not change then takes no room."""
-    some = np.concatenate([np.asarray(frames[k]).reshape(-1, 3) for k in (0, len(frames) // 2, -1)])
-    colours, counts = np.unique(some, axis=0, return_counts=True)
-    # By the root of how often they are seen: or the ground would leave no colours to the mesh and the bar.
+    some = [np.asarray(frames[k].convert("RGB")) for k in (0, len(frames) // 2, -1)]
+    strip = strip_height(frames[0].size)
+    table = _colours([one[: len(one) - strip] for one in some], _COLOURS)
+    if strip:
+        table += _along(some[-1][-strip:][strip // 4])
+        low, corner = len(some[-1]) - strip, 3 * strip
+        table += _colours([some[-1][low - corner : low, :corner]], _AXES)
+    return [_by_palette(one, table) for one in frames]
+
+
+def _by_palette(frame: Image.Image, table: Sequence[tuple[int, ...]]) -> Image.Image:
+    """A frame in the nearest colours of a table; Pillow's own search takes neighbours in a gradient for one."""
+    from scipy.spatial import KDTree
+
+    pixels = np.asarray(frame.convert("RGB")).astype(np.uint32)
+    packed, where = np.unique(pixels[..., 0] << 16 | pixels[..., 1] << 8 | pixels[..., 2], return_inverse=True)
+    unpacked = np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=1)
+    _, nearest = KDTree(np.array(table)).query(unpacked)
+    answer = Image.fromarray(nearest.astype(np.uint8)[where].reshape(pixels.shape[:2]), "P")
+    answer.putpalette([part for colour in table for part in colour])
+    return answer
+
+
+def _colours(parts: Sequence[np.ndarray], most: int) -> list[tuple[int, ...]]:
+    """The colours, `most` at most, that stand for those of some pictures (h, w, 3) best."""
+    pixels = np.concatenate([part.reshape(-1, 3) for part in parts])
+    colours, counts = np.unique(pixels, axis=0, return_counts=True)
+    # By the root of how often they are seen: or the ground would leave no colours to the mesh.
     weighted = np.repeat(colours, np.ceil(np.sqrt(counts)).astype(int), axis=0)
-    palette = Image.fromarray(weighted[None]).quantize(_COLOURS, method=Image.Quantize.MEDIANCUT)
-    return [one.quantize(palette=palette, dither=Image.Dither.NONE) for one in frames]
+    chosen = Image.fromarray(weighted[None]).quantize(most, method=Image.Quantize.MEDIANCUT).convert("RGB")
+    return sorted({tuple(map(int, one)) for one in np.unique(np.asarray(chosen).reshape(-1, 3), axis=0)})
+
+
+def _along(line: np.ndarray) -> list[tuple[int, ...]]:
+    """Colours at even steps of those that a line of pixels (w, 3) goes through, as a colour bar, and swatches."""
+    through = Counter(map(tuple, line.tolist()))
+    order = list(through)
+    steps = [order[round(at)] for at in np.linspace(0, len(order) - 1, min(_BAR, len(order)))]
+    return list(dict.fromkeys([*steps, *(colour for colour, count in through.most_common(4))]))

@@ -5,13 +5,37 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from PIL import Image
+from PySide6.QtCore import QPoint
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QCheckBox, QComboBox, QPushButton, QSpinBox
 
-from hexmend_app.features.film.feature import WIDTH
-from tests.app.driving import LEFT, turn
+from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
+from tests.app.driving import LEFT, named, turn
 from tests.app.features.timeline.test_feature import stepped
 from tests.patience import PATIENCE
+
+
+@pytest.fixture(autouse=True)
+def agreed(monkeypatch):
+    """The dialog is agreed to as a hand would have it."""
+
+    def agree(dialog):
+        size = named(dialog, QComboBox, "Size")
+        size.setCurrentIndex(size.findData(640))
+        named(dialog, QSpinBox, "Rate").setValue(20)
+        return True
+
+    monkeypatch.setattr(FilmDialog, "exec", agree)
+
+
+def test_the_dialog_shows_what_was_wanted_and_gives_what_is(shown):
+    wanted = FilmChoice(1280, 25, 100, True)
+    dialog = shown(FilmDialog(wanted, (1000, 600), 40))
+    assert dialog.choice() == wanted
+    assert named(dialog, QComboBox, "Size").currentText() == "1280 × 768 pixels"
+    tick = named(dialog, QCheckBox, "Histogram")
+    QTest.mouseClick(tick, LEFT, pos=QPoint(8, tick.height() // 2))
+    assert not dialog.choice().histogram
 
 
 @pytest.mark.parametrize("suffix", [".gif", ".png", ".webp"])
@@ -31,7 +55,7 @@ def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkey
     assert said == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
     assert "6 frames" in " ".join(window.messages.messages()[-1])
     with Image.open(path) as film:
-        assert (film.n_frames, film.width) == (record.newest + 1, WIDTH)
+        assert (film.n_frames, film.width) == (record.newest + 1, 640)
         frames = []
         for k in range(film.n_frames):
             film.seek(k)
@@ -55,4 +79,4 @@ def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path
     path = tmp_path / "run.avi"
     window.actions["film"].trigger()
     assert not window.features["film"].going_on
-    assert "Use .gif, .png or .webp." in " ".join(window.messages.messages()[-1])
+    assert "Use .mp4, .gif, .png or .webp." in " ".join(window.messages.messages()[-1])
