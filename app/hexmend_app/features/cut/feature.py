@@ -128,7 +128,8 @@ class FeatureCut(Feature):
         if not document.is_open:
             return
         # Before the bounds: what is not cut is proposed anew in another mesh.
-        if self._seen.another("clip", document.start, view.look.clip, view.plane_at, view.handles):
+        seen = not self._seen.another("clip", document.start, view.look.clip, view.plane_at, view.handles)
+        if not seen or self.panel.clip() != view.look.clip:  # switched off and on again between two looks
             self.panel.set_clip(view.look.clip, view.plane_at)
             self.panel.set_handles(view.handles)
         if self._seen.another("mesh", document.start):

@@ -113,3 +113,15 @@ def test_two_planes_cut_a_corner_out(window, qtbot):
     press(named(window.features["cut"].panel, QPushButton, "Remove the plane"))
     assert isinstance(window.session.view.look.clip, PlaneClip)
     assert window.canvas.viewport.shown == one
+
+
+def test_a_cut_that_is_switched_off_and_on_at_once_is_shown_as_on(window):
+    window.actions["cut"].trigger()
+    window.refresh()
+    box = named(window, QCheckBox, "Cut")
+    assert box.isChecked()
+    clip = window.session.view.look.clip
+    box.click()
+    window.session.view.set_clip(clip)
+    window.refresh()
+    assert box.isChecked()
