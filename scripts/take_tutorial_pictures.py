@@ -26,7 +26,6 @@ def show_inverted(window: Window) -> None:
 
 def compare(window: Window) -> None:
     """Run the methods that are ticked at first, and lay Laplacian smoothing and mend over one another."""
-    window.show_panel("compare")
     set_method(window, "mend")
     window.action("compare").trigger()
     until(lambda: window.session.comparison.results and not window.session.comparison.busy)

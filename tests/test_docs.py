@@ -50,11 +50,11 @@ def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
     text = (DOCS / "tutorial.md").read_text(encoding="utf-8")
     listed = "".join(re.findall(r"^```\n(.*?)^```", text, re.DOTALL | re.MULTILINE))
     commands = [line.split()[1:] for line in re.findall(r"^hexmend .+", listed, re.MULTILINE)]
-    assert {words[0] for words in commands} == {"gallery", "info", "smooth", "compare", "render"}
+    assert {words[0] for words in commands} == {"gallery", "info", "smooth", "compare", "render", "report"}
     monkeypatch.chdir(tmp_path)
     assert [main(words) for words in commands] == [0] * len(commands)
     for words in commands:
-        for file in re.findall(r"\S+\.(?:vtu|pdf|json)", " ".join(words)):
+        for file in re.findall(r"\S+\.(?:vtu|pdf|json|html)", " ".join(words)):
             assert (tmp_path / file).is_file()
     said = capsys.readouterr().out
     for figure in re.findall(r"[\d,]+(?= hexes| of them inverted| iterations)", text):

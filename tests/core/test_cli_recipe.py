@@ -1,6 +1,7 @@
 """Recipes on the command line, and those that come with Hexmend."""
 
 import json
+import shlex
 from pathlib import Path
 
 import pytest
@@ -83,6 +84,9 @@ def test_what_to_try_next_is_printed_where_hexes_are_still_inverted(tmp_path, ca
     said = capsys.readouterr().out
     assert "12 of 864 hexes are inverted. 125 were at the start." in said
     assert "To try next: Run Mend: it untangles whatever the fixed nodes allow" in said
+    line = next(line for line in said.splitlines() if line.startswith("      hexmend "))
+    words = [str(tmp_path / "mended.vtu") if word == "OUT" else word for word in shlex.split(line)]
+    assert main(words[1:]) == 0  # the command that stands below it does it
 
 
 def test_recipes_are_compared_with_methods(mesh, recipe, tmp_path, capsys):

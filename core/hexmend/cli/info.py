@@ -77,7 +77,10 @@ class Info:
             print(f"Second order: {curved.words}.")
         if args.metrics:
             print_spreads(metrics)
-        for finding in examine(mesh, quick=not args.doctor):
+        findings = examine(mesh, quick=not args.doctor)
+        if args.doctor and not findings:
+            print("The doctor finds nothing to mend; the shape of hexes is for hexmend smooth.")
+        for finding in findings:
             print(f"note: {finding.message} {finding.remedy}".rstrip())
             if args.doctor and finding.places():
                 print(f"      {finding.places(FIRST)}")

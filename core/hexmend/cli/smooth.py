@@ -38,6 +38,7 @@ class Smooth:
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
+        from hexmend.cli.command.suggested import command_of
         from hexmend.cli.tables import print_summaries
         from hexmend.fixing import hexes_of, with_region_free, with_sets_fixed
         from hexmend.io import read, write_recipe, writer_for
@@ -84,7 +85,11 @@ class Smooth:
         if not result.after.inverted:
             return 0
         advice = advise(result)
-        print("\n".join([advice.left, *(f"To try next: {one.text}" for one in advice.suggestions)]))
+        print(advice.left)
+        for one in advice.suggestions:
+            print(f"To try next: {one.text}")
+            if line := command_of(one, args.mesh, args.output):
+                print(f"      {line}")
         return 4
 
 

@@ -201,6 +201,15 @@ def test_info_says_where_and_by_which_command(tmp_path, capsys):
     assert "9 pairs of boundary faces lie on each other" in said
     assert "--only coincident-nodes" in said
     assert "nodes 64, " in said
+    assert "finds nothing" not in said
+
+
+def test_info_says_that_the_doctor_found_nothing(tmp_path, capsys):
+    io.write(tmp_path / "sound.vtu", SOUND)
+    assert main(["info", str(tmp_path / "sound.vtu")]) == 0
+    assert "The doctor finds" not in capsys.readouterr().out
+    assert main(["info", str(tmp_path / "sound.vtu"), "--doctor"]) == 0
+    assert "The doctor finds nothing to mend" in capsys.readouterr().out
 
 
 def test_repair_writes_the_mended_mesh_and_says_what_was_done(tmp_path, capsys):

@@ -140,6 +140,7 @@ class FeatureCompare(Feature):
             if self.session.commands.may_run(*smoothers):
                 self._close_results()
                 self._comparison.start(smoothers, stage.stop)
+                self.host.show_panel("compare")  # by its key it starts from anywhere
 
     def _state_of(self, name: str) -> State:
         return self._comparison.initial if name == INITIAL else self._comparison.of(name).state

@@ -138,6 +138,15 @@ def test_what_is_worse_than_the_initial_mesh_stands_out(comparing, qtbot, tmp_pa
     assert "worse" not in (cell("smart-laplacian", "inverted").data(Qt.ItemDataRole.AccessibleTextRole) or "")
 
 
+def test_the_key_brings_the_table_to_the_front(comparing, qtbot):
+    choose_methods(comparing, "laplacian")
+    comparing.show_panel("outcome")
+    key(comparing, Qt.Key.Key_F6)
+    assert comparing.in_front("compare")
+    qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
+    assert model(comparing).entries[row(comparing, "laplacian")].record["iterations"] == 4
+
+
 def test_a_click_on_a_head_sorts_and_the_initial_mesh_stays_first(compared):
     header = table_of(compared).horizontalHeader()
     column = COLUMN["q_mean"]

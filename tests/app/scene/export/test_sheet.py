@@ -214,3 +214,15 @@ def test_a_name_is_written_as_it_is_and_never_beyond_its_panel(name):
     plain, other = (draw_sheet(Scene(page=page, **BARE), [Subject.of(grid(2), "b"), Subject.of(grid(2), text)])
                     for text in ("", name))  # fmt: skip
     assert np.array_equal(pixels(plain)[:, :245], pixels(other)[:, :245])
+
+
+def test_captions_have_letters_of_one_size(tmp_path):
+    page = Page(90, 40)
+    sizes = {}
+    for name in ("b", "mended by m"):
+        sheet = draw_sheet(Scene(page=page, **BARE), [Subject.of(grid(2), "a"), Subject.of(grid(2), name)])
+        sheet.write(tmp_path / "p.svg")
+        texts = re.findall(r'<text style="[^"]*font-size: ([0-9.]+)px[^>]*>([^<]*)', (tmp_path / "p.svg").read_text())
+        assert name in [text for _, text in texts]
+        (sizes[name],) = {float(size) for size, _ in texts}
+    assert sizes["mended by m"] < sizes["b"]

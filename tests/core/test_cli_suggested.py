@@ -1,0 +1,20 @@
+"""The command that stands below a suggestion."""
+
+import numpy as np
+
+from hexmend.advice import Suggestion
+from hexmend.cli.command.suggested import command_of
+from hexmend.optimise import Stop
+from hexmend.smoothers import METHODS
+
+
+def test_a_command_says_what_a_suggestion_says():
+    def command(*args, **more):
+        return command_of(Suggestion("", "", "inverted", *args, **more), "a b.vtk", "out.vtk")
+
+    assert command(METHODS["mend"](boundary="slide")) == "hexmend smooth out.vtk -o OUT --boundary slide"
+    assert command(METHODS["getme"](), undo=True) == "hexmend smooth 'a b.vtk' -o OUT --method getme"
+    assert command(METHODS["mend"](), Stop(max_iterations=7, keep_last=True)).endswith(
+        " OUT --max-iterations 7 --keep-last"
+    )
+    assert command(METHODS["mend"](), unpin=np.array([3])) == ""
