@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import shlex
 import tomllib
 from importlib.metadata import EntryPoint
@@ -123,3 +124,16 @@ def test_a_real_mesh_fits_into_a_page(hexmend, real_mesh, tmp_path):
         == 0
     )
     assert path.stat().st_size < 10e6
+
+
+def test_a_file_whose_name_is_no_text_is_reported(hexmend, mesh_file, tmp_path):
+    odd = Path(os.fsdecode(os.fsencode(tmp_path / "bad") + b"\xff.vtk"))
+    try:
+        odd.write_bytes(mesh_file.read_bytes())
+    except OSError:
+        pytest.skip("names are text here")
+    page, folder = tmp_path / "report.html", tmp_path / "set"
+    assert hexmend("report", odd, "--methods", "laplacian", "-o", page) == 0
+    assert "bad?" in page.read_text(encoding="utf-8")
+    assert hexmend("figures", odd, "--methods", "none", "-o", folder) == 0
+    assert os.fsencode(odd) in (folder / "commands.sh").read_bytes()
