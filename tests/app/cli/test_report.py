@@ -137,3 +137,12 @@ def test_a_file_whose_name_is_no_text_is_reported(hexmend, mesh_file, tmp_path):
     assert "bad?" in page.read_text(encoding="utf-8")
     assert hexmend("figures", odd, "--methods", "none", "-o", folder) == 0
     assert os.fsencode(odd) in (folder / "commands.sh").read_bytes()
+
+
+def test_commands_of_a_report_take_no_name_for_an_option(hexmend, mesh_file, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("-x.vtk").write_bytes(mesh_file.read_bytes())
+    assert hexmend("report", "./-x.vtk", "--methods", "laplacian", "-o", "report.html") == 0
+    page = Path("report.html").read_text(encoding="utf-8")
+    assert "-o ./-x-figures" in page
+    assert "-o ./-x-results" in page
