@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from hexmend.errors import ParameterError
 
 #: Letters of a text, and dots in a key: a parser takes the square of these in memory.
 LARGEST, DEEPEST = 1_000_000, 8
+
+#: Strings of several lines and of one, and comments; one that has no end goes as far as a parser looks for it.
+_STRING_OR_COMMENT = re.compile(
+    r'"""(?:\\.|[^"\\]|"(?!""))*+(?:"{3,5})?'
+    r"|'''(?:[^']|'(?!''))*+(?:'{3,5})?"
+    r'|"(?:\\[^\n]|[^"\\\n])*+"?'
+    r"|'[^'\n]*+'?"
+    r"|#[^\n]*+",
+    re.DOTALL,
+)
+
+#: The dots of a key with too many parts.
+_DEEP_KEY = re.compile(rf'(?:\.[ \t]*+(?:[\w-]++|"")?[ \t]*+){{{DEEPEST + 1}}}')
 
 
 def parsed(text: str, what: str, largest: int = LARGEST) -> dict[str, Any]:
@@ -51,6 +65,8 @@ def parsed(text: str, what: str, largest: int = LARGEST) -> dict[str, Any]:
 def _check_size(text: str, what: str, largest: int) -> None:
     if len(text) > largest:
         raise ParameterError(f"has {len(text):,} letters: expected {what}, of {largest:,} at most")
-    for number, line in enumerate(text.splitlines(), 1):
-        if line.partition("=")[0].count(".") > DEEPEST:
-            raise ParameterError(f"line {number} has a key of more than {DEEPEST} parts")
+    # Strings may hold anything, and may be keys themselves: each is taken for an empty one, of as many lines.
+    bare = _STRING_OR_COMMENT.sub(lambda found: '""' + "\n" * found[0].count("\n"), text)
+    if deep := _DEEP_KEY.search(bare):
+        number = bare.count("\n", 0, deep.start()) + 1
+        raise ParameterError(f"line {number} has a key of more than {DEEPEST} parts")

@@ -21,6 +21,11 @@ function joined(bytes, [start, count], Type) {
   return new Type(answer.buffer);
 }
 
+/** A number in four figures. */
+function figure(value) {
+  return Number.isNaN(value) ? "none" : Number(value.toPrecision(4)).toString();
+}
+
 /** Points, hexes and values of a mesh in one state or several: as it was given, and as methods left it. */
 class HexMesh {
   /**
@@ -84,6 +89,14 @@ class HexMesh {
     const { from, to, steps } = this.head.metrics[metric];
     const step = this.states[state].values[metric][hex]; // the number after the last step is none
     return step > steps ? NaN : from + ((to - from) * step) / steps;
+  }
+
+  /** A value of a hex in words; of what lies beyond the values that are kept, their end is known alone. */
+  said(state, metric, hex) {
+    const { open, steps } = this.head.metrics[metric];
+    const step = this.states[state].values[metric][hex];
+    const beyond = open && step === 0 ? "≤ " : open && step === steps ? "≥ " : "";
+    return beyond + figure(this.value(state, metric, hex));
   }
 
   /**

@@ -167,9 +167,9 @@ class Viewer {
       return;
     }
     const [first, second] = [...new Set(this.states)].map((state) => {
-      const own = mesh.head.metrics.map(({ title }, metric) => [title, mesh.value(state, metric, chosen)]);
+      const own = mesh.head.metrics.map(({ title }, metric) => [title, mesh.said(state, metric, chosen)]);
       const wanted = own.filter((_, metric) => metric < 2 || metric === this.metric);
-      const said = wanted.map(([title, value]) => `${title} ${figure(value)}`).join(", ");
+      const said = wanted.map(([title, value]) => `${title} ${value}`).join(", ");
       return `${said}${mesh.states[state].inverted[chosen] ? ", inverted" : ""}`;
     });
     const after = second ? `; ${names[1]}: ${second}` : "";
@@ -228,11 +228,6 @@ class Viewer {
     if (this.camera.aspect !== size[0] / size[1]) this.camera.fit(size[0] / size[1]);
     this.painter.draw(this.camera.matrices(), this.how);
   }
-}
-
-/** A number in four figures. */
-function figure(value) {
-  return Number.isNaN(value) ? "none" : Number(value.toPrecision(4)).toString();
 }
 
 function element(name, text) {

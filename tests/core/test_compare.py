@@ -9,11 +9,13 @@ import pytest
 from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.errors import ParameterError
+from hexmend.io import write_recipe
 from hexmend.quality import Summary, summarise
+from hexmend.recipe import Recipe
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS
 from hexmend.study import row as one_row
-from hexmend.study.chosen import chosen
+from hexmend.study.chosen import chosen, split
 from hexmend.study.compare import compare
 from hexmend.study.row import BINS
 
@@ -161,3 +163,13 @@ def test_what_is_wrong_is_said_before_the_work(words, status, message, file, tmp
     (line,) = capsys.readouterr().err.splitlines()
     assert message in line
     assert not (tmp_path / "tables").exists()
+
+
+def test_a_recipe_in_a_folder_with_commas_is_one_method(tmp_path, monkeypatch):
+    (tmp_path / "a, b").mkdir()
+    path = tmp_path / "a, b" / "c,d.toml"
+    write_recipe(path, Recipe.of(METHODS["laplacian"]()))
+    monkeypatch.chdir(tmp_path)
+    assert split(f"mend, {path},laplacian") == ["mend", str(path), "laplacian"]
+    assert split("a, b/c,d.toml,getme") == ["a, b/c,d.toml", "getme"]
+    assert split("a, b/e.toml") == ["a", "b/e.toml"]

@@ -77,6 +77,7 @@ class Report:
 
 def _again(path: str, name: str, given: list[str], methods: list[str]) -> list[list[str]]:
     """Commands that tell of a mesh what the report does."""
+    name = f"./{name}" if name.startswith("-") else name  # which would be an option
     again = [["info", path, "--doctor", "--metrics"], ["figures", path, *given, "-o", f"{name}-figures"]]
     return [*again, ["compare", path, *methods, "--write-meshes", "-o", f"{name}-results"]] if methods else again
 

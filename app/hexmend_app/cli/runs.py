@@ -52,10 +52,10 @@ def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], Stop]:
     from hexmend.cli.command.limits import given_limits, limits
     from hexmend.cli.command.method import with_boundary
     from hexmend.smoothers import DEFAULT_METHOD
-    from hexmend.study.chosen import chosen
+    from hexmend.study.chosen import chosen, split
 
     text = args.methods or DEFAULT_METHOD
-    named = [] if text == NONE else [name.strip() for name in text.split(",")]
+    named = [] if text == NONE else split(text)
     settings = with_boundary(args, [name for name in named if not name.endswith(".toml")])
     return chosen(named, settings, given_limits(args)), limits(args)
 

@@ -176,9 +176,9 @@ def run_methods(
 
 
 def command_line(words: Sequence[str]) -> str:
-    """The words of a command as a shell takes them; bytes of a path that are no letters are question marks.
+    """The words of a command as a shell takes them; bytes of a path that are no letters stay, for what can hold them.
 
     >>> command_line(["report", "two words.vtk"])
     "hexmend report 'two words.vtk'"
     """
-    return shlex.join(["hexmend", *words]).encode("utf-8", "replace").decode()
+    return shlex.join(["hexmend", *words])

@@ -108,7 +108,8 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, alive: bool) 
         parts += [f"<section>{html.heading(2, one.name, id=f'mesh-{number}', **kind)}", one.body, "</section>"]
     parts += [f"</main><footer><p>{escape('This page was made by:')}</p>{html.commands([command])}</footer>"]
     parts += [f"<script>{script()}</script>"] if alive else []
-    return "\n".join([*parts, "</body></html>"])
+    whole = "\n".join([*parts, "</body></html>"])
+    return whole.encode("utf-8", "replace").decode("utf-8")  # names of files need not be text
 
 
 def write_page(path: Path, text: str) -> None:

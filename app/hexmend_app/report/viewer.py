@@ -153,7 +153,7 @@ def _metric(
     with np.errstate(invalid="ignore", over="ignore"):
         steps = [np.rint(np.clip((one - low) / (high - low), 0, 1) * most) for one in values]
     kept = [np.where(np.isnan(one), most + 1, one).astype(np.uint16) for one in steps]
-    declared = np.isfinite(metric.full_range).all()
+    declared = bool(np.isfinite(metric.full_range).all())
     kind = {
         "name": metric.name,
         "title": metric.title,
@@ -162,6 +162,7 @@ def _metric(
         "steps": most,
         "from": low,
         "to": high,
+        "open": not declared,  # what lies beyond these two is kept as they are
         "low": max(low, 0.0) if declared else low,  # what is negative is inverted, and has a colour of its own
         "high": high,
     }

@@ -47,10 +47,10 @@ class Compare:
         from hexmend.io import read, write, writer_for
         from hexmend.report import comparison_rows, made_folder, table_of, write_documents
         from hexmend.smoothers import METHODS
-        from hexmend.study.chosen import chosen
+        from hexmend.study.chosen import chosen, split
         from hexmend.study.compare import compare
 
-        names = [name.strip() for name in args.methods.split(",")] if args.methods else list(METHODS)
+        names = split(args.methods) if args.methods else list(METHODS)
         settings = with_boundary(args, [name for name in names if not name.endswith(".toml")])
         smoothers, stop = chosen(names, settings, given_limits(args)), limits(args)
         mesh = read(args.mesh)

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from hexmend.figures import printable
 from hexmend.optimise.figures import HISTORY
 from hexmend.report.convergence import DrawnChart, DrawnCurve, write_convergence_figure
 from hexmend.report.plots import COLOURS, Outline, check_matplotlib, write_histogram_figure
@@ -92,8 +93,8 @@ def _letters() -> Iterator[None]:
 
 
 def _plain(text: str) -> str:
-    """A text in which matplotlib finds no formula: names come from files."""
-    return text.replace("$", r"\$")
+    """A text in which matplotlib finds no formula, and nothing that it or SVG cannot hold: names come from files."""
+    return printable(text).replace("$", r"\$")
 
 
 def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> list[DrawnCurve]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from hexmend.errors import ParameterError
@@ -11,6 +12,22 @@ from hexmend.io import read_recipe
 from hexmend.parameters import declared, from_strings
 from hexmend.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
+
+
+def split(text: str) -> list[str]:
+    """Names between commas; where a recipe's path has commas itself and is there, it is one name.
+
+    >>> split("laplacian, mend")
+    ['laplacian', 'mend']
+    """
+    names: list[str] = []
+    parts = text.split(",")
+    while parts:
+        paths = {end: ",".join(parts[:end]).strip() for end in range(len(parts), 1, -1)}
+        end = next((end for end, path in paths.items() if path.endswith(".toml") and Path(path).is_file()), 1)
+        names.append(",".join(parts[:end]).strip())
+        del parts[:end]
+    return names
 
 
 def chosen(

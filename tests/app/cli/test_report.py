@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import shlex
 import tomllib
 from importlib.metadata import EntryPoint
@@ -123,3 +124,25 @@ def test_a_real_mesh_fits_into_a_page(hexmend, real_mesh, tmp_path):
         == 0
     )
     assert path.stat().st_size < 10e6
+
+
+def test_a_file_whose_name_is_no_text_is_reported(hexmend, mesh_file, tmp_path):
+    odd = Path(os.fsdecode(os.fsencode(tmp_path / "bad") + b"\xff.vtk"))
+    try:
+        odd.write_bytes(mesh_file.read_bytes())
+    except OSError:
+        pytest.skip("names are text here")
+    page, folder = tmp_path / "report.html", tmp_path / "set"
+    assert hexmend("report", odd, "--methods", "laplacian", "-o", page) == 0
+    assert "bad?" in page.read_text(encoding="utf-8")
+    assert hexmend("figures", odd, "--methods", "none", "-o", folder) == 0
+    assert os.fsencode(odd) in (folder / "commands.sh").read_bytes()
+
+
+def test_commands_of_a_report_take_no_name_for_an_option(hexmend, mesh_file, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("-x.vtk").write_bytes(mesh_file.read_bytes())
+    assert hexmend("report", "./-x.vtk", "--methods", "laplacian", "-o", "report.html") == 0
+    page = Path("report.html").read_text(encoding="utf-8")
+    assert "-o ./-x-figures" in page
+    assert "-o ./-x-results" in page

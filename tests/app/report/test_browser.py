@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.quality import measure, worst
+from hexmend.quality import METRICS, measure, worst
 from hexmend_app.report.figure_set import Style
 from hexmend_app.report.page import chapter, page, write_page
 from hexmend_app.state.scene import Page, Scene
@@ -216,3 +216,23 @@ def test_names_from_outside_are_text(browser, case, tmp_path):
         assert opened.control("method").locator("option").first.inner_text() == f"1{name}"
         assert opened.complaints == []
         assert opened.asked == [path.as_uri()]
+
+
+def test_of_a_value_beyond_those_that_are_kept_its_end_is_told(fresh, case):
+    said = """async () => {
+      const part = (name) => document.querySelector(`.viewer script[data-of=${name}]`).textContent;
+      const mesh = new HexMesh(JSON.parse(part("head")), await unpacked(part("bytes")));
+      const told = (metric) => Array.from({ length: mesh.count }, (_, hex) => mesh.said(0, metric, hex));
+      return mesh.head.metrics.map(({ name, from, to }, metric) => [name, from, to, told(metric)]);
+    }"""
+    beyond = set()
+    for name, low, high, told in fresh.page.evaluate(said):
+        values = METRICS[name].of(case.initial.mesh.points, case.initial.mesh.hexes, case.initial.figures)
+        for value, text in zip(values, told, strict=True):
+            end = "≥" if value > high else "≤" if value < low else ""
+            if end:
+                assert text.startswith(end), (name, value, text)
+                beyond.add(end)
+            elif text[0] not in "≤≥":
+                assert float(text) == pytest.approx(value, rel=1e-3, abs=(high - low) / 3000), name
+    assert beyond == {"≤", "≥"}

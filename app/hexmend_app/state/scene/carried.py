@@ -123,7 +123,7 @@ def read_carried(path: str | os.PathLike[str]) -> Carried:
     FileError
         Where it carries no scene, or one that cannot be used: it names the key.
     """
-    found = png.texts(path, "hexmend ")
+    found = png.texts(path, (_SCENE, _ABOUT, _RECIPE))
     if _SCENE not in found or _ABOUT not in found:
         raise FileError(Path(path), "this picture carries no scene", "Open the mesh that it shows.")
     try:

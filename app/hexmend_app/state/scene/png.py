@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import struct
 import zlib
+from collections.abc import Collection
 from pathlib import Path
 
 from hexmend.errors import FileError
@@ -24,8 +25,8 @@ def is_png(path: str | os.PathLike[str]) -> bool:
         return False
 
 
-def texts(path: str | os.PathLike[str], prefix: str) -> dict[str, str]:
-    """The texts of a PNG whose keywords begin so, by keyword: the last of each.
+def texts(path: str | os.PathLike[str], keywords: Collection[str]) -> dict[str, str]:
+    """The texts of a PNG by keyword, of those that are asked for: the last of each.
 
     Raises
     ------
@@ -46,17 +47,17 @@ def texts(path: str | os.PathLike[str], prefix: str) -> dict[str, str]:
                 if after > size:
                     raise FileError(path, "ends in the middle of a picture", "Copy the picture again.")
                 if head[4:] == b"iTXt":
-                    found |= _text(path, file.read(min(length, _LARGEST + 1)), prefix, file.read(4))
+                    found |= _text(path, file.read(min(length, _LARGEST + 1)), keywords, file.read(4))
                 file.seek(after)
     except OSError as error:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None
     return found
 
 
-def _text(path: Path, data: bytes, prefix: str, sum_: bytes) -> dict[str, str]:
-    """The text of a chunk, by its keyword, where that begins so."""
+def _text(path: Path, data: bytes, keywords: Collection[str], sum_: bytes) -> dict[str, str]:
+    """The text of a chunk, by its keyword, where that is asked for."""
     keyword, _, rest = data[:80].partition(b"\0")
-    if not keyword.startswith(prefix.encode()) or rest[:1] == b"\1":
+    if keyword.decode("latin-1") not in keywords or rest[:1] == b"\1":
         return {}
     if len(data) > _LARGEST:
         raise FileError(path, f"carries a text of more than {_LARGEST:,} bytes", "Save the picture again.")

@@ -246,5 +246,8 @@ def _shown(value: Any) -> str:
     """A value as it stands in an error."""
     if isinstance(value, int) and abs(value) > _FARTHEST:
         return "a huge number"
-    text = repr(list(value) if isinstance(value, tuple) else value)
+    try:
+        text = repr(list(value) if isinstance(value, tuple) else value)
+    except RecursionError:  # tables in tables, which a parser takes deeper than that
+        return "a table"
     return text if len(text) <= 60 else f"{text[:57]}..."

@@ -84,6 +84,12 @@ def test_compressed_texts_of_any_size_are_passed_over(tmp_path):
         read_carried(path)
 
 
+def test_texts_that_nobody_asks_for_are_not_kept(tmp_path):
+    asked = {"hexmend scene": "format = 1"}
+    path = written(tmp_path / "p.png", asked | {f"hexmend {k}": "a" * 1000 for k in range(20)})
+    assert texts(path, ["hexmend scene", "hexmend recipe"]) == asked
+
+
 def test_texts_that_are_too_large_or_damaged_are_said(picture, tmp_path):
     large = written(tmp_path / "large.png", {"hexmend scene": "a" * 5_000_000})
     with pytest.raises(FileError, match="a text of more than"):
@@ -138,7 +144,7 @@ def test_whatever_a_text_says_is_read_or_refused(tmp_path, text, keyword):
     carried = carrying(SCENE, [Pictured("", "0" * 64, "0" * 64)]) | {keyword: text}
     chunks = [chunk(b"iTXt", name.encode() + b"\0\0\0\0\0" + said.encode()) for name, said in carried.items()]
     (tmp_path / "p.png").write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(chunks) + chunk(b"IEND", b""))
-    assert texts(tmp_path / "p.png", "hexmend ") == carried
+    assert texts(tmp_path / "p.png", [*carried]) == carried
     try:
         read_carried(tmp_path / "p.png")
     except FileError as error:

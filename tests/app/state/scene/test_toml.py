@@ -109,6 +109,7 @@ def test_a_camera_is_one_line(camera):
         ("[lines]\nedges = " + "9" * 5000, "is not TOML"),
         ("a" + ".a" * 40 + " = 1", "a key of more than 8 parts"),
         ("a = " + "[" * 5000, "nested too deeply"),
+        ("[page]\nwidth = " + "{a.a.a.a.a.a.a.a=" * 150 + "1" + "}" * 150, "[page] width = a table is no number"),
         ("[bar", "is not TOML: expected"),
     ],
 )
