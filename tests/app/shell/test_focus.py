@@ -95,6 +95,7 @@ FRONTS = [
     ("run", "quality", "doctor"),
     ("run", "quality", "tags"),
     ("run", "quality", "compare"),
+    ("look", "histogram", "script"),
 ]
 
 

@@ -23,6 +23,8 @@ class FeatureScript(Feature):
         self._seen = Seen()
         self.script = Script(self.session, self)
         self.panel = ScriptPanel()
+        self.panel.anew_requested.connect(self.script.begin_anew)
+        self.script.changed.connect(host.refresh_soon)
         self.panel.copy_requested.connect(self.copy)
         self.panel.save_requested.connect(self.ask)
 
@@ -57,7 +59,7 @@ class FeatureScript(Feature):
 
     def refresh(self) -> None:
         """Show what has been done since, where somebody looks."""
-        if self.panel.isVisible() and self._seen.another("entries", len(self.script.entries)):
+        if self.panel.isVisible() and self._seen.another("script", self.script.text):
             self.panel.show_text(self.script.text)
 
     def copy(self) -> None:

@@ -73,12 +73,10 @@ class Script(QObject):
 
     def __init__(self, session: Session, parent: QObject | None = None):
         super().__init__(parent)
-        self.entries: list[str] = []
         self._session, self._document, self._history = session, session.document, session.history
-        self._names: WeakKeyDictionary[State, str] = WeakKeyDictionary()
         self._stored: WeakKeyDictionary[State, str] = WeakKeyDictionary()  # where a session has them
         self._told: WeakKeyDictionary[Record, Told] = WeakKeyDictionary()
-        self._count = 0
+        self.begin_anew()
         self._smoothing = smoothing = session.smoothing
         session.opener.loaded.connect(self._on_session)
         session.opener.ended.connect(self._on_opened)
@@ -100,6 +98,13 @@ class Script(QObject):
         if "\nrender(" in body:
             head = [*head[:2], *_RENDER_IMPORTS, "", *head[2:], "", _RENDER]
         return "\n".join([*head, "", body, ""]) if body else "\n".join([*head, ""])
+
+    def begin_anew(self) -> None:
+        """Forget what was done; what comes next goes on from the mesh as it is then."""
+        self.entries: list[str] = []
+        self._names: WeakKeyDictionary[State, str] = WeakKeyDictionary()
+        self._count = 0
+        self.changed.emit()
 
     def write(self, path: str | Path) -> None:
         """Save it as a file; `FileError` where it cannot be written."""

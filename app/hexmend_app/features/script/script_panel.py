@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
-from hexmend_app.widgets.style import explain, icon, note
+from hexmend_app.widgets.style import BLUE, LINE, dress, explain, icon, note
 
 _WORDS = "What is done here as Python that does it again, to the bit."
 
@@ -16,10 +16,12 @@ class ScriptPanel(QWidget):
 
     Signals
     -------
+    anew_requested
     copy_requested
     save_requested
     """
 
+    anew_requested = Signal()
     copy_requested = Signal()
     save_requested = Signal()
 
@@ -29,6 +31,14 @@ class ScriptPanel(QWidget):
         self._text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self._text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self._text.setAccessibleName("Script")
+        dress(self._text, lambda: self._text.setStyleSheet(_sheet()))
+        anew = QPushButton(icon("restart"), "Begin anew")
+        explain(
+            anew,
+            "Begin the script anew",
+            "Forget what was done so far: what comes next goes on from the mesh as it is.",
+        )
+        anew.clicked.connect(self.anew_requested)
         copy = QPushButton(icon("content-copy"), "Copy")
         explain(copy, "Copy the script", "Copy all of it.")
         copy.clicked.connect(self.copy_requested)
@@ -37,6 +47,7 @@ class ScriptPanel(QWidget):
         save.clicked.connect(self.save_requested)
         head = QHBoxLayout()
         head.addWidget(note(_WORDS), 1)
+        head.addWidget(anew)
         head.addWidget(copy)
         head.addWidget(save)
         column = QVBoxLayout(self)
@@ -52,3 +63,8 @@ class ScriptPanel(QWidget):
         self._text.setPlainText(text)
         bar.setValue(bar.maximum() if at_the_end else at)
         aside.setValue(across)
+
+
+def _sheet() -> str:
+    """A frame that tells where the keyboard is."""
+    return f"QPlainTextEdit {{ border: 1px solid {LINE}; }} QPlainTextEdit:focus {{ border-color: {BLUE}; }}"

@@ -14,6 +14,12 @@ from tests.app.driving import choose, click, named, phase, press
 from tests.patience import PATIENCE
 
 
+@pytest.fixture(autouse=True)
+def nothing_done_before(window):
+    """What other tests have done in the window they share is not in the script."""
+    window.features["script"].script.begin_anew()
+
+
 @pytest.fixture
 def panel(window, qtbot):
     window.show_panel("script")
@@ -35,6 +41,16 @@ def test_what_is_done_is_seen_as_it_is_done(window, panel, qtbot):
     after = shown(window, panel)
     assert after.startswith(before.rstrip())
     assert "hx.smooth(" in after[len(before.rstrip()) :]
+
+
+def test_it_begins_anew_with_the_mesh_as_it_is(window, panel, tmp_path):
+    window.session.commands.save(tmp_path / "out.vtu")
+    assert "out.vtu" in shown(window, panel)
+    press(named(panel, QPushButton, "Begin the script anew"))
+    assert "out.vtu" not in shown(window, panel)
+    window.session.commands.save(tmp_path / "more.vtu")
+    assert "mesh_0 = " in shown(window, panel)
+    assert "more.vtu" in shown(window, panel)
 
 
 def test_it_is_copied(window, panel):

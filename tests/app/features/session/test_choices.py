@@ -127,8 +127,8 @@ def test_the_patch_of_a_node_stays_alone_and_goes_with_the_node(window, qtbot, t
     box = named(panel, QCheckBox, "Patch alone")
     qtbot.waitUntil(lambda: bool(panel.figures.isVisible()), timeout=PATIENCE)
     tick(box)
+    qtbot.waitUntil(lambda: window.session.view.look.isolation is not None, timeout=PATIENCE)
     isolation = window.session.view.look.isolation
-    assert isolation is not None
     path = saved(window, tmp_path)
     tick(box)
     open_and_wait(qtbot, window, path)
