@@ -99,6 +99,7 @@ class Resetting:
         """The mesh as it is in its file, in a window laid out as it was."""
         window = self.window
         window.canvas.set_parallel(False)
+        window.canvas.set_up("z")
         window.showNormal()
         window.resize(*SIZE)
         open_and_wait(qtbot, window, self.path)

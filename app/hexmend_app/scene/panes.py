@@ -94,10 +94,13 @@ class Panes:
             None shows all side by side.
         """
         aspect, fitted = self._arrangement.aspect, self.eye.fitted
-        known = {id(mesh): view for mesh, view in self._others}
-        for gone in set(known) - {id(mesh) for mesh, _ in others}:
-            known.pop(gone).close()
-        self._others = [(mesh, known.get(id(mesh)) or self._open(mesh, figures)) for mesh, figures in others]
+        before = self._others
+        known = {id(mesh): view for mesh, view in before}
+        self._others = [(mesh, known.pop(id(mesh), None) or self._open(mesh, figures)) for mesh, figures in others]
+        stay = {id(view) for _, view in self._others}
+        for _, view in before:
+            if id(view) not in stay:
+                view.close()
         self.wipe = wipe
         self.arrange()
         self.level()

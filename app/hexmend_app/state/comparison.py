@@ -193,7 +193,7 @@ class Comparison(QObject):
 
     def _empty(self) -> None:
         self.shut_down()
-        self.initial, self.results, self._asked = None, (), 0
+        self.initial, self.results, self._asked, self._stop = None, (), 0, Stop()
         self.changed.emit()
 
     def _look(self) -> None:

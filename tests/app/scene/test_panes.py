@@ -229,3 +229,14 @@ def test_views_beside_the_first_compare_with_the_same_moment(panes):
     look_at(panes, look, Movement(MESH, Moment(OTHERS[0].points, second, "later"), MESH.points, first))
     assert other.colouring.title.endswith("since later")
     np.testing.assert_array_equal(other.frame.movement.before.points, OTHERS[0].points)
+
+
+def test_a_view_that_is_no_longer_shown_leaves_the_window(stage, panes):
+    alone = stage.window.GetRenderers().GetNumberOfItems()
+    panes.show([shown(OTHERS[0])])
+    one = stage.window.GetRenderers().GetNumberOfItems()
+    for others in ([shown(OTHERS[0])] * 3, [shown(OTHERS[1])] * 2, [shown(OTHERS[2])]):
+        panes.show(others)
+    assert stage.window.GetRenderers().GetNumberOfItems() == one > alone
+    panes.show([])
+    assert stage.window.GetRenderers().GetNumberOfItems() == alone
