@@ -20,9 +20,7 @@ NONE = "none"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    from hexmend.cli.command.limits import add_limits
-    from hexmend.cli.command.memory import add_force
-    from hexmend.cli.command.method import add_boundary
+    from hexmend.cli.command.method import add_settings
 
     looks.prepare(parser)
     parser.add_argument(
@@ -30,16 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="A,B,...",
         help="see `hexmend methods` (default: mend); a FILE.toml is a recipe; none runs nothing",
     )
-    parser.add_argument(
-        "--set",
-        metavar="[METHOD.]KEY=VALUE",
-        action="append",
-        default=[],
-        help="a parameter of the one method, or of every method that has it",
-    )
-    add_boundary(parser)
-    add_limits(parser)
-    add_force(parser)
+    add_settings(parser)
     parser.add_argument(
         "--names", metavar="A,B,...", help="what captions call the mesh as given, and then what each method made of it"
     )

@@ -24,7 +24,9 @@ class Soak:
         parser.add_argument("--json", metavar="FILE", help="write the figures of every round")
 
     def run(self, args: argparse.Namespace) -> int:
+        from hexmend.errors import HexmendError
         from hexmend.report import write_json
+        from hexmend.study.section import resident_mb
         from hexmend_app.cli.numbers import numbers
         from hexmend_app.resources import demo_mesh
         from hexmend_app.shell.display import check_display
@@ -33,6 +35,10 @@ class Soak:
         check_display()
         from hexmend_app.bench.soak import Memory, soak
 
+        try:
+            resident_mb()
+        except OSError:
+            raise HexmendError("soak needs a system that tells what a process holds in /proc, as Linux does") from None
         memory = Memory()
         for sample in soak(args.mesh or [demo_mesh()], 60 * minutes):
             memory.add(sample)

@@ -15,9 +15,7 @@ class Compare:
     help = "Run several methods on a mesh and write their figures as CSV, Markdown, LaTeX and JSON."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.limits import add_limits
-        from hexmend.cli.command.memory import add_force
-        from hexmend.cli.command.method import add_boundary
+        from hexmend.cli.command.method import add_settings
 
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
         parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the tables")
@@ -26,16 +24,7 @@ class Compare:
             metavar="A,B,...",
             help="see `hexmend methods` (default: all of them); a FILE.toml is a recipe",
         )
-        parser.add_argument(
-            "--set",
-            metavar="[METHOD.]KEY=VALUE",
-            action="append",
-            default=[],
-            help="a parameter of the one method, or of every method that has it",
-        )
-        add_boundary(parser)
-        add_limits(parser)
-        add_force(parser)
+        add_settings(parser)
         parser.add_argument("--write-meshes", action="store_true", help="write each method's mesh into the folder too")
 
     def run(self, args: argparse.Namespace) -> int:

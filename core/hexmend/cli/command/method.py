@@ -28,6 +28,23 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     add_limits(parser)
 
 
+def add_settings(parser: argparse.ArgumentParser) -> None:
+    """Declare the options that hold for several methods: parameters, boundary, limits, memory."""
+    from hexmend.cli.command.limits import add_limits
+    from hexmend.cli.command.memory import add_force
+
+    parser.add_argument(
+        "--set",
+        metavar="[METHOD.]KEY=VALUE",
+        action="append",
+        default=[],
+        help="a parameter of the one method, or of every method that has it",
+    )
+    add_boundary(parser)
+    add_limits(parser)
+    add_force(parser)
+
+
 def add_boundary(parser: argparse.ArgumentParser) -> None:
     """Declare the option that stands for `--set boundary=...`."""
     parser.add_argument(
