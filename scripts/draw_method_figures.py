@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES, UNIT_CUBE
-from hexmend.report.plots import new_figure, save_figure
+from hexmend.report.charts import new_figure, save_figure
 
 #: Letters as in a paper, alike in words and formulas.
 LETTERS = {"font.family": "STIXGeneral", "mathtext.fontset": "stix", "font.size": 13}

@@ -1,4 +1,4 @@
-"""Takes the pictures of docs/figures.md: the page's own examples, of meshes of others, and the dialog.
+"""Takes the pictures of docs/figures.md: the page's own examples, of meshes of others, and the dialogs.
 
 Use: HEXMEND_MESHES=folder xvfb-run -s "-screen 0 1600x1000x24" python scripts/take_figure_pictures.py FOLDER
 """
@@ -12,7 +12,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-from photographs import compress, cut, opened, settle, shut, turn
+from photographs import compress, cut, opened, settle, shut, turn, until
+from PySide6.QtWidgets import QDialog
+
+from hexmend_app.shell.window import Window
+from hexmend_app.state.run import Phase
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "figures.md"
 
@@ -43,12 +47,30 @@ def main(folder: Path) -> None:
     dialog = window.features["save"].picture_dialog()
     dialog.size_form.preset.setCurrentIndex(2)
     dialog.size_form.preset.activated.emit(2)
+    photograph(dialog, folder / "figures-dialog.png")
+    run(window)
+    chart = window.features["histogram"].dialog()
+    chart.names["at the start"].setText("as given")
+    chart.names["now"].setText("mended")
+    chart.target.line.setText("bunny-histogram.svg")
+    photograph(chart, folder / "figures-chart.png")
+    shut(window)
+
+
+def photograph(dialog: QDialog, path: Path) -> None:
+    """Photograph a dialog, once its preview is there."""
     dialog.show()
     turn(2)
-    dialog.grab().save(str(folder / "figures-dialog.png"))
-    compress(folder / "figures-dialog.png")
+    dialog.grab().save(str(path))
+    compress(path)
     dialog.close()
-    shut(window)
+
+
+def run(window: Window) -> None:
+    """Run the default method to its end."""
+    window.action("run").trigger()
+    until(lambda: window.session.smoothing.phase is Phase.FINISHED)
+    settle(window)
 
 
 if __name__ == "__main__":

@@ -44,7 +44,7 @@ class Figures:
         parser.add_argument("--quick", action="store_true", help="with --thesis: a few seconds a run")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.report.plots import check_matplotlib
+        from hexmend.report.charts import check_matplotlib
         from hexmend_app.scene.graphics import prepare_off_screen
 
         check_matplotlib()
@@ -88,7 +88,7 @@ class Figures:
 
 
 def _style(args: argparse.Namespace) -> Style:
-    from hexmend.report.run_figures import WIDTHS
+    from hexmend.report.charts import WIDTHS
     from hexmend_app.report.figure_set import Style
 
     formats = tuple(args.format.lower().split(",")) if args.format else _FORMATS[:1]

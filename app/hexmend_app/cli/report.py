@@ -35,7 +35,7 @@ class Report:
         from hexmend.figures import printable
         from hexmend.io.atomic import check_writable
         from hexmend.io.suffixes import suffix_for
-        from hexmend.report.plots import check_matplotlib
+        from hexmend.report.charts import check_matplotlib
         from hexmend_app.scene.graphics import prepare_off_screen
 
         path = Path(args.output)

@@ -44,18 +44,6 @@ def ask_list(parent: QWidget, stem: str) -> str:
     return _ask_to_save(parent, "Save the list as", f"{stem}-worst.csv", "Table (*.csv)")
 
 
-def ask_histogram(parent: QWidget, stem: str) -> str:
-    """Where to save the histogram, "" for nowhere."""
-    kinds = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
-    return _ask_to_save(parent, "Save the histogram as", f"{stem}-histogram.svg", kinds)
-
-
-def ask_convergence(parent: QWidget, stem: str) -> str:
-    """Where to save the charts of convergence, "" for nowhere."""
-    kinds = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;All figures of all runs (*.csv)"
-    return _ask_to_save(parent, "Save the convergence as", f"{stem}-convergence.svg", kinds)
-
-
 def ask_recipe(parent: QWidget) -> str:
     """The recipe to load, "" for none."""
     return _ask_to_open(parent, "Load a recipe", "Recipes (*.toml);;All files (*)")
@@ -88,12 +76,6 @@ def ask_film(parent: QWidget, stem: str) -> str:
         "PNG animation, exact (*.png)"
     )
     return _ask_to_save(parent, "Save the film as", f"{stem}.gif", kinds)
-
-
-def ask_comparison(parent: QWidget, stem: str) -> str:
-    """Where to save the table of methods, "" for nowhere."""
-    kinds = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;Everything, for programs (*.json)"
-    return _ask_to_save(parent, "Save the table as", f"{stem}-comparison.csv", kinds)
 
 
 def ask_figures(parent: QWidget, stem: str) -> str:

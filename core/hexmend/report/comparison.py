@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from hexmend.errors import ParameterError
 from hexmend.figures import Figure, Worse, count, micro, milli, significant
 from hexmend.quality.summary import FIGURES
 from hexmend.quality.worse import JUDGED
@@ -87,11 +88,31 @@ def comparison_table(
     return table if len(columns) <= _WIDEST or published else table.transposed
 
 
-def table_of(comparison: Mapping[str, Any]) -> Table:
-    """The table of `hexmend.study.compare.Comparison.record`."""
+def table_of(comparison: Mapping[str, Any], names: Mapping[str, str] | None = None, title: str | None = None) -> Table:
+    """The table of `hexmend.study.compare.Comparison.record`.
+
+    Parameters
+    ----------
+    comparison : mapping
+    names : mapping of str to str, optional
+        What methods, and the initial mesh, are called, by their own names.
+    title : str, optional
+        Instead of the mesh's name and sizes.
+
+    Raises
+    ------
+    ParameterError
+        Where two are called the same.
+    """
     initial = comparison["initial"]
-    columns = {"initial": initial} | {row["method"]: row for row in comparison["rows"]}
-    title = f"{comparison['mesh']}: {initial['hexes']:,} hexes, {initial['free_nodes']:,} free nodes"
+    columns: dict[str, Mapping[str, Any]] = {}
+    for own, record in [("initial", initial), *((row["method"], row) for row in comparison["rows"])]:
+        head = _called(own, names)
+        if head in columns:
+            raise ParameterError(f"two methods are called {head!r}: expected a name for each")
+        columns[head] = record
+    if title is None:
+        title = f"{comparison['mesh']}: {initial['hexes']:,} hexes, {initial['free_nodes']:,} free nodes"
     notes = []
     if initial["locked_inverted"]:
         notes.append(f"{initial['locked_inverted']:,} of the inverted hexes are locked: fixed nodes alone invert them.")
@@ -100,20 +121,31 @@ def table_of(comparison: Mapping[str, Any]) -> Table:
     return comparison_table(title, columns, notes=notes)
 
 
-def comparison_rows(comparison: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """The rows for spreadsheets: the initial mesh's and the methods'."""
-    return [{"method": "initial"} | comparison["initial"], *comparison["rows"]]
+def comparison_rows(comparison: Mapping[str, Any], names: Mapping[str, str] | None = None) -> list[Mapping[str, Any]]:
+    """The rows for spreadsheets: the initial mesh's and the methods', which may be called otherwise."""
+    rows = [{"method": "initial"} | comparison["initial"], *comparison["rows"]]
+    return [{**row, "method": _called(row["method"], names)} for row in rows]
 
 
-def write_comparison(path: Path, comparison: Mapping[str, Any]) -> None:
+def write_comparison(
+    path: Path, comparison: Mapping[str, Any], names: Mapping[str, str] | None = None, title: str | None = None
+) -> None:
     """Write the record of a comparison as CSV, Markdown, LaTeX or JSON, by the path's suffix.
+
+    In CSV, Markdown and LaTeX `names` and `title` are what `table_of` takes; JSON keeps the record's own.
 
     Raises
     ------
     FileError
         For another suffix, or where the file cannot be written; the one that was there stays.
+    ParameterError
+        Where two methods are called the same.
     """
-    write_document(path, table_of(comparison), comparison_rows(comparison), comparison)
+    write_document(path, table_of(comparison, names, title), comparison_rows(comparison, names), comparison)
+
+
+def _called(own: str, names: Mapping[str, str] | None) -> str:
+    return (names or {}).get(own) or own
 
 
 def _cell(figure: Figure, record: Mapping[str, Any]) -> str:

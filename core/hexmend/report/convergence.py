@@ -5,9 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from typing import TYPE_CHECKING
 
-from hexmend.report.plots import WIDTH, check_figure, new_figure, save_figure
+from hexmend.report.charts import ChartStyle
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Heights by the width of the figure: of what stands around the charts, and of each of them.
+_HEAD, _CHART = 0.16, 0.227
 
 
 @dataclass(frozen=True)
@@ -20,6 +27,8 @@ class DrawnCurve:
     x, y : sequence of float
         nan in y is a gap.
     dashed, strong : bool
+    part : str
+        What follows the name, where a run has several curves.
     """
 
     label: str
@@ -28,6 +37,7 @@ class DrawnCurve:
     y: Sequence[float]
     dashed: bool = False
     strong: bool = False
+    part: str = ""
 
 
 @dataclass(frozen=True)
@@ -39,7 +49,7 @@ class DrawnChart:
     title : str
     curves : sequence of DrawnCurve
     log : bool
-        The axis goes by powers of ten, with zero below them.
+        The axis goes by powers of ten, with zero below them, unless all lie within one.
     whole : bool
         The figures are counts.
     """
@@ -50,36 +60,59 @@ class DrawnChart:
     whole: bool = False
 
 
-def write_convergence_figure(
-    path: Path, charts: Sequence[DrawnChart], *, title: str, xlabel: str, width: float = WIDTH
-) -> None:
-    """Write charts below one another, as SVG, PDF or PNG by the path's suffix; `width` in inches.
+@dataclass(frozen=True)
+class Convergence:
+    """Charts below one another.
 
-    Raises
-    ------
-    HexmendError
-        For another suffix, and where matplotlib is missing or the file cannot be written.
+    Parameters
+    ----------
+    charts : sequence of DrawnChart
+        Those without curves are left out, unless there are no others.
+    title, xlabel : str
+    whole : bool
+        The axis counts.
     """
-    check_figure(path)
-    figure = new_figure(width, width / WIDTH * (1.2 + 1.7 * max(1, len(charts))))
-    all_axes = figure.subplots(max(1, len(charts)), 1, sharex=True, squeeze=False)[:, 0]
-    for axes, chart in zip(all_axes, charts, strict=False):
-        for curve in chart.curves:
-            style = {"linestyle": "--" if curve.dashed else "-", "linewidth": 1.8 if curve.strong else 1.0}
-            axes.plot(curve.x, curve.y, color=curve.colour, label=curve.label, **style)
-        known = [y for curve in chart.curves for y in curve.y if math.isfinite(y)]
-        if chart.log and any(y > 0 for y in known):
-            least = min(y for y in known if y > 0)
-            if min(known) > 0:
-                axes.set_yscale("log")
-            else:
-                axes.set_yscale("symlog", linthresh=10 ** math.floor(math.log10(least)))
-        elif chart.whole:
-            axes.yaxis.get_major_locator().set_params(integer=True)
-        axes.set_ylabel(chart.title)
-        axes.grid(alpha=0.3)
-        if chart.curves:
-            axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
-    all_axes[-1].set_xlabel(xlabel)
-    figure.suptitle(title)
-    save_figure(figure, path)
+
+    charts: Sequence[DrawnChart]
+    title: str
+    xlabel: str
+    whole: bool = True
+
+    def draw(self, style: ChartStyle) -> Figure:
+        """The figure.
+
+        Raises
+        ------
+        HexmendError
+            Where matplotlib is missing.
+        """
+        charts = [chart for chart in self.charts if chart.curves] or self.charts[:1]
+        count = max(1, len(charts))
+        figure = style.figure(_HEAD + _CHART * count)
+        all_axes = figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]
+        for axes, chart in zip(all_axes, charts, strict=False):
+            _draw(axes, chart, style)
+        all_axes[-1].xaxis.get_major_locator().set_params(integer=self.whole)
+        all_axes[-1].set_xlabel(self.xlabel)
+        figure.suptitle(style.heading(self.title))
+        return figure
+
+
+def _draw(axes: Axes, chart: DrawnChart, style: ChartStyle) -> None:
+    for curve in chart.curves:
+        line = {"linestyle": "--" if curve.dashed else "-", "linewidth": 1.8 if curve.strong else 1.0}
+        name = style.name(curve.label) + (f" {curve.part}" if curve.part else "")
+        axes.plot(curve.x, curve.y, color=curve.colour, label=name, **line)
+    known = [y for curve in chart.curves for y in curve.y if math.isfinite(y)]
+    least = min((y for y in known if y > 0), default=math.inf)
+    if chart.log and max(known, default=0) >= 10 * least:
+        if min(known) > 0:
+            axes.set_yscale("log")
+        else:
+            axes.set_yscale("symlog", linthresh=10 ** math.floor(math.log10(least)))
+    elif chart.whole:
+        axes.yaxis.get_major_locator().set_params(integer=True)
+    axes.set_ylabel(chart.title)
+    axes.grid(alpha=0.3)
+    if chart.curves:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")

@@ -44,8 +44,8 @@ def latex(table: Table) -> str:
     \\end{table}
     """
     head, *rows = (" & ".join(escaped(cell) for cell in line) + r" \\" for line in [table.head, *table.rows])
-    title = f"{table.title}." if table.notes else table.title
-    caption = " ".join(escaped(sentence) for sentence in (title, *table.notes))
+    title = f"{table.title}." if table.title and table.notes else table.title
+    caption = " ".join(escaped(sentence) for sentence in (title, *table.notes) if sentence)
     lines = [
         r"\begin{table}[htbp]",
         r"\centering\footnotesize\setlength{\tabcolsep}{3pt}",
@@ -54,7 +54,7 @@ def latex(table: Table) -> str:
         r"\hline",
         *rows,
         r"\end{tabular}",
-        rf"\caption{{{caption}}}",
+        *([rf"\caption{{{caption}}}"] if caption else []),
         r"\end{table}",
     ]
     return "\n".join(lines) + "\n"

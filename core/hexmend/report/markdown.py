@@ -21,7 +21,8 @@ def markdown(table: Table) -> str:
     drawn = ["| " + " | ".join(escaped(cell) for cell in line) + " |" for line in lines]
     drawn.insert(1, "|:---" + "|---:" * (len(table.head) - 1) + "|")
     notes = "".join(f"\n{escaped(note)}\n" for note in table.notes)
-    return f"**{escaped(table.title)}**\n\n" + "\n".join(drawn) + "\n" + notes
+    title = f"**{escaped(table.title)}**\n\n" if table.title else ""
+    return title + "\n".join(drawn) + "\n" + notes
 
 
 def escaped(text: str) -> str:

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hexmend.figures import printable
 from hexmend.optimise.figures import HISTORY
-from hexmend.report.convergence import DrawnChart, DrawnCurve, write_convergence_figure
-from hexmend.report.plots import COLOURS, Outline, check_matplotlib, write_histogram_figure
+from hexmend.report.charts import ChartStyle, write_chart
+from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
+from hexmend.report.histogram import Histogram, Outline
+from hexmend.report.plots import COLOURS
 
-MM_PER_INCH = 25.4
-
-#: Widths in mm that a figure can have: from less than a column to a poster.
-WIDTHS = (40.0, 1000.0)
-
-#: The size of what is written, in pt, and colour of the mesh as it was given.
-_LETTERS, _FIRST = 8.0, "#5b6573"
+#: The colour of the mesh as it was given, and dots per inch of PNG.
+_FIRST, _DPI = "#5b6573", 160.0
 
 #: What is followed over the iterations.
 _FOLLOWED = ("q_min", "objective", "inverted")
@@ -41,21 +36,12 @@ def write_distributions(path: Path, counts: Mapping[str, Sequence[int]], *, titl
         For another suffix, and where matplotlib is missing or the file cannot be written.
     """
     outlines = [
-        Outline(_plain(name), COLOURS[(k - 1) % len(COLOURS)] if k else _FIRST, numbers, filled=k == 0)
+        Outline(name, COLOURS[(k - 1) % len(COLOURS)] if k else _FIRST, numbers, filled=k == 0)
         for k, (name, numbers) in enumerate(counts.items())
     ]
     ticks = [(k / 5, f"{k / 5:g}") for k in range(6)]
-    with _letters():
-        write_histogram_figure(
-            path,
-            outlines,
-            title=_plain(title),
-            xlabel="q(H)",
-            ylabel="hexes",
-            ticks=ticks,
-            extent=(0.0, 1.0),
-            width=width_mm / MM_PER_INCH,
-        )
+    histogram = Histogram(outlines, title, "q(H)", "hexes", ticks, (0.0, 1.0))
+    write_chart(path, histogram.draw, ChartStyle(width=width_mm, resolution=_DPI))
 
 
 def write_convergence(
@@ -78,29 +64,13 @@ def write_convergence(
     """
     charts = [DrawnChart(HISTORY[key].label, _curves(histories, key), key == "objective", key == "inverted")
               for key in _FOLLOWED if _has(histories, key)]  # fmt: skip
-    with _letters():
-        write_convergence_figure(path, charts, title=_plain(title), xlabel="iteration", width=width_mm / MM_PER_INCH)
-
-
-@contextmanager
-def _letters() -> Iterator[None]:
-    """Letters of one size, whatever the figure's width."""
-    check_matplotlib()
-    from matplotlib import rc_context
-
-    with rc_context({"font.size": _LETTERS}):
-        yield
-
-
-def _plain(text: str) -> str:
-    """A text in which matplotlib finds no formula, and nothing that it or SVG cannot hold: names come from files."""
-    return printable(text).replace("$", r"\$")
+    write_chart(path, Convergence(charts, title, "iteration").draw, ChartStyle(width=width_mm, resolution=_DPI))
 
 
 def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> list[DrawnCurve]:
     return [
         DrawnCurve(
-            _plain(name),
+            name,
             COLOURS[k % len(COLOURS)],
             [row["iteration"] for row in rows],
             [float("nan") if row[key] is None else row[key] for row in rows],

@@ -9,11 +9,8 @@ from hexmend_app.widgets import questions
 SAVING = {
     "ask_target": ("bridge",),
     "ask_list": ("bridge",),
-    "ask_histogram": ("bridge",),
-    "ask_convergence": ("bridge",),
     "ask_recipe_target": (),
     "ask_film": ("bridge",),
-    "ask_comparison": ("bridge",),
 }
 OPENING = ("ask_mesh", "ask_recipe")
 

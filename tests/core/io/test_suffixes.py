@@ -6,7 +6,7 @@ from hexmend.errors import FileError
 from hexmend.io.recipes import write_recipe
 from hexmend.io.suffixes import suffix_for
 from hexmend.recipe import Recipe, Stage
-from hexmend.report.plots import check_figure
+from hexmend.report.charts import check_figure
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 

@@ -6,19 +6,23 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hexmend.recipe import Stage
-from hexmend.report import write_comparison
+from hexmend.report import markdown, table_of, write_comparison
+from hexmend.report.charts import ChartStyle
 from hexmend.report.comparison import LINES
+from hexmend.report.documents import SUFFIXES
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
 from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_of
 from hexmend_app.state.comparison import Compared
 from hexmend_app.state.document import State
-from hexmend_app.widgets.questions import ask_comparison
+from hexmend_app.widgets.export_dialog import TableDialog
 from hexmend_app.widgets.wording import counted
 
 #: Methods that are ticked at first: the plain one, the fast one, an optimiser of the thesis, and the default.
 TICKED = ("laplacian", "getme", "local-sd", "mend")
+
+_KINDS = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;Everything, for programs (*.json)"
 
 
 class FeatureCompare(Feature):
@@ -31,6 +35,7 @@ class FeatureCompare(Feature):
         session = self.session
         self._comparison, self._views = session.comparison, session.views
         self._seen = Seen()
+        self._style = ChartStyle()  # what was called what in the last table
         panel = self.panel = ComparePanel(TICKED)
         panel.run_requested.connect(self._run)
         panel.cancel_requested.connect(self._comparison.cancel)
@@ -159,15 +164,28 @@ class FeatureCompare(Feature):
     # Files
 
     def ask(self) -> None:
-        """Ask where the table goes and write it."""
-        path = ask_comparison(self.host.window, self.host.stem)
-        if path:
-            self.save(path)
+        """Ask what is called what in the table and where it goes, and write it."""
+        dialog = self.dialog()
+        if dialog.exec():
+            self._style = dialog.chosen()
+            self.save(dialog.target.path(), self._style)
+        dialog.deleteLater()
 
-    def save(self, path: str | Path) -> bool:
+    def dialog(self) -> TableDialog:
+        """The dialog that asks: names are as they were last."""
+        record = self._comparison.record()
+        names = ["initial", *(row["method"] for row in record["rows"])]
+        proposed = f"{self.host.stem}-comparison.csv"
+        arguments = ("the table", proposed, _KINDS, SUFFIXES, self._style, table_of(record).title, names)
+        return TableDialog(
+            lambda style: markdown(table_of(record, style.names, style.title)), *arguments, parent=self.host.window
+        )
+
+    def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; whether it was."""
+        names, title = (None, None) if style is None else (style.names, style.title)
         return self.host.said(
             "The table was not saved",
-            lambda: write_comparison(Path(path), self._comparison.record()),
+            lambda: write_comparison(Path(path), self._comparison.record(), names, title),
             f"Table of {counted(len(self._comparison.results), 'method')} saved to {path}",
         )

@@ -7,13 +7,16 @@ from pathlib import Path
 
 from superqt.utils import QSignalThrottler
 
+from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.convergence.curves import Columns, Curve, beginning
-from hexmend_app.features.convergence.file import write_convergence
+from hexmend_app.features.convergence.file import SUFFIXES, figure, write_convergence
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.history import Record
 from hexmend_app.state.run import Phase
-from hexmend_app.widgets.questions import ask_convergence
+from hexmend_app.widgets.export_dialog import ChartDialog
+
+_KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;All figures of all runs (*.csv)"
 
 #: Milliseconds between two drawings while a run goes on.
 _PERIOD = 100
@@ -32,6 +35,7 @@ class FeatureConvergence(Feature):
         self._history = session.history
         self._columns: dict[Record, Columns] = {}
         self._seen = Seen()
+        self._style = ChartStyle()  # what the last figure was like
         panel = self.panel = ConvergencePanel()
         self._soon = QSignalThrottler(parent=panel)
         self._soon.setTimeout(_PERIOD)
@@ -102,15 +106,25 @@ class FeatureConvergence(Feature):
     # Files
 
     def ask(self) -> None:
-        """Ask where the charts go and write them."""
-        path = ask_convergence(self.host.window, self.host.stem)
-        if path:
-            self.save(path)
+        """Ask what the charts are to be like and where they go, and write them."""
+        dialog = self.dialog()
+        if dialog.exec():
+            self._style = dialog.chosen()
+            self.save(dialog.target.path(), self._style)
+        dialog.deleteLater()
 
-    def save(self, path: str | Path) -> bool:
+    def dialog(self) -> ChartDialog:
+        """The dialog that asks: sizes and names are as they were last."""
+        drawn = figure(self.panel, self._document.name)
+        names = dict.fromkeys(curve.label for chart in drawn.charts for curve in chart.curves)
+        proposed = f"{self.host.stem}-convergence.svg"
+        arguments = ("the charts", proposed, _KINDS, SUFFIXES, self._style, drawn.title, list(names))
+        return ChartDialog(drawn.draw, *arguments, parent=self.host.window)
+
+    def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts as a figure, or the figures of all runs as CSV, by the suffix; whether it was done."""
         return self.host.said(
             "The charts were not saved",
-            lambda: write_convergence(Path(path), self.panel, self._document.name),
+            lambda: write_convergence(Path(path), self.panel, self._document.name, style),
             f"Convergence saved to {path}",
         )

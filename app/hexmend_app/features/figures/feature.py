@@ -87,7 +87,7 @@ class FeatureFigures(Feature):
     def _begin(self, folder: Path) -> None:
         from hexmend.io.recipes import write_recipe
         from hexmend.report import made_folder
-        from hexmend.report.plots import check_matplotlib
+        from hexmend.report.charts import check_matplotlib
         from hexmend_app.features.figures.session_case import case_of, recipes_of
         from hexmend_app.report.figure_set import Style, stationary, write_figures
         from hexmend_app.state.scene import write_scene

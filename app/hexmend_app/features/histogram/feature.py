@@ -9,14 +9,17 @@ import numpy as np
 
 from hexmend.movement import MOVEMENTS
 from hexmend.quality import measure
+from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
-from hexmend_app.features.histogram.file import write_histogram
+from hexmend_app.features.histogram.file import SUFFIXES, figure, write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept
 from hexmend_app.state.kinds import of_kind
 from hexmend_app.state.measured import values
-from hexmend_app.widgets.questions import ask_histogram
+from hexmend_app.widgets.export_dialog import ChartDialog
+
+_KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
 
 
 class FeatureHistogram(Feature):
@@ -33,6 +36,7 @@ class FeatureHistogram(Feature):
         view = self._view = self.session.view
         self._document, self._kept = self.session.document, self.session.kept
         self._seen = Seen()
+        self._style = ChartStyle()  # what the last figure was like
         self._kept_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
         panel = self.panel = QualityHistogram()
         panel.metric_chosen.connect(self._on_metric)
@@ -127,15 +131,25 @@ class FeatureHistogram(Feature):
     # Files
 
     def ask(self) -> None:
-        """Ask where the histogram goes and write it."""
-        path = ask_histogram(self.host.window, self.host.stem)
-        if path:
-            self.save(path)
+        """Ask what the histogram is to be like and where it goes, and write it."""
+        dialog = self.dialog()
+        if dialog.exec():
+            self._style = dialog.chosen()
+            self.save(dialog.target.path(), self._style)
+        dialog.deleteLater()
 
-    def save(self, path: str | Path) -> bool:
+    def dialog(self) -> ChartDialog:
+        """The dialog that asks: sizes and names are as they were last."""
+        drawn = figure(self.panel, self._document.name)
+        names = dict.fromkeys(one.label for one in drawn.outlines)
+        proposed = f"{self.host.stem}-histogram.svg"
+        arguments = ("the histogram", proposed, _KINDS, SUFFIXES, self._style, drawn.title, list(names))
+        return ChartDialog(drawn.draw, *arguments, parent=self.host.window)
+
+    def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as figure, or its counts as CSV, by the suffix; whether it was."""
         return self.host.said(
             "The histogram was not saved",
-            lambda: write_histogram(Path(path), self.panel, self._document.name),
+            lambda: write_histogram(Path(path), self.panel, self._document.name, style),
             f"Histogram saved to {path}",
         )

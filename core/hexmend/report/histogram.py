@@ -1,0 +1,126 @@
+"""A figure of distributions: how many hexes have what quality."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from hexmend.report.charts import ChartStyle
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Height of the figure by its width, and where a broken bar ends, of the height of the tallest bin.
+_SHAPE, _BROKEN = 0.6, 1.08
+
+
+@dataclass(frozen=True)
+class Outline:
+    """A distribution as it is drawn.
+
+    Parameters
+    ----------
+    label, colour : str
+    heights : sequence of float
+        Of the bins, which share the places from 0 to 1.
+    bars : sequence of (left, right, height)
+        What stands beside the bins; one that is taller than all bins is broken, and carries its number.
+    filled : bool
+    note : str
+        What follows the name, in brackets.
+    """
+
+    label: str
+    colour: str
+    heights: Sequence[float]
+    bars: Sequence[tuple[float, float, float]] = ()
+    filled: bool = False
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Histogram:
+    """Distributions over one axis.
+
+    Parameters
+    ----------
+    outlines : sequence of Outline
+        The first is drawn at the bottom.
+    title, xlabel, ylabel : str
+    ticks : sequence of (place, text)
+        Below the bins, which lie from 0 to 1, and below the bars beside them.
+    extent : (left, right)
+        Of the figure, in the same places.
+    log : bool
+        Heights by powers of ten.
+    """
+
+    outlines: Sequence[Outline]
+    title: str
+    xlabel: str
+    ylabel: str
+    ticks: Sequence[tuple[float, str]]
+    extent: tuple[float, float]
+    log: bool = False
+
+    def draw(self, style: ChartStyle) -> Figure:
+        """The figure.
+
+        Raises
+        ------
+        HexmendError
+            Where matplotlib is missing.
+        """
+        figure = style.figure(_SHAPE)
+        axes = figure.subplots()
+        top = max((height for outline in self.outlines for height in outline.heights), default=0) or 1.0
+        for outline in self.outlines:
+            _draw(axes, outline, top, style)
+        if self.log:
+            drawn = [h for one in self.outlines for h in (*one.heights, *(bar[2] for bar in one.bars)) if h > 0]
+            axes.set(yscale="log", ylim=(0.8 * min(drawn, default=1.0), None))
+        axes.set(xlim=self.extent, xlabel=self.xlabel, ylabel=self.ylabel, title=style.heading(self.title))
+        axes.set_xticks([place for place, _ in self.ticks], [text for _, text in self.ticks])
+        axes.grid(alpha=0.3)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
+        return figure
+
+
+def _draw(axes: Axes, outline: Outline, top: float, style: ChartStyle) -> None:
+    edges = [bin / len(outline.heights) for bin in range(len(outline.heights) + 1)]
+    width = 1.0 if outline.filled else 1.6
+    name = style.name(outline.label) + (f" ({outline.note})" if outline.note else "")
+    if outline.filled:
+        axes.stairs(outline.heights, edges, color=outline.colour, fill=True, alpha=0.35)
+    axes.stairs(outline.heights, edges, color=outline.colour, linewidth=width, label=name)
+    for left, right, height in outline.bars:
+        fill = {"facecolor": (outline.colour, 0.35 if outline.filled else 0.0)}
+        end = _BROKEN * top if height > top else height
+        axes.bar(left, end, right - left, align="edge", edgecolor=outline.colour, linewidth=width, **fill)
+        if height > top:
+            _break(axes, left, right, top, f"{height:,.0f}", outline.colour)
+
+
+def _break(axes: Axes, left: float, right: float, top: float, number: str, colour: str) -> None:
+    """Break a bar that is too tall for the axis by a band of teeth, and write its number on it."""
+    places = [left + (right - left) * k / 8 for k in range(9)]
+    for wide, of in ((5.0, colour), (3.4, "white")):
+        axes.plot(
+            places,
+            [top * (0.90 if k % 2 else 0.93) for k in range(9)],
+            color=of,
+            linewidth=wide,
+            zorder=5,
+            solid_capstyle="butt",
+        )
+    axes.annotate(
+        number,
+        ((left + right) / 2, _BROKEN * top),
+        xytext=(0, 3),
+        textcoords="offset points",
+        ha="center",
+        fontsize="small",
+        color=colour,
+    )

@@ -1,0 +1,81 @@
+"""Charts and tables, saved through the dialogs that name what is in them."""
+
+from __future__ import annotations
+
+import csv
+
+import pytest
+from PIL import Image
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QLabel
+
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.state.run import Phase
+from hexmend_app.widgets.export_dialog import ExportDialog
+from tests.app.driving import phase
+from tests.patience import PATIENCE
+
+SHORT = Stop(max_iterations=3)
+
+
+@pytest.fixture
+def worked(window, qtbot):
+    """A window in which a method has run, and methods have been compared."""
+    window.session.smoothing.start(METHODS["laplacian"](), SHORT)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], SHORT)
+    qtbot.waitUntil(lambda: not window.session.comparison.busy, timeout=PATIENCE)
+    for panel in ("histogram", "convergence", "compare"):
+        window.show_panel(panel)
+        window.refresh()
+    return window
+
+
+def answer(window, feature, path, title, names, **style):
+    """Have a feature ask, answer as a user would, and give up where that is refused; what was said then."""
+    said = []
+
+    def fill():
+        dialog = next(one for one in window.findChildren(ExportDialog) if one.isVisible())
+        try:
+            dialog.target.line.setText(str(path))
+            dialog.title.setText(title)
+            for own, name in names.items():
+                dialog.names[own].setText(name)
+            for name, value in style.items():
+                dialog.form.editor(name).set_value(value)
+            dialog.accept()
+        finally:
+            said.extend(one.text() for one in dialog.findChildren(QLabel) if one.accessibleName() == "What is wrong")
+            if dialog.isVisible():
+                dialog.reject()
+
+    QTimer.singleShot(0, fill)
+    window.features[feature].ask()
+    return said[0]
+
+
+@pytest.mark.parametrize(
+    ("feature", "own"), [("histogram", "now"), ("convergence", METHODS["laplacian"].title), ("compare", "getme")]
+)
+def test_what_is_named_in_the_dialog_is_named_so_in_the_table(worked, tmp_path, feature, own):
+    answer(worked, feature, tmp_path / "table.csv", "", {own: "what I did"})
+    with (tmp_path / "table.csv").open(newline="") as file:
+        cells = [cell for row in csv.reader(file) for cell in row]
+    assert "what I did" in cells
+    assert own not in cells
+
+
+@pytest.mark.parametrize("feature", ["histogram", "convergence"])
+def test_a_figure_is_as_wide_as_was_asked_and_the_next_one_too(worked, tmp_path, feature):
+    answer(worked, feature, tmp_path / "a.png", "title", {}, width=76.2, resolution=100.0)
+    with Image.open(tmp_path / "a.png") as picture:
+        assert picture.width == 300
+    answer(worked, feature, tmp_path / "b.png", "title", {})
+    assert (tmp_path / "b.png").read_bytes() == (tmp_path / "a.png").read_bytes()
+
+
+def test_two_methods_of_one_name_are_refused_before_anything_is_written(worked, tmp_path):
+    assert "called 'laplacian'" in answer(worked, "compare", tmp_path / "table.md", "", {"getme": "laplacian"})
+    assert not list(tmp_path.iterdir())
