@@ -28,6 +28,7 @@ from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
 from hexmend_app.scene.palette import Role
 from hexmend_app.state.order import Order
+from hexmend_app.widgets.combo import let_shrink
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.parameter_form import ParameterForm
 from hexmend_app.widgets.section import Section
@@ -75,8 +76,7 @@ class SmoothingPanel(QWidget):
         self._placed = False
 
         self._method = QComboBox()
-        self._method.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self._method.setMinimumContentsLength(14)
+        let_shrink(self._method, 14)
         self._method.activated.connect(self._on_method)
         explain(self._method, "Method", "How nodes are moved; the line below says what the chosen method does.")
         choice = QFormLayout()
