@@ -17,7 +17,7 @@ CORE = [
     {"arrays", "cells", "errors", "hexahedron", "shape_functions"},
     {"figures", "mesh_checks", "parameters", "registry", "second_order", "showing", "toml_text"},
     {"kernels"},
-    {"topology"},
+    {"edge_length", "topology"},
     {"mesh"},
     {"patches"},
     {"quality", "structure"},

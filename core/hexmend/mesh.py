@@ -11,18 +11,12 @@ from typing import Protocol
 import numpy as np
 
 from hexmend.cells import Cells
+from hexmend.edge_length import mean_edge_length
 from hexmend.errors import MeshError
-from hexmend.hexahedron import EDGES
-from hexmend.kernels import elements
 from hexmend.mesh_checks import check_finite, check_node_numbers, check_size
 from hexmend.second_order import check_mid_nodes, following
 from hexmend.showing import html_of
 from hexmend.topology import Topology
-
-#: By what factor the longest edges may raise the mean length of all.
-SPOILED = 4.0
-#: In how many hexes, about, it is looked for that.
-_LOOKED_AT = 10_000
 
 
 class Target(Protocol):
@@ -148,14 +142,8 @@ class Mesh:
 
     @cached_property
     def mean_edge_length(self) -> float:
-        """Mean length of the hexes' edges, each counted once a hex; the longest are left out where they spoil it.
-
-        That is where it is more than `SPOILED` times the mean of all but the longest tenth: one node far away makes
-        edges so long that in their mean all others would have no length.
-        """
-        mean = elements.mean_edge_length(self.points, self.hexes)
-        usual = _usual_edge_length(self.points, self.hexes)
-        return usual if mean > SPOILED * usual > 0 else mean
+        """Mean length of the hexes' edges, each counted once a hex; see `hexmend.edge_length`."""
+        return mean_edge_length(self.points, self.hexes)
 
     def _repr_html_(self) -> str:
         """What a notebook shows of it."""
@@ -258,15 +246,6 @@ class Mesh:
         names = ("_surface", "_target", *known)
         copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__})
         return copy
-
-
-def _usual_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
-    """Mean length of the edges of hexes without the longest tenth; of many hexes some are looked at."""
-    ends = points[hexes[:: len(hexes) // _LOOKED_AT + 1]][:, EDGES]
-    with np.errstate(over="ignore"):
-        lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
-    kept = lengths.size - lengths.size // 10
-    return float(np.partition(lengths, kept - 1)[:kept].mean())
 
 
 def _frozen(array: np.ndarray) -> np.ndarray:

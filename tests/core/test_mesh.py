@@ -72,12 +72,6 @@ def test_fixed_are_boundary_pinned_and_unused():
     assert more.fixed[-1]
 
 
-def test_mean_edge_length():
-    mesh = grid(3)
-    assert mesh.mean_edge_length == pytest.approx(1)
-    assert mesh.with_points(mesh.points * [1, 2, 3]).mean_edge_length == pytest.approx(2)
-
-
 def test_a_replaced_mesh_shares_what_is_not_replaced_and_checks_what_is():
     mesh = grid(2)
     tagged = mesh.replace(hex_sets={"some": np.array([1, 2])})

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QPoint, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShortcut
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QMainWindow, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QMainWindow, QWidget
 
 from hexmend_app.feature import Panel, Place
+from hexmend_app.shell.counts import Counts
 from hexmend_app.shell.docks import Docks
 from hexmend_app.shell.type_to_find import TypeToFind
 from hexmend_app.state import settings
@@ -60,8 +61,7 @@ class Window(QMainWindow):
         self.setCentralWidget(self.docks)
         make_room(self)
         TypeToFind(self)
-        self._counts = QLabel()
-        self._counts.setAccessibleName("Counts")
+        self._counts = Counts()
         corner = QWidget()
         line = QHBoxLayout(corner)
         line.setContentsMargins(4, 0, 8, 3)  # on a line with the tabs
@@ -226,24 +226,9 @@ class Window(QMainWindow):
         # Esc is for a message first, then for what is being opened.
         self.busy.take_escape("open" if self.session.opener.busy and self.messages.isHidden() else "")
         if document.is_open:
-            summary = document.now.summary
-            inverted = f"{summary.inverted:,} inverted" if summary.inverted else "none inverted"
-            self._counts.setText(f"{summary.hexes:,} hexes, {inverted}{self._isolated()}{self._chosen()}")
+            self._counts.refresh(self.session)
         self.setWindowTitle(f"{document.name}[*] – Hexmend" if document.is_open else "Hexmend")
         self.setWindowModified(document.modified)
-
-    def _isolated(self) -> str:
-        """That only a part is shown, and what brings back the rest."""
-        isolation = self.session.view.look.isolation
-        return "" if isolation is None else f"  ·  {len(isolation.hexes):,} isolated (Esc)"
-
-    def _chosen(self) -> str:
-        """The hex that is chosen, in short, wherever its panel is."""
-        chosen, now = self.session.selection.hex, self.session.document.now
-        if chosen is None:
-            return ""
-        state = "inverted" if now.figures.inverted[chosen] else f"q {now.figures.q[chosen]:.3f}"
-        return f"  ·  hex {chosen:,}: {state}"
 
     def _open_menu(self, hit: tuple[int, int] | None, at: QPoint) -> None:
         """Offer what can be done with what was clicked in the view."""

@@ -11,7 +11,6 @@ from functools import partial
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.advice import Advice
-from hexmend.optimise import Result
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
 from hexmend.run.breakpoints import Breakpoints
@@ -222,20 +221,18 @@ class Smoothing(QObject):
         self._timer.stop()
         worker.task.wait()
         self._worker = None
-        if worker.task.error is not None:
-            last = worker.last  # the last good iteration
-            reached = None if last is None else Moment(self.record, last.iteration.number)
-            self._history.finish(self.record, reached, last and last.state, f"Failed: {worker.task.error}.")
+        error, last = worker.task.error, worker.last  # the last good iteration
+        reached = None if last is None else Moment(self.record, last.iteration.number)
+        message = worker.task.result.message if error is None else f"Failed: {error}."
+        self._history.finish(self.record, reached, last and last.state, message)
+        if error is not None:
             if last is None:
                 self._document.preview(self._before)
             else:
                 self._document.commit(self._title, last.state)
             self._set_phase(Phase.IDLE)
-            self.failed.emit(worker.task.error)
+            self.failed.emit(error)
             return
-        last = worker.last
-        reached = None if last is None else Moment(self.record, last.iteration.number)
-        self._history.finish(self.record, reached, last and last.state, worker.task.result.message)
         if last is not None:
             self._document.commit(self._title, last.state, show=self.following)
             self.iterated.emit(last)
@@ -247,6 +244,3 @@ class Smoothing(QObject):
         if phase is not self.phase:
             self.phase = phase
             self.phase_changed.emit()
-
-
-__all__ = ["Frame", "Phase", "Result", "Smoothing"]

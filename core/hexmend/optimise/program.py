@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hexmend.optimise.ways import Ways
+
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
@@ -17,25 +19,6 @@ IDLE = 0.05
 NEAR, BELOW = 0.3, 1e-7
 #: Of HiGHS: programs as small as these are solved before its presolve has made them smaller.
 _HIGHS = {"presolve": False, "simplex_dual_edge_weight_strategy": "devex"}
-
-
-@dataclass(frozen=True, eq=False)
-class Ways:
-    """Ways that nodes may go, in the length of the shortest edge at each.
-
-    Parameters
-    ----------
-    of : (w,)
-        Whose, ascending.
-    aims : (w, 3)
-        The displacement that is asked for: along a tangent where the node slides.
-    leads : (w, 3)
-        What it comes to once the node is put back: of a faceted surface that is another plane at every side.
-    """
-
-    of: np.ndarray
-    aims: np.ndarray
-    leads: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +51,11 @@ class Models:
 def bounds_of(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> Models:
     """Models of what is not to fall below its bound."""
     return Models(ends, above, slopes, np.zeros(len(above)))
+
+
+def no_bounds() -> Models:
+    """None of them."""
+    return bounds_of(np.empty((0, 4), np.int32), np.empty(0), np.empty((0, 4, 3)))
 
 
 @dataclass(frozen=True, eq=False)

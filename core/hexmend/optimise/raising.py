@@ -13,13 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh import Mesh
-from hexmend.optimise.apart import Apart
-from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
+from hexmend.optimise.corners import gradients, shortest_edges
+from hexmend.optimise.envelope import Envelope
 from hexmend.optimise.iteration import Step
-from hexmend.optimise.program import Models, Ways, solve
-from hexmend.surface import Off, Sliding
+from hexmend.optimise.movable import MovableCorners
+from hexmend.optimise.program import Models, solve
+from hexmend.optimise.ways import ways_of
+from hexmend.surface import Sliding
 
 #: Radius of the trust region at first and at most, in lengths of the shortest edge at each node, and where it ends.
 FIRST, LARGEST, SMALLEST = 0.1, 0.3, 1e-6
@@ -38,8 +39,6 @@ NOTHING, LATELY, LITTLE, SOUND, LITTLE_BEYOND = 1e-6, 10, 2e-5, 0.2, 1e-3
 HOLDS = 1e-3
 #: By how many radii, in mean edge lengths, a boundary that has strayed is brought nearer at a time; what is enough.
 NEARER, EXACT = 0.2, 1e-6
-#: Ways around a place of a patch, in its basis.
-_AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +85,7 @@ class Limit:
 
 
 class Raising:
-    """The corners of a mesh that can be moved, with their scaled Jacobians.
+    """Raises the least scaled Jacobian of the corners that can be moved.
 
     Parameters
     ----------
@@ -100,50 +99,26 @@ class Raising:
     Attributes
     ----------
     points : (n, 3) float64
-    values : (m, 8)
-        Of each corner.
-    settled : (m, 8) bool
-        Corners that could be moved, but none of whose nodes moves any more.
-    lifted : (n,) bool
-        Nodes of the boundary that need not stay on the surface, as long as they stay in the room around it.
-    turns : bool
-        Whether quads at these may be turned over; else no step does that.
+    corners : MovableCorners
+    envelope : Envelope
     """
 
     def __init__(self, mesh: Mesh, points: np.ndarray, sliding: Sliding | None = None):
-        self.mesh, self.sliding, self.points = mesh, sliding, points
-        self._held = ~mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
-        self.values = scaled_jacobians(points, mesh.hexes)
-        self.settled = np.zeros(self.values.shape, dtype=bool)
-        self.lifted = np.zeros(mesh.n_nodes, dtype=bool)
-        self.turns = False
-        self._stays = np.zeros(mesh.n_nodes, dtype=bool)
-        self.room = np.inf if sliding is None else sliding.room
-        self._seen: Apart | None = None
+        self.points, self.corners = points, MovableCorners(mesh, points)
+        self.envelope = Envelope(mesh.n_nodes, sliding)
         self._begin()
 
     @property
-    def least(self) -> float:
-        """The least scaled Jacobian of the corners that are raised; +inf where there is none."""
-        return float(self._raised().min(initial=np.inf))
-
-    @property
-    def lowest(self) -> float:
-        """The least scaled Jacobian of all corners that can be moved, settled or not; +inf where there is none."""
-        return float(np.where(self._held, np.inf, self.values).min(initial=np.inf))
-
-    def locked_below(self, value: float) -> np.ndarray:
-        """Corners, 8 * hex + corner, lower than a value, all of whose nodes are fixed, the lowest first, (k,) int64."""
-        values = np.where(self._held, self.values, np.inf).ravel()
-        low = np.flatnonzero(values < value)
-        return low[np.argsort(values[low], kind="stable")]
+    def mesh(self) -> Mesh:
+        """Whose free nodes are moved: of the nodes that are fixed, some may have been lifted."""
+        return self.corners.mesh
 
     def steps(self, aim: float = np.inf) -> Iterator[Raised | Limit]:
         """Steps that raise the least, until none does any more, or it has reached `aim`; at last what limits it."""
         self._begin()
         gains = [np.inf] * LATELY
-        while self._radius > SMALLEST and self.least < aim:
-            values, least, radius = self._raised().ravel(), self.least, self._radius
+        while self._radius > SMALLEST and self.corners.least < aim:
+            values, least, radius = self.corners.raised().ravel(), self.corners.least, self._radius
             band = float(np.clip(BAND * radius, NARROWEST, WIDEST))
             low = np.flatnonzero(values < least + band)
             whole = low.size <= self._most
@@ -152,7 +127,7 @@ class Raising:
             promised, points, moved = self._step(low, band)
             gain = self._take(points, moved, least, promised) if promised > NOTHING else 0.0
             if gain > 0:
-                yield Raised(self.points, self.least, low.size, radius)
+                yield Raised(self.points, self.corners.least, low.size, radius)
             gains.append(gain)
             if promised <= NOTHING or sum(gains[-LATELY:]) < (LITTLE if least < SOUND else LITTLE_BEYOND):
                 if whole or self._most >= MANY:
@@ -167,69 +142,45 @@ class Raising:
         What is settled is no more: everything may be moved.
         """
         self._begin()
-        self.settled[:] = self._stays[:] = False
-        while self._radius > SMALLEST and (far := self.furthest()) > room * (1 + EXACT):
+        self.corners.unsettle()
+        corners, envelope, edge = self.corners, self.envelope, self.mesh.mean_edge_length
+        while self._radius > SMALLEST and (far := envelope.furthest(self.points)) > room * (1 + EXACT):
             radius = self._radius
-            self.room, least = max(room, far - NEARER * radius * self.mesh.mean_edge_length), self.least
-            low = np.flatnonzero(self._raised().ravel() < least + NARROWEST)[: self._most]
-            _, points, moved = self._step(low, NARROWEST, self._strayed())
-            old, apart, self.points = self.points, self._apart, points
-            if self.furthest() > far - BRINGS * (far - self.room):
-                self.points = old
+            envelope.room = max(room, far - NEARER * radius * edge)
+            low = np.flatnonzero(corners.raised().ravel() < corners.least + NARROWEST)[: self._most]
+            strayed = envelope.strayed(self.points)
+            _, points, moved = self._step(low, NARROWEST, strayed[self.mesh.free[strayed]])
+            if envelope.furthest(points) > far - BRINGS * (far - envelope.room):
                 self._radius *= SHRINK
                 continue
-            hexes = np.unique(self.mesh.topology.node_corners.of(moved) // 8)
-            self.values[hexes] = scaled_jacobians(points, self.mesh.hexes[hexes])
-            self._seen, self._radius = apart.moved(points, moved), min(GROW * self._radius, LARGEST)
-            yield Raised(points, self.least, low.size, radius)
-        self.room = room
-
-    def furthest(self) -> float:
-        """The largest distance of the boundary and the surface, both ways."""
-        if self.sliding is None:
-            return 0.0
-        return max(float(off.far.max(initial=0.0)) for off in self._off(self.points, 0.0))
-
-    def _strayed(self) -> np.ndarray:
-        """Free nodes where the boundary is out of its room."""
-        found = np.unique(np.concatenate([off.nodes for off in self._off(self.points, self.room)]))
-        return found[self.mesh.free[found]]
-
-    def _off(self, points: np.ndarray, room: float) -> tuple[Off, Off]:
-        """Where the boundary is further than that from the surface, and the surface from the boundary."""
-        sliding = self.sliding
-        return sliding.off(points, np.arange(len(sliding.middles)), room), sliding.behind(points, room=room)
+            corners.measure(points, corners.hexes_at(moved))
+            envelope.follow(self.points, points, moved)
+            self.points, self._radius = points, min(GROW * self._radius, LARGEST)
+            yield Raised(points, corners.least, low.size, radius)
+        envelope.room = room
 
     def settle(self, limit: Limit) -> None:
         """Let the corners that hold each other be, and their nodes stay: those that are left can be raised further."""
-        self._stays[_nodes(self.mesh.hexes, 8 * limit.hexes + limit.corners)] = True
-        moves = self.mesh.free & ~self._stays
-        self.settled = ~moves[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2) & ~self._held
+        self.corners.settle(8 * limit.hexes + limit.corners)
 
     def lift(self, limit: Limit) -> bool:
         """Let sliding nodes of the corners that hold each other leave the surface; whether there is one more."""
-        if self.sliding is None or not self.room > 0:
+        envelope, sliding, mesh = self.envelope, self.envelope.sliding, self.mesh
+        if sliding is None or not envelope.room > 0:
             return False
-        nodes = np.unique(self.mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]])
-        nodes = nodes[self.sliding.slides(nodes) & ~self.lifted[nodes]]
-        self.lifted[nodes] = True
+        holding = np.unique(self.corners.nodes_of(8 * limit.hexes + limit.corners))
+        nodes = holding[envelope.slides(holding)]
         if not nodes.size and limit.least < 0:
-            nodes = np.unique(self.mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]])
-            nodes = nodes[self.sliding.yields[nodes] & ~self.mesh.free[nodes]]
-            fixed = self.mesh.fixed.copy()
+            nodes = holding[sliding.yields[holding] & ~mesh.free[holding]]
+            fixed = mesh.fixed.copy()
             fixed[nodes] = False
-            self.lifted[nodes] = True
-            self.mesh = self.mesh.with_fixed(fixed)
-            self._held = ~self.mesh.free[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+            self.corners.set_mesh(mesh.with_fixed(fixed))
+        envelope.lifted[nodes] = True
         return nodes.size > 0
 
     def _begin(self) -> None:
         self._radius, self._most = FIRST, FEW
         self._multipliers: tuple[np.ndarray, np.ndarray] = np.empty(0, np.int64), np.empty(0)
-
-    def _raised(self) -> np.ndarray:
-        """The values, +inf of corners that cannot be moved or are settled, (m, 8)."""
-        return np.where(self._held | self.settled, np.inf, self.values)
 
     def _step(
         self, low: np.ndarray, band: float, strayed: np.ndarray | None = None
@@ -238,101 +189,39 @@ class Raising:
 
         Returns the gain that it promises, all points with these nodes moved and put back, and which these are.
         """
-        hexes, radius, least = self.mesh.hexes, self._radius, self.least
-        nodes = np.unique(_nodes(hexes, low))
-        nodes = nodes[self.mesh.free[nodes] & ~self._stays[nodes]]
+        corners, envelope, radius, least = self.corners, self.envelope, self._radius, self.corners.least
+        nodes = corners.moving(np.unique(corners.nodes_of(low)))
         if strayed is not None:
             nodes = np.union1d(nodes, strayed)
-        around = np.unique(self.mesh.topology.node_corners.of(nodes) // 8)
+        around = corners.hexes_at(nodes)
         near = (8 * around[:, None] + np.arange(8)).ravel()
-        above = self._raised().ravel()[near] - least
-        near = near[above < band + FALL * radius]
-        ends = _nodes(hexes, near)
+        near = near[corners.raised().ravel()[near] - least < band + FALL * radius]
+        ends = corners.nodes_of(near)
         values, derivatives = gradients(self.points, ends)
-        size = shortest_edges(self.points, hexes[around])
+        size = shortest_edges(self.points, self.mesh.hexes[around])
         models = Models(ends, np.maximum(values - least, 0.0), derivatives, np.ones(near.size))
-        if self.sliding is not None and np.isfinite(self.room):
-            room = self._room(nodes, size)
-            if strayed is None:
-                np.maximum(room.above, 0.0, out=room.above)
-            models = models.and_those(room)
-        ways = self._ways(nodes, size)
-        solved = solve(nodes, ways, models, radius, falls=strayed is not None)
+        moves = np.zeros(len(self.points))
+        moves[nodes] = radius * size[nodes]
+        bounds = envelope.bounds(self.points, moves)
+        if strayed is None:
+            np.maximum(bounds.above, 0.0, out=bounds.above)
+        ways = ways_of(self.points[nodes], size[nodes], radius, nodes, envelope.slides(nodes), envelope.sliding)
+        solved = solve(nodes, ways, models.and_those(bounds), radius, falls=strayed is not None)
         if solved is None:
             return 0.0, self.points, nodes
         self._multipliers = near, solved.multipliers[: near.size]
         points = self.points.copy()
         np.add.at(points, nodes[ways.of], solved.far[:, None] * ways.aims)
-        slide = nodes[self._slides(nodes)]
-        if slide.size:
-            points[slide] = self.sliding.put_back(points[slide], slide)
-        if self.sliding is not None:  # off the surface its normals say little
-            points = self.sliding.unturned(self.points, points, self.lifted if self.turns else None)
-        return solved.gain, points, nodes
-
-    def _slides(self, nodes: np.ndarray) -> np.ndarray:
-        """Which of some nodes are put back on the surface wherever they are moved to, bool."""
-        if self.sliding is None:
-            return np.zeros(nodes.size, dtype=bool)
-        return self.sliding.slides(nodes) & ~self.lifted[nodes]
-
-    def _room(self, nodes: np.ndarray, size: np.ndarray) -> Models:
-        """What keeps the boundary at nodes in its room."""
-        moves = np.zeros(self.mesh.n_nodes)
-        moves[nodes] = self._radius * size[nodes]
-        return self._apart.bounds(moves, self.room)
-
-    @property
-    def _apart(self) -> Apart:
-        if self._seen is None or self._seen.points is not self.points:
-            self._seen = Apart(self.sliding, self.points)
-        return self._seen
-
-    def _leaves(self, points: np.ndarray, nodes: np.ndarray) -> bool:
-        """Whether the boundary at nodes has left its room, further than it was."""
-        if self.sliding is None or not np.isfinite(self.room):
-            return False
-        after = self._apart.moved(points, nodes)
-        if after.leaves(self._apart, nodes, self.room):
-            return True
-        self._seen = after
-        return False
-
-    def _ways(self, nodes: np.ndarray, size: np.ndarray) -> Ways:
-        """Ways of nodes: both senses of each axis; of those that slide on a patch eight around, on a curve two."""
-        axes = np.concatenate([np.eye(3), -np.eye(3)])
-        slides = self._slides(nodes)
-        inside = np.flatnonzero(~slides)
-        of, aims = np.repeat(inside, 6), np.tile(axes, (inside.size, 1))
-        leads = aims
-        if slides.any():
-            on = np.flatnonzero(slides)
-            bases = self.sliding.bases(self.points[nodes[on]], nodes[on])
-            around = np.einsum("kij,wj->kwi", bases, _AROUND).reshape(-1, 3)
-            of_around = np.repeat(on, len(_AROUND))
-            there = np.linalg.norm(around, axis=1) > 0.5  # of a curve all that goes along it, once
-            there &= np.tile(_AROUND[:, 1] == 0, on.size) | np.repeat(bases[:, :, 1].any(axis=1), len(_AROUND))
-            around, of_around = around[there], of_around[there]
-            far = np.maximum(self._radius * size[nodes[of_around], None], np.finfo(float).tiny)  # nodes may coincide
-            start = self.points[nodes[of_around]]
-            led = (self.sliding.put_back(start + far * around, nodes[of_around]) - start) / far
-            of, aims, leads = (np.concatenate(both) for both in ((of, of_around), (aims, around), (leads, led)))
-        order = np.argsort(of, kind="stable")
-        scale = size[nodes[of[order]], None]
-        return Ways(of[order], scale * aims[order], scale * leads[order])
-
-    def _limit(self) -> Limit:
-        corners, weights = self._multipliers
-        order = np.argsort(-weights, kind="stable")
-        order = order[weights[order] > HOLDS]
-        return Limit(self.least, corners[order] // 8, corners[order] % 8)
+        return solved.gain, envelope.placed(self.points, points, nodes), nodes
 
     def _take(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
         """Move to `points` if that brings enough, and fit the trust region; returns what was gained."""
-        hexes = np.unique(self.mesh.topology.node_corners.of(moved) // 8)
-        before, self.values[hexes] = self.values[hexes], scaled_jacobians(points, self.mesh.hexes[hexes])
-        gain = self.least - least
-        if gain > BRINGS * promised and self._leaves(points, moved):
+        corners = self.corners
+        hexes = corners.hexes_at(moved)
+        before = corners.values[hexes]
+        corners.measure(points, hexes)
+        gain = corners.least - least
+        if gain > BRINGS * promised and self.envelope.leaves(self.points, points, moved):
             gain = -np.inf
         share = gain / promised
         if share > GOOD:
@@ -342,10 +231,11 @@ class Raising:
         if share > BRINGS:
             self.points = points
             return gain
-        self.values[hexes] = before
+        corners.values[hexes] = before
         return 0.0
 
-
-def _nodes(hexes: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Apex and ends of corners, 8 * hex + corner, (k, 4)."""
-    return np.take_along_axis(hexes[corners // 8], CORNER_TETRAHEDRA[corners % 8], axis=1)
+    def _limit(self) -> Limit:
+        corners, weights = self._multipliers
+        order = np.argsort(-weights, kind="stable")
+        order = order[weights[order] > HOLDS]
+        return Limit(self.corners.least, corners[order] // 8, corners[order] % 8)

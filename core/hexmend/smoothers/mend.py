@@ -103,11 +103,11 @@ class Mend(Objective):
             places += [freeing.points, points]
         if raises or self.slides:
             at = mesh if sliding is None else sliding.mesh
-            raising = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.least)
-            if raises or raising.least < SOUND:
+            raising = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.corners.least)
+            if raises or raising.corners.least < SOUND:
                 outcome = Outcome.NO_IMPROVEMENT
                 limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
-                if self.slides and room and raising.lowest < (AIM if raises else SOUND):
+                if self.slides and room and raising.corners.lowest < (AIM if raises else SOUND):
                     raising, limit = yield from lifted(Raising(at, places[1], sliding), room, raising, limit)
                 points = raising.points
                 if raises:

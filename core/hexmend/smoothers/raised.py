@@ -49,7 +49,7 @@ def raise_least(
         What held the least at first.
     """
     first = None
-    yield Step(raising.points, {"least": raising.least}, more=True, detour=detour)
+    yield Step(raising.points, {"least": raising.corners.least}, more=True, detour=detour)
     while True:
         for number, step in enumerate(raising.steps(aim)):
             limit = step if isinstance(step, Limit) else None
@@ -72,14 +72,16 @@ def lifted(raising: Raising, room: float, other: Raising, limit: Limit) -> Gener
 
     Returns what is better, that or the other, with its limit.
     """
-    raising.room, raising.turns = max(WIDE * raising.mesh.mean_edge_length, room), True
+    envelope, corners = raising.envelope, raising.corners
+    envelope.room, envelope.turns = max(WIDE * raising.mesh.mean_edge_length, room), True
     yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
     for step in islice(raising.into(room), 0, None, TOGETHER):
         yield step.step(detour=True)
-    raising.turns = False
-    turned = raising.sliding.turned(raising.sliding.points, raising.points).size > 0
-    if turned or raising.furthest() > room * (1 + NEAR_ENOUGH) or raising.lowest < other.lowest:
-        yield Step(other.points, {"least": other.lowest}, more=True)
+    envelope.turns = False
+    turned = envelope.sliding.turned(envelope.sliding.points, raising.points).size > 0
+    far = envelope.furthest(raising.points) > room * (1 + NEAR_ENOUGH)
+    if turned or far or corners.lowest < other.corners.lowest:
+        yield Step(other.points, {"least": other.corners.lowest}, more=True)
         return other, limit
     return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
 
@@ -103,11 +105,12 @@ def what_limits(raising: Raising, limit: Limit) -> str:
     if not locked.size:
         return said
     which = "One corner is locked below that" if locked.size == 1 else f"{locked.size:,} corners are locked below that"
-    return f"{said} {which}: {raising.values.ravel()[locked[0]]:.4f} at the lowest, in hex {_named(locked[:1] // 8)}."
+    lowest = raising.corners.values.ravel()[locked[0]]
+    return f"{said} {which}: {lowest:.4f} at the lowest, in hex {_named(locked[:1] // 8)}."
 
 
 def _locked(raising: Raising, limit: Limit) -> np.ndarray:
-    return raising.locked_below(limit.least if limit.hexes.size else -np.inf)
+    return raising.corners.locked_below(limit.least if limit.hexes.size else -np.inf)
 
 
 def _named(hexes: np.ndarray) -> str:

@@ -82,7 +82,7 @@ def test_every_text_can_be_read_on_its_grounds(name, ground, dark):
 
 def smoothing():
     panel = SmoothingPanel(Order())
-    panel.form.set_values({})
+    panel.stage.parameters.set_values({})
     return panel
 
 

@@ -63,15 +63,15 @@ def with_locked_corner(mesh):
 def test_the_least_rises_from_step_to_step_and_fixed_nodes_stay(seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
     raising = Raising(mesh, mesh.points)
-    least = raising.least
+    least = raising.corners.least
     steps, limit = raised(raising)
     for step in steps:
         assert step.least > least
         least = step.least
         assert step.least == scaled_jacobians(step.points, mesh.hexes).min()  # that of the boundary's corners too
         np.testing.assert_array_equal(step.points[mesh.fixed], mesh.points[mesh.fixed])
-    assert limit.least == raising.least == least
-    np.testing.assert_array_equal(raising.values, scaled_jacobians(raising.points, mesh.hexes))
+    assert limit.least == raising.corners.least == least
+    np.testing.assert_array_equal(raising.corners.values, scaled_jacobians(raising.points, mesh.hexes))
 
 
 @settings(max_examples=20)
@@ -80,7 +80,7 @@ def test_a_scrambled_grid_is_raised_to_that_of_cubes(seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
     raising = Raising(mesh, mesh.points)
     raised(raising)
-    assert raising.least > 0.99
+    assert raising.corners.least > 0.99
 
 
 @settings(max_examples=20)
@@ -89,7 +89,7 @@ def test_corners_at_the_end_hold_each_other(seed):
     mesh = one_free_node(seed)
     raising = Raising(mesh, mesh.points)
     _, limit = raised(raising)
-    values = raising.values[limit.hexes, limit.corners]
+    values = raising.corners.values[limit.hexes, limit.corners]
     assert np.ptp(values) < 1e-3
     assert (mesh.free[mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]]]).any(axis=1).all()
     assert steepest(mesh, raising.points, limit) < 3 * IDLE + 1e-6  # each axis of a node has its price
@@ -115,16 +115,16 @@ def test_settled_corners_do_not_fall_while_others_rise(seed):
     raising = Raising(mesh, mesh.points)
     _, first = raised(raising)
     at = first.hexes, first.corners
-    held = raising.values[at]
+    held = raising.corners.values[at]
     raising.settle(first)
-    assert raising.settled[at].all()
-    assert raising.least >= first.least
+    assert raising.corners.settled[at].all()
+    assert raising.corners.least >= first.least
     _, second = raised(raising)
     assert second.least >= first.least
-    np.testing.assert_array_equal(raising.values[at], held)
-    assert raising.lowest >= first.least
+    np.testing.assert_array_equal(raising.corners.values[at], held)
+    assert raising.corners.lowest >= first.least
     movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
-    assert raising.lowest == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
+    assert raising.corners.lowest == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
 
 
 def test_where_nothing_is_free_nothing_is_done():
@@ -132,7 +132,7 @@ def test_where_nothing_is_free_nothing_is_done():
     raising = Raising(mesh, mesh.points)
     steps, limit = raised(raising)
     assert steps == []
-    assert raising.least == limit.least == np.inf
+    assert raising.corners.least == limit.least == np.inf
     assert limit.hexes.size == 0
     np.testing.assert_array_equal(raising.points, mesh.points)
 
@@ -142,7 +142,7 @@ def test_a_corner_that_fixed_nodes_lock_holds_back_no_other():
     raising = Raising(mesh, mesh.points)
     steps, limit = raised(raising)
     assert steps
-    assert raising.values[0, 0] < 0 < limit.least
+    assert raising.corners.values[0, 0] < 0 < limit.least
     assert (0, 0) not in list(zip(limit.hexes, limit.corners, strict=True))
 
 
@@ -167,10 +167,10 @@ def test_the_boundary_slides_in_its_room(seed, solid, share):
     room = share * mesh.mean_edge_length
     sliding = Sliding(mesh, room=room)
     raising = Raising(sliding.mesh, mesh.points, sliding)
-    before = raising.least
+    before = raising.corners.least
     steps, _ = raised(raising)
     assert (np.diff([before, *(step.least for step in steps)]) > 0).all()
-    assert raising.furthest() <= room * (1 + 1e-9)
+    assert raising.envelope.furthest(raising.points) <= room * (1 + 1e-9)
     change = surface_change(mesh, mesh.with_points(raising.points))
     assert change.furthest <= room * (1 + 1e-9)
     np.testing.assert_array_equal(raising.points[sliding.mesh.fixed], mesh.points[sliding.mesh.fixed])
@@ -181,7 +181,7 @@ def test_the_boundary_slides_in_its_room(seed, solid, share):
 def lifted(sliding, points, wide, times):
     """A boundary that has left its surface where that raises the least, up to so far, and as often as it has to."""
     raising = Raising(sliding.mesh, points, sliding)
-    raising.room = wide
+    raising.envelope.room = wide
     for _ in range(times):
         _, limit = raised(raising, aim=0.5)
         if not raising.lift(limit):
@@ -194,19 +194,19 @@ def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
     edge = mesh.mean_edge_length
     sliding = Sliding(mesh)
     raising = lifted(sliding, mesh.points, edge, 4)
-    assert raising.lifted.any()
-    assert sliding.slides(np.flatnonzero(raising.lifted)).all()
-    far = raising.furthest()
+    assert raising.envelope.lifted.any()
+    assert sliding.slides(np.flatnonzero(raising.envelope.lifted)).all()
+    far = raising.envelope.furthest(raising.points)
     assert 0.1 * edge < far <= edge * (1 + 1e-9)
     for step in raising.into(0.1 * edge):
         assert np.isfinite(step.points).all()
-    assert raising.furthest() <= 0.1 * edge * (1 + 1e-5)
+    assert raising.envelope.furthest(raising.points) <= 0.1 * edge * (1 + 1e-5)
     assert surface_change(mesh, mesh.with_points(raising.points)).max <= 0.1 * (1 + 1e-5)
-    assert raising.room == 0.1 * edge
-    least = raising.least
+    assert raising.envelope.room == 0.1 * edge
+    least = raising.corners.least
     steps, _ = raised(raising)
     assert all(step.least > least for step in steps)
-    assert raising.furthest() <= 0.1 * edge * (1 + 1e-5)
+    assert raising.envelope.furthest(raising.points) <= 0.1 * edge * (1 + 1e-5)
 
 
 def test_nothing_is_lifted_off_a_surface_without_room():
@@ -214,9 +214,9 @@ def test_nothing_is_lifted_off_a_surface_without_room():
     sliding = Sliding(mesh, room=0.0)
     raising = Raising(sliding.mesh, mesh.points, sliding)
     _, limit = raised(raising)
-    raising.room = 0.0
+    raising.envelope.room = 0.0
     assert not raising.lift(limit)
-    assert not raising.lifted.any()
+    assert not raising.envelope.lifted.any()
     fixed = Raising(mesh, mesh.points)
     assert not fixed.lift(raised(fixed)[1])
 
@@ -226,15 +226,15 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
     room = 0.4 * mesh.mean_edge_length
     sliding = Sliding(mesh)
     raising = Raising(sliding.mesh, mesh.points, sliding)
-    raising.room = 1.5 * mesh.mean_edge_length
+    raising.envelope.room = 1.5 * mesh.mean_edge_length
     for _ in range(5):
         for step in itertools.islice(raising.steps(0.0), 10):
             limit = step
         if not isinstance(limit, Limit) or not raising.lift(limit):
             break
-    assert raising.furthest() > room
+    assert raising.envelope.furthest(raising.points) > room
     for _ in raising.into(room):
         pass
-    assert raising.furthest() <= room * (1 + 1e-5)
+    assert raising.envelope.furthest(raising.points) <= room * (1 + 1e-5)
     change = surface_change(mesh, mesh.with_points(raising.points))
     assert change.furthest <= room * (1 + 1e-5)

@@ -45,7 +45,7 @@ class FeatureConvergence(Feature):
         panel.forget_requested.connect(timeline.forget)
         panel.picked.connect(timeline.go_soon)
         panel.save_requested.connect(self.ask)
-        session.choices.offer("charts", panel.choices, panel.set_choices)
+        session.choices.offer("charts", panel.head.choices, panel.head.set_choices)
 
     def panels(self) -> Sequence[Panel]:
         """The charts."""
@@ -89,7 +89,7 @@ class FeatureConvergence(Feature):
         return Curve(
             self._columns[record],
             record.slot,
-            (0.0, 0.0) if self.panel.from_zero.isChecked() else beginning(record),
+            (0.0, 0.0) if self.panel.head.from_zero.isChecked() else beginning(record),
             shown=record.plotted,
             current=record is self._timeline.record,
             going=self._smoothing.busy and record is self._smoothing.record,

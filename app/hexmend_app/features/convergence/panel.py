@@ -6,32 +6,21 @@ from collections.abc import Sequence
 from functools import partial
 
 from PySide6.QtCore import QPointF, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QResizeEvent
-from PySide6.QtWidgets import (
-    QBoxLayout,
-    QHBoxLayout,
-    QSizePolicy,
-    QToolTip,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.charts import CHARTS, FIRST
+from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.curves import Curve
+from hexmend_app.features.convergence.head import ConvergenceHead
 from hexmend_app.features.convergence.plot import ConvergencePlot
 from hexmend_app.features.convergence.run_legend import RunLegend
 from hexmend_app.features.convergence.words import describe
 from hexmend_app.scene.ticks import nice_ticks
-from hexmend_app.state.choices import ChartChoices
 from hexmend_app.state.history import Record
-from hexmend_app.widgets.menu_button import MenuButton
 from hexmend_app.widgets.scrolled import scrolled
-from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import icon, note, smaller
+from hexmend_app.widgets.style import note
 
 _NONE = "No method has run on this mesh yet. Its figures will appear here, iteration by iteration."
-_LOG = "Axes by powers of ten, but for quality and the counts of CG iterations and cuts; zero stands below them."
-_FROM_ZERO = "Lay all runs over one another from their start, rather than let a branch begin where it left its parent."
 
 #: Width of what stands beside the charts, and of the whole from which on it does so.
 _SIDE, _WIDE = 158, 420
@@ -45,8 +34,10 @@ class ConvergencePanel(QWidget):
 
     Attributes
     ----------
+    head : ConvergenceHead
+    legend : RunLegend
     side, plotting : QWidget
-        What lists and sets the runs, and what plots them.
+        What has these two, and what plots the runs.
 
     Signals
     -------
@@ -75,48 +66,16 @@ class ConvergencePanel(QWidget):
         for plot in self.plots.values():
             plot.picked.connect(self.picked)
             plot.hovered.connect(partial(self._on_hovered, plot))
-        self._make_controls()
+        self.head, self.legend = ConvergenceHead(), RunLegend()
+        self.head.charts_changed.connect(self._arrange)
+        self.head.axes_changed.connect(self._redraw)
+        self.head.from_zero_changed.connect(self.choice_changed)
+        self.head.save_requested.connect(self.save_requested)
+        self.legend.toggled.connect(self.toggled)
+        self.legend.forget_requested.connect(self.forget_requested)
         self._lay_out()
         self._arrange()
         self.set_curves(())
-
-    # What it is made of
-
-    def _make_controls(self) -> None:
-        self.charts = {key: self._action(chart.title, chart.help, key in FIRST) for key, chart in CHARTS.items()}
-        for action in self.charts.values():
-            action.toggled.connect(self._arrange)
-        self.which = MenuButton("Charts", "Which figures are plotted, each in a chart of its own.")
-        self.which.setText("Charts ▾")
-        self.which.menu().addActions(list(self.charts.values()))
-        self.log = self._action("Logarithmic axes", _LOG, True)
-        self.log.toggled.connect(self._redraw)
-        self.from_zero = self._action("Branches begin at 0", _FROM_ZERO, False)
-        self.from_zero.toggled.connect(self.choice_changed)
-        self.save = self._action("Save…", "Save the charts as SVG, PDF or PNG, or the figures of all runs as CSV.")
-        self.save.triggered.connect(self.save_requested)
-        self.more = MenuButton("More of the charts", "Logarithmic axes, where branches begin, and saving.")
-        self.more.setIcon(icon("dots-vertical"))
-        self.more.menu().addActions([self.log, self.from_zero, self.save])
-        self.axis = Segmented(
-            "Axis of the charts",
-            [
-                ("iteration", "Iteration", "Plot against the number of the iteration."),
-                ("time", "Time", "Plot against the seconds that the method took."),
-            ],
-        )
-        self.axis.setFont(smaller(self.font()))
-        self.axis.chosen.connect(self._redraw)
-        self.legend = RunLegend()
-        self.legend.toggled.connect(self.toggled)
-        self.legend.forget_requested.connect(self.forget_requested)
-
-    def _action(self, text: str, help: str, on: bool | None = None) -> QAction:
-        action = QAction(text, self)
-        action.setCheckable(on is not None)
-        action.setChecked(bool(on))
-        action.setToolTip(f"<qt>{help}</qt>")
-        return action
 
     def _lay_out(self) -> None:
         stack = QWidget()
@@ -128,17 +87,9 @@ class ConvergencePanel(QWidget):
         self._none = note(_NONE)
         self._none.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.plotting, self._runs = scrolled(stack), scrolled(self.legend)
-        buttons = QHBoxLayout()
-        self.which.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        for part in (self.which, self.more):
-            part.setFixedHeight(self.axis.sizeHint().height())
-            buttons.addWidget(part)
-        self._head = QBoxLayout(QBoxLayout.Direction.TopToBottom)
-        self._head.addLayout(buttons, 1)
-        self._head.addWidget(self.axis)
         side = QVBoxLayout()
         side.setContentsMargins(0, 0, 0, 0)
-        side.addLayout(self._head)
+        side.addWidget(self.head)
         side.addWidget(self._runs, 1)
         self.side = QWidget()
         self.side.setLayout(side)
@@ -160,7 +111,7 @@ class ConvergencePanel(QWidget):
         beside = self.width() >= _WIDE
         directions = QBoxLayout.Direction
         self._layout.setDirection(directions.RightToLeft if beside else directions.TopToBottom)
-        self._head.setDirection(directions.TopToBottom if beside else directions.LeftToRight)
+        self.head.set_in_a_row(not beside)
         self.side.setMinimumWidth(_SIDE if beside else 0)
         self.side.setMaximumWidth(_SIDE if beside else _UNBOUNDED)
         row = self.fontMetrics().height() + 3
@@ -168,35 +119,21 @@ class ConvergencePanel(QWidget):
 
     # What is plotted
 
-    def choices(self) -> ChartChoices:
-        """What is set."""
-        shown = tuple(key for key, action in self.charts.items() if action.isChecked())
-        return ChartChoices(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time)
-
-    def set_choices(self, choices: ChartChoices) -> None:
-        """Set all of it."""
-        for key, action in self.charts.items():
-            action.setChecked(key in choices.shown)
-        self.log.setChecked(choices.logarithmic)
-        self.from_zero.setChecked(choices.from_zero)
-        self.axis.set_value("time" if choices.by_time else "iteration")
-        self._redraw()
-
     @property
     def by_time(self) -> bool:
         """Whether the axis is of seconds."""
-        return self.axis.value() == "time"
+        return self.head.by_time
 
     @property
     def drawn(self) -> list[ConvergencePlot]:
         """The charts that are chosen, in their order."""
-        return [plot for key, plot in self.plots.items() if self.charts[key].isChecked()]
+        return [plot for key, plot in self.plots.items() if self.head.charts[key].isChecked()]
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
         """Plot these runs, the oldest first."""
         self.curves = curves
         self.legend.set_curves(curves)
-        self.save.setEnabled(bool(curves))
+        self.head.save.setEnabled(bool(curves))
         self._none.setVisible(not curves)
         self.plotting.setVisible(bool(curves))
         self._place()
@@ -217,7 +154,7 @@ class ConvergencePanel(QWidget):
     def _redraw(self) -> None:
         self._fit()
         for plot in self.drawn:
-            plot.draw(self.curves, self.by_time, self.log.isChecked())
+            plot.draw(self.curves, self.by_time, self.head.log.isChecked())
         self._mark()
 
     def _fit(self) -> None:

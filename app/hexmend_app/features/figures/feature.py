@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
-
-from PySide6.QtCore import QTimer
 
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.state.scene import Page
+from hexmend_app.widgets.pieces import Pieces
 from hexmend_app.widgets.questions import ask_figures
 
 if TYPE_CHECKING:
@@ -28,11 +27,10 @@ class FeatureFigures(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._folder = Path()
-        self._done: list[Figure] = []
-        self._coming: Iterator[Figure] | None = None
         self._again: list[str] = []
-        self._next = QTimer(self, interval=0)
-        self._next.timeout.connect(self._draw_one)
+        self._drawing = Pieces(host.busy, "figures", "Give the rest up; what is written stays.", self)
+        self._drawing.finished.connect(self._on_drawn)
+        self._drawing.failed.connect(self._on_failed)
         self.session.document.mesh_replaced.connect(self.cancel)
 
     def actions(self) -> Sequence[Action]:
@@ -57,7 +55,7 @@ class FeatureFigures(Feature):
     @property
     def going_on(self) -> bool:
         """Whether figures are being drawn."""
-        return self._coming is not None
+        return self._drawing.going_on
 
     def ask(self) -> None:
         """Ask where the folder goes, and write into it."""
@@ -72,17 +70,10 @@ class FeatureFigures(Feature):
             self._begin(folder)
         except HexmendError as error:
             self.host.messages.show_error("The figures were not made", str(error))
-            return
-        self._next.start()
-        self._say()
 
     def cancel(self) -> None:
         """Give up what is being drawn; figures that are written stay."""
-        if self.going_on:
-            self._next.stop()
-            self._coming.close()
-            self._coming = None
-            self.host.busy.done("figures")
+        self._drawing.cancel()
 
     def _begin(self, folder: Path) -> None:
         from hexmend.io.recipes import write_recipe
@@ -104,33 +95,30 @@ class FeatureFigures(Feature):
         self._again = ["figures", str(path) if path is not None else "MESH", "--methods", methods]
         self._again += ["--scene", str(folder / "scene.toml"), "--format", ",".join(_FORMATS), "-o", str(folder)]
         case = case_of(self.session)
-        self._folder, self._done = folder, []
-        self._coming = write_figures(case, folder, Style(scene, formats=_FORMATS))
+        self._folder = folder
+        self._drawing.begin(write_figures(case, folder, Style(scene, formats=_FORMATS)), _said)
 
-    def _draw_one(self) -> None:
-        try:
-            figure = next(self._coming, None)
-        except Exception as error:  # whatever it is, it has to be said
-            self.cancel()
-            self.host.messages.show_error("The figures were not made", f"One of them could not be drawn: {error}")
-            return
-        if figure is not None:
-            self._done.append(figure)
-            self._say()
-            return
-        self.cancel()
-        self.host.said("The captions were not written", self._write_captions, f"Figure set saved to {self._folder}")
+    def _on_failed(self, error: Exception) -> None:
+        self.host.messages.show_error("The figures were not made", f"One of them could not be drawn: {error}")
 
-    def _write_captions(self) -> None:
+    def _on_drawn(self, drawn: list[Figure]) -> None:
+        self.host.said(
+            "The captions were not written",
+            lambda: self._write_captions(drawn),
+            f"Figure set saved to {self._folder}",
+        )
+
+    def _write_captions(self, drawn: list[Figure]) -> None:
         from hexmend_app.report.captions import write_captions
         from hexmend_app.report.case import command_line
 
-        figures = [(one, command_line([*self._again, "--only", one.part])) for one in self._done]
+        figures = [(one, command_line([*self._again, "--only", one.part])) for one in drawn]
         write_captions(self._folder, self.host.stem, figures)
 
-    def _say(self) -> None:
-        from hexmend_app.report.figure_set import PARTS
 
-        at = min(len(self._done), len(PARTS) - 1)
-        what = f"Drawing figure {at + 1} of {len(PARTS)}: {list(PARTS)[at]}…"
-        self.host.busy.show_work("figures", what, "Cancel", "Give the rest up; what is written stays.", self.cancel)
+def _said(drawn: int) -> str:
+    """What is being done once so many figures are drawn."""
+    from hexmend_app.report.figure_set import PARTS
+
+    at = min(drawn, len(PARTS) - 1)
+    return f"Drawing figure {at + 1} of {len(PARTS)}: {list(PARTS)[at]}…"

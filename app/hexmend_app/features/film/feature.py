@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
-
-from PySide6.QtCore import QTimer
 
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.scene.export.shots import chosen, shots
 from hexmend_app.state.history import Record
+from hexmend_app.widgets.pieces import Pieces
 from hexmend_app.widgets.questions import ask_film
 
 if TYPE_CHECKING:
@@ -28,12 +27,11 @@ class FeatureFilm(Feature):
         super().__init__(host)
         self._path = Path()
         self._choice: FilmChoice | None = None  # what the user wanted last
-        self._count = self._rate = 0
+        self._rate = 0
         self._record: Record | None = None
-        self._frames: list[Image.Image] = []
-        self._coming: Iterator[Image.Image] | None = None
-        self._next = QTimer(self, interval=0)
-        self._next.timeout.connect(self._draw_one)
+        self._drawing = Pieces(host.busy, "film", "Give the film up; no file is written.", self)
+        self._drawing.finished.connect(self._write)
+        self._drawing.failed.connect(self._on_failed)
         self.session.document.mesh_replaced.connect(self.cancel)
 
     def actions(self) -> Sequence[Action]:
@@ -58,7 +56,7 @@ class FeatureFilm(Feature):
     @property
     def going_on(self) -> bool:
         """Whether a film is being made."""
-        return self._coming is not None
+        return self._drawing.going_on
 
     def ask(self) -> None:
         """Ask what the film is to be like and where it goes, and make it."""
@@ -88,21 +86,15 @@ class FeatureFilm(Feature):
         view = self.canvas.viewport
         size = choice.size((self.canvas.width(), self.canvas.height()))
         taken = shots(history, record, self.session.document.now.mesh, numbers)
-        self._path, self._count, self._frames, self._record = path, len(numbers), [], record
-        self._rate = choice.rate
-        self._coming = pictures(
+        self._path, self._record, self._rate = path, record, choice.rate
+        frames = pictures(
             taken, view.frame.look, size, camera=view.camera, movement=view.frame.movement, chart=choice.histogram
         )
-        self._next.start()
-        self._say()
+        self._drawing.begin(frames, lambda drawn: _said(drawn, len(numbers), path))
 
     def cancel(self) -> None:
         """Give up the film that is being made; nothing is written."""
-        if self.going_on:
-            self._next.stop()
-            self._coming.close()
-            self._coming, self._frames = None, []
-            self.host.busy.done("film")
+        self._drawing.cancel()
 
     def refresh(self) -> None:
         """Give up the film of a run that is forgotten meanwhile."""
@@ -110,32 +102,19 @@ class FeatureFilm(Feature):
             self.cancel()
             self.host.messages.show_error("The film was not made", "Its run was forgotten before its last frame.")
 
-    def _draw_one(self) -> None:
-        try:
-            frame = next(self._coming, None)
-        except Exception as error:  # whatever it is, half a film is none
-            self.cancel()
-            self.host.messages.show_error("The film was not made", f"A frame could not be drawn: {error}.")
-            return
-        if frame is not None:
-            self._frames.append(frame)
-            self._say()
-            return
-        frames, path = self._frames, self._path
-        self.cancel()
-        self._write(path, frames)
+    def _on_failed(self, error: Exception) -> None:
+        self.host.messages.show_error("The film was not made", f"A frame could not be drawn: {error}.")
 
-    def _write(self, path: Path, frames: list[Image.Image]) -> None:
+    def _write(self, frames: list[Image.Image]) -> None:
         from hexmend_app.scene.export.film import write_film
 
         self.host.said(
             "The film was not saved",
-            lambda: write_film(path, frames, self._rate),
-            f"Film of {len(frames)} frames saved to {path}",
+            lambda: write_film(self._path, frames, self._rate),
+            f"Film of {len(frames)} frames saved to {self._path}",
         )
 
-    def _say(self) -> None:
-        word, help = "Cancel", "Give the film up; no file is written."
-        drawn = len(self._frames)
-        what = f"Drawing frame {drawn + 1} of {self._count}…" if drawn < self._count else f"Writing {self._path.name}…"
-        self.host.busy.show_work("film", what, word, help, self.cancel)
+
+def _said(drawn: int, count: int, path: Path) -> str:
+    """What is being done once so many frames are drawn."""
+    return f"Drawing frame {drawn + 1} of {count}…" if drawn < count else f"Writing {path.name}…"

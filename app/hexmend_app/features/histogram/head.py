@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QSpinBox, QTo
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.bins import BINS, FEWEST, MOST
 from hexmend_app.state.choices import HistogramChoices
+from hexmend_app.widgets.combo import let_shrink
 from hexmend_app.widgets.menu_button import MenuButton
 from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.segmented import Segmented
@@ -43,8 +44,7 @@ class HistogramHead(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.metric = QComboBox()
-        self.metric.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.metric.setMinimumContentsLength(9)
+        let_shrink(self.metric, 9)
         self.metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.metric.setMaximumWidth(240)
         self.metric.addItem("", "")

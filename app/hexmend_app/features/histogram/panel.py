@@ -8,12 +8,12 @@ import numpy as np
 from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
-from superqt.utils import QSignalThrottler
 
 from hexmend.quality import METRICS
+from hexmend_app.features.histogram.announcer import Announcer
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bins import Distribution, distribute
 from hexmend_app.features.histogram.cells import Cells
+from hexmend_app.features.histogram.distributions import Distributions
 from hexmend_app.features.histogram.head import HistogramHead
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import Series
@@ -23,9 +23,7 @@ from hexmend_app.features.histogram.words import describe, sentence
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.state.look import ValueRange
 from hexmend_app.widgets.eliding_label import ElidingLabel
-from hexmend_app.widgets.style import BLUE, GREY, MUTED, smaller, tabular, tint
-
-_PERIOD_MS = 33
+from hexmend_app.widgets.style import MUTED, smaller, tabular, tint
 
 #: Pixels that the words below the plot need beside the numbers.
 _WORDS = 210
@@ -65,16 +63,10 @@ class QualityHistogram(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._axis = Axis("q")
-        self._initial: Distribution | None = None
-        self._current: Distribution | None = None
-        self._kept: list[tuple[int, str, Distribution]] = []
+        self._distributions = Distributions()
         self._range: ValueRange | None = None
-        self._throttler = QSignalThrottler(parent=self)
-        self._throttler.setTimeout(_PERIOD_MS)
-        self._throttler.triggered.connect(self._announce)
-        self._announced: ValueRange | None = None  # or what was set: what everybody else knows
-        self._waits = False
+        self._announcer = Announcer(self)
+        self._announcer.announced.connect(self.range_changed)
         self._make_parts()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(5, 3, 5, 3)
@@ -86,16 +78,15 @@ class QualityHistogram(QWidget):
         self._below.addWidget(self.ends)
         self._below.addWidget(self.words, 1)
         layout.addLayout(self._below)
-        self.plot.set_axis(self._axis)
+        self._use_axis()
         self._refresh()
-        self._show_range(None)
 
     def _make_parts(self) -> None:
         self.head, self.legend = HistogramHead(), HistogramLegend(_HELP)
         self.plot, self.ends = HistogramPlot(self.legend), RangeRow()
         self.head.metric_chosen.connect(self.metric_chosen)
         self.head.scale_changed.connect(self._on_scale)
-        self.head.bins_changed.connect(self._recount)
+        self.head.bins_changed.connect(self._on_bins)
         self.head.keep_requested.connect(self.keep_requested)
         self.head.save_requested.connect(self.save_requested)
         self.legend.renamed.connect(self.renamed)
@@ -138,9 +129,11 @@ class QualityHistogram(QWidget):
             Whether it is the colours' that the histogram follows.
         """
         self.head.show_metric(name, as_colours)
-        if name != self._axis.metric:
-            self.clear()
-            self._set_axis(Axis.fitted(name, np.empty(0), np.empty(0, bool)))
+        if name != self.axis.metric:
+            self._distributions.begin(name)
+            self.legend.set_kept([])
+            self._refresh()
+            self._use_axis()
 
     def set_initial(self, values: np.ndarray, inverted: np.ndarray) -> None:
         """Take the metric's values (m,) and (m,) bool of the elements at the start, which the axis is made for.
@@ -150,46 +143,26 @@ class QualityHistogram(QWidget):
         ValueError
             Where the two differ in shape.
         """
-        values, inverted = np.asarray(values, dtype=np.float64), np.asarray(inverted, dtype=bool)
-        self._initial = self._count(values, inverted)
-        axis = Axis.fitted(self._axis.metric, values, inverted)
-        if axis != self._axis:
-            self._set_axis(axis)
-            self._recount()
+        before = self.axis
+        self._distributions.set_initial(values, inverted)
+        if self.axis != before:
+            self._use_axis()
         self._refresh()
 
     def set_current(self, values: np.ndarray, inverted: np.ndarray) -> None:
         """Take values (m,) and (m,) bool of the elements now; raises as `set_initial`."""
-        self._current = self._count(values, inverted)
+        self._distributions.set_current(values, inverted)
         self._refresh()
 
     def set_kept(self, kept: Sequence[tuple[int, str, np.ndarray, np.ndarray]]) -> None:
         """Take slots, names, values (m,) and (m,) bool of what is kept."""
-        before = {slot: part for slot, _, part in self._kept}
-        self._kept = []
-        for slot, name, values, inverted in kept:
-            part = before.get(slot)
-            if part is None or part.values is not values:
-                part = self._count(values, inverted)
-            self._kept.append((slot, name, part))
-        self.legend.set_kept([(slot, name) for slot, name, _ in self._kept])
-        self._refresh()
-
-    def clear(self) -> None:
-        """Show no distribution."""
-        self._initial = self._current = None
-        self._kept = []
-        self.legend.set_kept([])
+        self._distributions.set_kept(kept)
+        self.legend.set_kept([(slot, name) for slot, name, _ in self._distributions.kept])
         self._refresh()
 
     def series(self) -> list[Series]:
         """What is drawn, in the order of the legend."""
-        drawn = []
-        if self._initial is not None:
-            drawn.append(Series("start", "at the start", GREY, self._initial, filled=True))
-        if self._current is not None:
-            drawn.append(Series("now", "now", BLUE, self._current, filled=True, current=True))
-        return drawn + [Series(str(slot), name, KEPT[slot], part) for slot, name, part in self._kept]
+        return self._distributions.series()
 
     @property
     def log(self) -> bool:
@@ -204,7 +177,7 @@ class QualityHistogram(QWidget):
     @property
     def axis(self) -> Axis:
         """Which values the bins span."""
-        return self._axis
+        return self._distributions.axis
 
     # The range
 
@@ -217,67 +190,54 @@ class QualityHistogram(QWidget):
 
         What was announced last and is now heard of again takes back nothing that was brushed since.
         """
-        if self._waits and range == self._announced:
-            return
-        self._throttler.cancel()
-        self._announced, self._waits = range, False
-        self._show_range(range if range is not None and range.metric == self._axis.metric else None)
+        if self._announcer.hear(range):
+            self._show_range(range if range is not None and range.metric == self.axis.metric else None)
 
     def _on_brushed(self, places: tuple[float, float]) -> None:
-        cells = Cells(self._axis, self.head.bins.value())
+        cells = Cells(self.axis, self.head.bins.value())
         self._choose(cells.range(*cells.nearest(*places)))
 
     def _on_ends(self, low: float, high: float, inverted: bool) -> None:
-        least, most = METRICS[self._axis.metric].full_range
+        least, most = METRICS[self.axis.metric].full_range
         whole = low <= least and high >= most and inverted
-        self._choose(None if whole else ValueRange(self._axis.metric, low, high, inverted))
+        self._choose(None if whole else ValueRange(self.axis.metric, low, high, inverted))
 
     def _choose(self, chosen: ValueRange | None) -> None:
         if chosen != self._range:
             self._show_range(chosen)
-            self._waits = True
-            self._throttler.throttle()
-
-    def _announce(self) -> None:
-        self._announced, self._waits = self._range, False
-        self.range_changed.emit(self._range)
+            self._announcer.tell(chosen)
 
     def _show_range(self, chosen: ValueRange | None) -> None:
         self._range = chosen
-        self.plot.show_range(chosen and self._axis.span(chosen), chosen is not None and chosen.inverted)
+        self.plot.show_range(chosen and self.axis.span(chosen), chosen is not None and chosen.inverted)
         self.ends.show_range(chosen)
         self._say()
 
     # Drawing
 
-    def _count(self, values: np.ndarray, inverted: np.ndarray) -> Distribution:
-        return distribute(values, inverted, self._axis, self.head.bins.value())
+    def _use_axis(self) -> None:
+        self.plot.set_axis(self.axis)
+        self.ends.set_axis(self.axis)
+        if self._range is not None and self._range.metric != self.axis.metric:
+            self._range = None
+            self._announcer.tell_instead(None)
+        self._show_range(self._range)
 
-    def _recount(self) -> None:
-        self._initial, self._current, *kept = (
-            part and self._count(part.values, part.is_inverted)
-            for part in (self._initial, self._current, *(part for _, _, part in self._kept))
-        )
-        self._kept = [(slot, name, part) for (slot, name, _), part in zip(self._kept, kept, strict=True)]
+    def _on_bins(self) -> None:
+        self._distributions.divide(self.head.bins.value())
         self._refresh()
-
-    def _set_axis(self, axis: Axis) -> None:
-        self._axis = axis
-        self.plot.set_axis(axis)
-        self.ends.set_axis(axis)
-        self._show_range(None if self._range is None or self._range.metric != axis.metric else self._range)
 
     def _on_scale(self) -> None:
         self.plot.log, self.plot.cumulative = self.head.log, self.head.cumulative.isChecked()
         self._refresh()
 
     def _refresh(self) -> None:
-        self.head.set_offered(self._current is not None, len(self._kept) == len(KEPT))
+        self.head.set_offered(self._distributions.current is not None, len(self._distributions.kept) == len(KEPT))
         self.plot.draw(self.series())
         self._say()
 
     def _say(self) -> None:
-        self.words.setText(sentence(self._current, self._range))
+        self.words.setText(sentence(self._distributions.current, self._range))
         self.words.setToolTip(self.words.text())
 
     # Under the mouse

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from typing import Any
-
 import numpy as np
-from PySide6.QtCore import QAbstractTableModel, QItemSelection, QItemSelectionModel, QModelIndex, QObject, Qt, Signal
-from PySide6.QtGui import QBrush, QColor, QShowEvent
+from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, Qt, Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -22,73 +18,16 @@ from PySide6.QtWidgets import (
 
 from hexmend.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked, worst
+from hexmend_app.features.inspect.worst_model import ELEMENT, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.choices import WorstChoices
 from hexmend_app.state.measured import values
 from hexmend_app.widgets.element_table import shape_table
 from hexmend_app.widgets.metrics import described, metrics_offered
-from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, explain, icon, note
-from hexmend_app.widgets.wording import counted, figure
+from hexmend_app.widgets.style import explain, icon, note
+from hexmend_app.widgets.wording import counted
 
 #: Elements in the list at most: nobody reads more, and they are found anew at every iteration.
 MOST = 1000
-
-_TITLES = ("Hex", "", "Scaled Jacobian", "State")
-_ELEMENT, _VALUE, _JACOBIAN, _STATE = range(4)
-_RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-_LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-
-
-class _Model(QAbstractTableModel):
-    """The rows: elements with a figure each."""
-
-    def __init__(self, parent: QObject | None = None):
-        super().__init__(parent)
-        self.elements = np.empty(0, np.int64)
-        self.values = self.jacobians = np.empty(0)
-        self.states: list[str] = []
-        self.title = ""
-
-    def fill(self, elements: np.ndarray, values: np.ndarray, jacobians: np.ndarray, states: list[str]) -> None:
-        """Take other rows."""
-        same = len(elements) == len(self.elements)
-        if not same:
-            self.beginResetModel()
-        self.elements, self.values, self.jacobians, self.states = elements, values, jacobians, states
-        if same:  # the view keeps where it is scrolled to
-            self.dataChanged.emit(self.index(0, 0), self.index(max(len(elements) - 1, 0), len(_TITLES) - 1))
-        else:
-            self.endResetModel()
-
-    def rowCount(self, parent: QModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(self.elements)
-
-    def columnCount(self, parent: QModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(_TITLES)
-
-    def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        row, column = index.row(), index.column()
-        if role == Qt.ItemDataRole.DisplayRole:
-            if column == _ELEMENT:
-                return f"{self.elements[row]:,}"
-            if column == _STATE:
-                return self.states[row]
-            return figure(float((self.values if column == _VALUE else self.jacobians)[row]))
-        if role == Qt.ItemDataRole.TextAlignmentRole:
-            return _LEFT if column == _STATE else _RIGHT
-        if role == Qt.ItemDataRole.ForegroundRole and column == _STATE:
-            return QBrush(QColor(str(INVERTED_TEXT)))
-        return None
-
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        if orientation != Qt.Orientation.Horizontal:
-            return None
-        if role == Qt.ItemDataRole.DisplayRole:
-            return self.title if section == _VALUE else _TITLES[section]
-        if role == Qt.ItemDataRole.TextAlignmentRole:
-            return _LEFT if section == _STATE else _RIGHT
-        if role == Qt.ItemDataRole.ForegroundRole:
-            return QBrush(QColor(str(MUTED)))
-        return None
 
 
 class WorstList(QWidget):
@@ -131,7 +70,7 @@ class WorstList(QWidget):
         self._previous.clicked.connect(self.previous)
         self._next.clicked.connect(self.next)
         self._save.clicked.connect(self.save_requested)
-        self._model = _Model(self)
+        self._model = WorstModel(self)
         self._table = self._make_table()
         self._text = note()
         self._text.setWordWrap(False)
@@ -146,8 +85,8 @@ class WorstList(QWidget):
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self._model)
-        shape_table(table, "Worst hexes", _STATE)
-        for column, widest in ((_ELEMENT, "000,000,000"), (_VALUE, "Scaled Jacobian"), (_JACOBIAN, "Scaled Jacobian")):
+        shape_table(table, "Worst hexes", STATE)
+        for column, widest in ((ELEMENT, "000,000,000"), (VALUE, "Scaled Jacobian"), (JACOBIAN, "Scaled Jacobian")):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
         # Not when a row becomes the current one: the first does so as the list gets the focus.
         table.selectionModel().selectionChanged.connect(self._on_selected)
@@ -220,12 +159,7 @@ class WorstList(QWidget):
     def text(self) -> str:
         """The list as CSV: element, metric, scaled Jacobian, state."""
         self._bring_up_to_date()
-        model, out = self._model, io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(["hex", self._metric.currentData(), "scaled-jacobian", "state"])
-        rows = zip(model.elements.tolist(), model.values.tolist(), model.jacobians.tolist(), model.states, strict=True)
-        writer.writerows(rows)
-        return out.getvalue()
+        return self._model.text(self._metric.currentData())
 
     def _bring_up_to_date(self) -> None:
         if self._stale:
@@ -254,7 +188,7 @@ class WorstList(QWidget):
         held = locked(mesh.points, mesh.hexes[chosen], mesh.fixed, inverted)
         states = ["locked" if h else "inverted" if i else "" for i, h in zip(inverted, held, strict=True)]
         self._model.title = metric.title
-        self._table.setColumnHidden(_JACOBIAN, metric.name == "scaled-jacobian")
+        self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._model.fill(chosen, known[chosen], figures.scaled_jacobian[chosen], states)
         all_of_them = chosen.size == known.size
         shown = "" if all_of_them else f"The {chosen.size:,} worst of "

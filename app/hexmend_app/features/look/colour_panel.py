@@ -5,24 +5,23 @@ from __future__ import annotations
 import dataclasses
 from html import escape
 
-import numpy as np
-from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from hexmend.movement import MOVEMENTS, named
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
-from hexmend_app.scene.colours import DIVERGING, MAPS, range_label, table
+from hexmend_app.features.look.map_box import MapBox
+from hexmend_app.scene.colours import range_label
 from hexmend_app.scene.values import better, declared_range
 from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.widgets.combo import let_shrink
 from hexmend_app.widgets.metrics import metrics_offered
 from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import LINE, WORSE, dress, explain, note
+from hexmend_app.widgets.style import WORSE, explain, note
 from hexmend_app.widgets.wording import short_number
 
-_SWATCH = QSize(48, 12)
 _MODES = {
     RangeMode.FULL: ("Full", "All values that the metric can take"),
     RangeMode.FITTED: (
@@ -32,14 +31,6 @@ _MODES = {
     RangeMode.ACCEPTABLE: ("Acceptable", "The values that solvers are usually content with"),
     RangeMode.PINNED: ("Pinned", "Two values that you set; they begin as the range that is shown now."),
 }
-_MAPS = {
-    "viridis": "From violet over green to yellow.",
-    "cividis": "From blue to yellow; looks nearly the same to all kinds of colour vision.",
-    "plasma": "From blue over red to yellow.",
-    "inferno": "From black over red to pale yellow.",
-    DIVERGING: "For changes: from brown for worse over white for none to teal for better.",
-}
-_OF_VALUES = "All maps are perceptually uniform and readable without telling red from green."
 NEUTRAL = "Draw the outside white and what is opened in one colour, to see shapes; inverted hexes stay magenta."
 SHADING = "Darken what little light reaches, once the view rests: steps, holes and depths are seen at a glance."
 _BOXES = (("low", 0.0), ("high", 1.0))
@@ -65,15 +56,14 @@ class ColourPanel(QWidget):
         self._scale = ColourScale()
         self._ends = (0.0, 1.0)  # of the range in use, wherever it comes from
         self._set: dict[str, tuple[float, float]] = {}  # ends that were typed for each metric, to find them on return
-        self._metric = _combo()
+        self._metric = QComboBox()
+        let_shrink(self._metric, 7)
+        self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for metric in (*metrics_offered(), *MOVEMENTS.values()):
             self._metric.addItem(metric.title, metric.name)
             self._metric.setItemData(self._metric.count() - 1, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
         self._metric.insertSeparator(len(METRICS))
-        self._map = _combo()
-        self._map.setIconSize(_SWATCH)
-        self._offer_maps(False)
-        dress(self._map, self._paint_swatches)
+        self._map = MapBox()
         self._reverse = QCheckBox("⇅")
         explain(self._reverse, "Reverse", "Swap the ends of the map. Without it, the dark end stands for the worst.")
         self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
@@ -88,7 +78,7 @@ class ColourPanel(QWidget):
         self._lay_out()
 
         self._metric.activated.connect(lambda: self.choose_metric(self._metric.currentData()))
-        self._map.activated.connect(self._on_map)
+        self._map.chosen.connect(lambda name: self._change(map=name))
         self._reverse.clicked.connect(lambda on: self._change(reverse=on))
         self._mode.chosen.connect(lambda key: self._on_mode(RangeMode(key)))
         self._neutral.clicked.connect(self.neutral_changed)
@@ -98,10 +88,6 @@ class ColourPanel(QWidget):
             box.editingFinished.connect(self._on_numbers)
         self._refresh()
         self._show_ends()
-
-    def _paint_swatches(self) -> None:
-        for at in range(self._map.count()):
-            self._map.setItemIcon(at, _swatch(self._map.itemData(at)))
 
     def _lay_out(self) -> None:
         grid = QGridLayout(self)
@@ -163,10 +149,6 @@ class ColourPanel(QWidget):
             mode = RangeMode.FITTED
         self._change(metric=metric, mode=mode, pinned=pinned)
 
-    def _on_map(self) -> None:
-        if self._map.currentData() in MAPS:
-            self._change(map=self._map.currentData())
-
     def _on_mode(self, mode: RangeMode) -> None:
         pinned = self._scale.pinned
         if mode is RangeMode.PINNED and self._scale.mode is not mode:
@@ -217,23 +199,11 @@ class ColourPanel(QWidget):
                 box.set_value(end)
         self._show_problem()
 
-    def _offer_maps(self, change: bool) -> None:
-        """Offer the maps, or, for changes, the one in whose middle there is none."""
-        offered = {DIVERGING: "brown – teal"} if change else {name: name for name in MAPS}
-        if self._map.findData(next(iter(offered))) < 0:
-            self._map.clear()
-            for at, (name, text) in enumerate(offered.items()):
-                self._map.addItem(text, name)
-                self._map.setItemData(at, _MAPS[name], Qt.ItemDataRole.ToolTipRole)
-            self._paint_swatches()
-        self._map.setCurrentIndex(max(self._map.findData(self._scale.map), 0))
-        explain(self._map, "Colour map", _MAPS[DIVERGING] if change else _OF_VALUES)
-
     def _refresh(self) -> None:
         scale = self._scale
         self._metric.setCurrentIndex(self._metric.findData(scale.metric))
         explain(self._metric, "Metric", _about(scale.metric))
-        self._offer_maps(scale.metric == "q-change")
+        self._map.show_map(scale.map, change=scale.metric == "q-change")
         self._reverse.setChecked(scale.reverse)
         self._mode.set_value(scale.mode.value)
         for mode in (RangeMode.FULL, RangeMode.ACCEPTABLE):
@@ -245,14 +215,6 @@ class ColourPanel(QWidget):
         for box in (self._low, self._high):
             box.setEnabled(scale.mode is RangeMode.PINNED)
         self._show_problem()
-
-
-def _combo() -> QComboBox:
-    combo = QComboBox()
-    combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-    combo.setMinimumContentsLength(7)
-    combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-    return combo
 
 
 def _about(name: str) -> str:
@@ -278,18 +240,3 @@ def _rounded(low: float, high: float) -> tuple[float, float]:
     """The ends as the colour bar writes them, or as they are where that would make them one."""
     ends = float(range_label(low, low, high)), float(range_label(high, low, high))
     return ends if ends[0] < ends[1] else (low, high)
-
-
-def _swatch(name: str) -> QIcon:
-    """A small picture of a map, in a pixel each of its colours so that it is sharp at every scale."""
-    colours = np.ascontiguousarray(table(name)[None].repeat(4 * _SWATCH.height(), axis=0))
-    height, width, _ = colours.shape
-    pixmap = QPixmap.fromImage(QImage(colours.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888))
-    pixmap = pixmap.scaled(
-        4 * _SWATCH, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
-    )
-    painter = QPainter(pixmap)
-    painter.setPen(QColor(str(LINE)))
-    painter.drawRect(pixmap.rect().adjusted(0, 0, -1, -1))
-    painter.end()
-    return QIcon(pixmap)

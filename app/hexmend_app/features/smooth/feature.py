@@ -9,7 +9,8 @@ from hexmend.run.memory import Shortage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
-from hexmend_app.state.run import Frame, Phase
+from hexmend_app.state.run import Phase
+from hexmend_app.state.worker import Frame
 from hexmend_app.widgets.questions import ask_short_of_memory
 from hexmend_app.widgets.report import report_of
 

@@ -3,33 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from html import escape
-from typing import Any
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import (
-    QComboBox,
-    QFormLayout,
-    QHBoxLayout,
-    QLabel,
-    QScrollArea,
-    QSpinBox,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QScrollArea, QSpinBox, QVBoxLayout, QWidget
 
-from hexmend.errors import ParameterError
-from hexmend.parameters import declared
 from hexmend.recipe import Stage
-from hexmend.run import Stop
-from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
+from hexmend_app.features.smooth.stage_form import StageForm
 from hexmend_app.scene.palette import Role
 from hexmend_app.state.order import Order
 from hexmend_app.widgets.eliding_label import ElidingLabel
-from hexmend_app.widgets.parameter_form import ParameterForm
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.style import MUTED, WORSE, explain, note, tabular, tint
 from hexmend_app.widgets.wording import counted
@@ -56,6 +41,10 @@ class SmoothingPanel(QWidget):
     ----------
     order : Order
         What is set here, and by others.
+
+    Attributes
+    ----------
+    stage : StageForm
     """
 
     run_requested = Signal(object)
@@ -69,27 +58,21 @@ class SmoothingPanel(QWidget):
     def __init__(self, order: Order, parent: QWidget | None = None):
         super().__init__(parent)
         self._order = order
-        self._name = ""
         self._refused = False
         self._state = "idle"
         self._placed = False
 
-        self._method = QComboBox()
-        self._method.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self._method.setMinimumContentsLength(14)
-        self._method.activated.connect(self._on_method)
-        explain(self._method, "Method", "How nodes are moved; the line below says what the chosen method does.")
+        stage = self.stage = StageForm(order, self)
         choice = QFormLayout()
         choice.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        choice.addRow("Method", self._method)
-        self._help = note()
+        choice.addRow("Method", stage.method)
 
-        self.form = ParameterForm()
-        self.stop_form = ParameterForm(declared(Stop))
         self.breakpoint_form = BreakpointForm()
         self._sections = (
-            Section("Parameters", self.form, "How the method goes about it; the defaults suit most meshes."),
-            Section("Stop when", self.stop_form, "When a run ends by itself."),
+            Section(
+                "Parameters", self.stage.parameters, "How the method goes about it; the defaults suit most meshes."
+            ),
+            Section("Stop when", stage.stop, "When a run ends by itself."),
             Section("Pause when", self.breakpoint_form, "Break-points: what a run pauses at, to be looked at."),
         )
         self.buttons = RunButtons()
@@ -120,47 +103,29 @@ class SmoothingPanel(QWidget):
         foot.addWidget(steps)
         foot.addWidget(self._steps)
         layout.addLayout(foot)
-        layout.addWidget(self._help)  # below what is clicked: texts of methods differ in length
+        layout.addWidget(stage.help)  # below what is clicked: texts of methods differ in length
         layout.addWidget(self._sentence)
         for section in self._sections:
             layout.addWidget(section)
         layout.addStretch()
-        for at, method in enumerate(METHODS.values()):
-            self._method.addItem(method.title, method.name)
-            about = f"<b>{escape(method.title)}</b> ({escape(method.name)})<br>{escape(method.help)}"
-            tip = f"<qt>{about}<br><i>{escape(method.source)}</i></qt>"
-            self._method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
         self.set_state("idle")
         self.set_status()
-        self._on_chosen()
-        for form in (self.form, self.stop_form):
-            form.changed.connect(self._on_edited)
+        self.stage.edited.connect(self._on_edited)
         order.chosen.connect(self._on_chosen)
         order.refused.connect(self._show_problem)
 
-    def _show_method(self, name: str, values: Mapping[str, Any] | None = None) -> None:
-        """Show a method with what was last set for it, or with `values`."""
-        method = METHODS[name]
-        self._name = name
-        self._method.setCurrentIndex(self._method.findData(name))
-        self._help.setText(f"{method.help}\nSource: {method.source}" if method.source else method.help)
-        with QSignalBlocker(self.form):
-            self.form.set_declarations(declared(method))
-            self.form.set_values(self._order.values_of(name) | dict(values or {}))
-
     def _on_chosen(self) -> None:
-        stage = self._order.stage
-        self._show_method(stage.smoother.name, stage.smoother.values())
-        with QSignalBlocker(self.stop_form):
-            self.stop_form.set_values(stage.stop.values())
+        self.stage.show_order()
         self._refused = False
+
+    def _on_edited(self) -> None:
+        self._refused = self._refused and self.stage.wrong is not None
 
     def set_state(self, state: str) -> None:
         """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
         self._state = state
         self.buttons.set_state(state, True)
-        for part in (self._method, self.form, self.stop_form):
-            part.setEnabled(STATES[state].edit)
+        self.stage.set_enabled(STATES[state].edit)
 
     def set_shortcuts(self, shortcuts: Mapping[str, str]) -> None:
         """Name the keys of "run", "step", "stop" and "reset" in the tooltips; whoever owns the actions binds them."""
@@ -234,31 +199,12 @@ class SmoothingPanel(QWidget):
 
     def _show_problem(self) -> None:
         """Say which value is wrong, until it is so no more."""
-        for form, section in zip((self.form, self.stop_form), self._sections, strict=False):
-            if form.problems():
-                section.expand()
-                form.show_problem()
-                self._refused = True
-                self._tell("Correct the marked value first.", WORSE)
-                return
-
-    def _on_method(self) -> None:
-        if self._method.currentData() != self._name:
-            self._show_method(self._method.currentData())
-            self._on_edited()
-
-    def _on_edited(self, *_: object) -> None:
-        self._order.set(self._name, self.form.values(), self._stage())
-
-    def _stage(self) -> Stage | None:
-        """What the forms show; None while a value is wrong."""
-        self._refused = self._refused and bool(self.form.problems() or self.stop_form.problems())
-        if self.form.problems() or self.stop_form.problems():
-            return None
-        try:
-            return Stage(METHODS[self._name](**self.form.values()), Stop(**self.stop_form.values()))
-        except ParameterError:
-            return None
+        form = self.stage.wrong
+        if form is not None:
+            self._sections[(self.stage.parameters, self.stage.stop).index(form)].expand()
+            form.show_problem()
+            self._refused = True
+            self._tell("Correct the marked value first.", WORSE)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Unfold the parameters at first sight where there is room for them."""
@@ -271,7 +217,7 @@ class SmoothingPanel(QWidget):
             around = around.parentWidget()
         room, whole = (self.height(), self) if around is None else (around.viewport().height(), around.widget())
         room -= whole.minimumSizeHint().height()  # what stands beside this panel counts too
-        for section, form in zip(self._sections, (self.form, self.stop_form), strict=False):
+        for section, form in zip(self._sections, (self.stage.parameters, self.stage.stop), strict=False):
             need = form.sizeHint().height() + _AROUND_FORM
             if need > room:
                 break

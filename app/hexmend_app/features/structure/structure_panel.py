@@ -6,13 +6,13 @@ import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
-from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from hexmend.structure import SHARP as DEGREES
 from hexmend.structure import Structure as Found
 from hexmend.surface import Kind
+from hexmend_app.features.structure.layer_row import Entry, LayerRow
 from hexmend_app.scene.layers.structure import (
     BOUNDARY,
     FREE,
@@ -24,10 +24,9 @@ from hexmend_app.scene.layers.structure import (
     SHARP,
     VALENCES,
 )  # fmt: skip
-from hexmend_app.scene.palette import ORIGINAL, OTHER_CELLS, RIM, Role
+from hexmend_app.scene.palette import ORIGINAL, OTHER_CELLS
 from hexmend_app.state.classer import PIN, WHISKER, Classes
 from hexmend_app.state.look import Structure
-from hexmend_app.widgets.style import explain, note, tabular
 from hexmend_app.widgets.wording import counted
 
 _LAYERS: dict[str, tuple[str, str, str]] = {
@@ -92,19 +91,8 @@ _CALLED = {
 }  # fmt: skip
 #: Layers that can be chosen before it is known what there is of them: somebody has to want it first.
 _AT_ONCE = ("kinds",)
-_NOT_YET = "Being counted."
 #: Layers that are on unless they are switched off: a mesh that has nothing of them does not offer them.
 _UNLESS = ("others",)
-#: What is said where it could not be found out what there is.
-_FAILED = "could not be worked out"
-_COLUMNS = 2
-
-#: Letters up to which texts stand beside each other: two more and they are cut off in a narrow column.
-_WIDEST = 6
-
-#: What one mark of a layer stands for: its colour, or None for a remark without a mark, whether it is a line, and the
-#: text beside it.
-_Entry = tuple[str | Role | None, bool, str]
 
 
 class StructurePanel(QWidget):
@@ -112,8 +100,8 @@ class StructurePanel(QWidget):
 
     Attributes
     ----------
-    layers : dict
-        What there is of each, by the names of `Structure`'s fields: its check box, `box`, and `entries` beside it.
+    layers : dict of str to LayerRow
+        What there is of each, by the names of `Structure`'s fields.
 
     Signals
     -------
@@ -129,7 +117,7 @@ class StructurePanel(QWidget):
         self._counts: tuple[int, ...] = ()
         self._classes: Classes | None = None
         self.layers = {
-            name: _Layer(*texts, at_once=name in _AT_ONCE, unless=name in _UNLESS) for name, texts in _LAYERS.items()
+            name: LayerRow(*texts, at_once=name in _AT_ONCE, unless=name in _UNLESS) for name, texts in _LAYERS.items()
         }
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
@@ -158,7 +146,7 @@ class StructurePanel(QWidget):
             for name in _EDGES:
                 self.layers[name].set_entries(None)
             return
-        nodes: list[_Entry] = []
+        nodes: list[Entry] = []
         if len(found.nodes):
             nodes = [(IRREGULAR_NODE, False, counted(len(found.nodes), "node"))]
         self.layers["irregular"].set_entries(_by_valence(found.interior_valence) + nodes)
@@ -181,13 +169,13 @@ class StructurePanel(QWidget):
 
     def set_others(self, counts: Mapping[str, int]) -> None:
         """Take the numbers of cells beside the hexes that fill space, by their kind."""
-        entries: list[_Entry] = [(OTHER_CELLS, False, f"{count:,} {kind}") for kind, count in counts.items()]
+        entries: list[Entry] = [(OTHER_CELLS, False, f"{count:,} {kind}") for kind, count in counts.items()]
         self.layers["others"].set_entries(entries)
 
     def set_classes(self, classes: Classes | None, error: BaseException | None = None) -> None:
         """Take what the nodes of the boundary are; None while that is being found, or with the error why not."""
         self._classes = classes
-        entries: list[_Entry] | None = None
+        entries: list[Entry] | None = None
         if classes is not None:
             counts = {kind: classes.count(kind) for kind in _CALLED}
             entries = [(KINDS[kind], False, f"{count:,} {_CALLED[kind]}") for kind, count in counts.items() if count]
@@ -208,72 +196,7 @@ class StructurePanel(QWidget):
         self.structure_changed.emit(self._structure)
 
 
-class _Layer:
-    """The check box of one layer, and beside it what its marks stand for."""
-
-    def __init__(self, name: str, help: str, reason: str, at_once: bool = False, unless: bool = False):
-        self._name, self._help, self._reason, self._at_once = name, help, reason, at_once
-        self._unless = unless
-        self._known: list[_Entry] | None = []
-        self._error: BaseException | None = None
-        self.box = QCheckBox(name)
-        self.entries = QWidget()
-        self._grid = QGridLayout(self.entries)
-        self._grid.setContentsMargins(0, 2, 0, 0)
-        self._grid.setHorizontalSpacing(4)
-        self._grid.setVerticalSpacing(3)
-        for column in range(_COLUMNS):
-            self._grid.setColumnStretch(column, 1)
-
-    def set_on(self, on: bool) -> None:
-        """Show whether it is drawn."""
-        self.box.setChecked(on)
-        self._enable()
-
-    def set_entries(self, entries: list[_Entry] | None, error: BaseException | None = None) -> None:
-        """Show what there is of it; None while that is unknown, or with the error why it stays so."""
-        self._known, self._error = entries, error
-        while self._grid.count():
-            old = self._grid.takeAt(0).widget()
-            old.hide()
-            old.deleteLater()
-        if not entries:
-            said = _FAILED if error is not None else "counting…" if entries is None else "none"
-            self._grid.addWidget(_text(said), 0, 0, 1, _COLUMNS)
-        beside = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
-        for at, entry in enumerate(entries or ()):
-            self._grid.addWidget(_entry(*entry), at // beside, at % beside, 1, _COLUMNS // beside)
-        self._enable()
-
-    def _enable(self) -> None:
-        failed = self._error is not None
-        waits = self._known is None and not self._at_once
-        there = bool(self._known) or (self._known is None and self._at_once and not failed)
-        self.box.setEnabled(there or (self.box.isChecked() and not self._unless))  # what is on can be switched off
-        if self._unless:
-            self.box.setVisible(there)
-            self.entries.setVisible(there)
-        reason = f"This could not be worked out: {self._error}." if failed else _NOT_YET if waits else self._reason
-        explain(self.box, self._name, self._help if there else reason)
-
-
-class _Mark(QWidget):
-    """A line or a point as the view draws it: a colour with a rim."""
-
-    def __init__(self, colour: str | Role, line: bool, parent: QWidget | None = None):
-        super().__init__(parent)
-        self._colour = colour
-        self.setFixedSize(QSize(11, 7) if line else QSize(9, 9))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Fill the rim."""
-        painter = QPainter(self)
-        painter.setPen(QColor(str(RIM)))
-        painter.setBrush(QColor(str(self._colour)))
-        painter.drawRect(QRectF(0.5, 0.5, self.width() - 1, self.height() - 1))
-
-
-def _by_valence(valence: np.ndarray) -> list[_Entry]:
+def _by_valence(valence: np.ndarray) -> list[Entry]:
     """Edges with so many elements around each, counted by what has a colour of its own."""
     numbers, counts = np.unique(valence, return_counts=True)
     own = [(VALENCES[n], True, f"{count:,} of {n}") for n, count in zip(numbers, counts, strict=True) if n in VALENCES]
@@ -283,21 +206,3 @@ def _by_valence(valence: np.ndarray) -> list[_Entry]:
     elif others:
         own.append((OTHER, True, f"{sum(count for _, count in others):,} others"))
     return own
-
-
-def _entry(colour: str | Role | None, line: bool, text: str) -> QWidget:
-    entry = QWidget()
-    layout = QHBoxLayout(entry)
-    layout.setContentsMargins(0, 0, 0, 0)
-    layout.setSpacing(4)
-    if colour is not None:
-        layout.addWidget(_Mark(colour, line))
-    layout.addWidget(_text(text), 1)
-    return entry
-
-
-def _text(text: str) -> QWidget:
-    label = note(text)
-    label.setFont(tabular(label.font()))
-    label.setWordWrap(False)
-    return label

@@ -10,6 +10,7 @@ from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
 from hexmend_app.features.timeline.track_slider import TrackSlider
+from hexmend_app.widgets.combo import let_shrink
 from hexmend_app.widgets.style import explain, icon, tabular
 from hexmend_app.widgets.wording import counted, size
 
@@ -49,8 +50,7 @@ class TimelineBar(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._runs = QComboBox()
-        self._runs.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self._runs.setMinimumContentsLength(12)
+        let_shrink(self._runs, 12)
         self._runs.activated.connect(self.run_chosen)
         explain(self._runs, "Run", "The run that is gone through; one that began at an iteration of another says so.")
         self._keys: dict[str, str] = {}

@@ -6,13 +6,10 @@ import json
 import math
 import os
 import re
-from pathlib import Path
 from typing import Any
 
-from hexmend.errors import FileError, ParameterError
-from hexmend.io.atomic import replacing
-from hexmend.io.suffixes import suffix_for
-from hexmend.io.text import read_text
+from hexmend.errors import ParameterError
+from hexmend.io.toml_files import read_toml, write_toml
 from hexmend.toml_text import parsed
 from hexmend_app.state.scene.camera import Camera
 from hexmend_app.state.scene.scene import Scene
@@ -84,10 +81,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     FileError
         Where the file cannot be read or is no scene: it names the line, or the table and the key.
     """
-    try:
-        return from_toml(read_text(path, "a scene", LARGEST))
-    except ParameterError as error:
-        raise FileError(Path(path), str(error), "Correct the file.") from None
+    return read_toml(path, "a scene", from_toml, LARGEST)
 
 
 def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
@@ -98,9 +92,7 @@ def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
     FileError
         For a suffix other than .toml, or where the place cannot be written to.
     """
-    suffix_for(path, "a scene", (".toml", ""))
-    with replacing(path) as temporary:
-        temporary.write_text(to_toml(scene), encoding="utf-8")
+    write_toml(path, "a scene", to_toml(scene))
 
 
 def _rows(table: Any) -> list[str]:

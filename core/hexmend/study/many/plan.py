@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.io.recipes import read_recipe, read_with
+from hexmend.io.recipes import read_recipe
+from hexmend.io.toml_files import read_toml
 from hexmend.parameters import declared, from_values
 from hexmend.recipe import check_format, check_keys, table_in
 from hexmend.run import Stop
@@ -63,7 +64,7 @@ def read_plan(path: str | os.PathLike[str]) -> Plan:
         Where it, or a recipe that it names, cannot be read or is none: it names the line, or the table and the key.
     """
     path = Path(path)
-    return read_with(lambda text: plan_of(text, path.parent, path.stem), path)
+    return read_toml(path, "a recipe", lambda text: plan_of(text, path.parent, path.stem))
 
 
 def plan_of(text: str, folder: Path, title: str = "Study") -> Plan:

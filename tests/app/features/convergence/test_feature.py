@@ -56,7 +56,7 @@ def test_branches_begin_where_they_left_or_at_nought_and_are_forgotten(window, q
     begins = {one.record: one.begins[0] for one in panel.curves}
     assert begins == {first: 0, second: 4}
     assert {one.record: one.current for one in panel.curves} == {first: False, second: True}
-    panel.from_zero.trigger()
+    panel.head.from_zero.trigger()
     assert [one.begins[0] for one in panel.curves] == [0, 0]
     slots = {one.record: one.slot for one in panel.curves}
     press(panel.legend.rows[first].cross)

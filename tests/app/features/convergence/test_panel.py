@@ -84,27 +84,27 @@ def test_zero_has_a_place_below_the_powers_of_ten_and_infinite_is_a_gap(panel):
     _, y = objective.lines[0, "objective"].curve.getData()
     assert np.isnan(y[:3]).all()
     assert np.isfinite(y[3:]).all()
-    panel.log.trigger()
+    panel.head.log.trigger()
     assert inverted.heights(np.array([100.0, 0.0])).tolist() == [100, 0]
 
 
 def test_what_a_method_does_not_tell_is_said(panel):
-    panel.charts["delta"].trigger()
-    panel.charts["gradient_norm"].trigger()
+    panel.head.charts["delta"].trigger()
+    panel.head.charts["gradient_norm"].trigger()
     assert panel.plots["delta"].title.text() == "delta: getme does not tell this"
     assert panel.plots["gradient_norm"].title.text() == "gradient norm: getme and local-sd do not tell this"
     assert "not tell" not in panel.plots["objective"].title.text()
 
 
 def test_every_chart_can_be_drawn_alone(panel):
-    for action in panel.charts.values():
+    for action in panel.head.charts.values():
         action.setChecked(False)
     assert panel.drawn == []
     for key in CHARTS:
-        panel.charts[key].trigger()
+        panel.head.charts[key].trigger()
         assert [plot.chart.key for plot in panel.drawn] == [key]
         assert panel.plots[key].isVisible()
-        panel.charts[key].trigger()
+        panel.head.charts[key].trigger()
 
 
 def test_a_click_goes_to_the_iteration_of_the_current_run_or_of_the_curve_it_hits(panel):
@@ -139,7 +139,7 @@ def test_a_drag_goes_through_iterations_and_keeps_to_its_run(panel):
 def test_the_iteration_shown_is_marked_on_its_branch(panel):
     panel.set_shown(BRANCH, 3)
     assert {plot.here.value() for plot in panel.drawn} == {11.0}
-    QTest.mouseClick(panel.axis.button("time"), LEFT)
+    QTest.mouseClick(panel.head.axis.button("time"), LEFT)
     assert panel.drawn[0].here.value() == pytest.approx(1.1)
     panel.set_shown(None)
     assert not panel.drawn[0].here.isVisible()
@@ -177,7 +177,7 @@ def test_runs_are_switched_and_forgotten_in_the_legend(panel):
     assert all(slot == 0 for slot, _ in panel.plots["objective"].lines)
     panel.set_curves(())
     assert panel.legend.rows == {}
-    assert not panel.save.isEnabled()
+    assert not panel.head.save.isEnabled()
 
 
 def test_where_room_is_short_runs_stand_above_the_charts(panel):

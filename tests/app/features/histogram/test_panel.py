@@ -199,10 +199,18 @@ def test_setters_are_silent(histogram, heard, data, qtbot):
     histogram.set_range(ValueRange("q", 0.1, 0.2))
     histogram.set_current(*data)
     histogram.set_range(None)
-    histogram.clear()
+    histogram.set_metric("scaled-jacobian")
     qtbot.waitUntil(lambda: nothing_waits(histogram), timeout=PATIENCE)
     assert heard == []
     assert histogram.words.text() == "No mesh is open."
+
+
+def test_a_range_that_waits_is_none_once_its_metric_is_no_more_drawn(histogram, heard, qtbot):
+    histogram.plot.view.brushed.emit((0.1, 0.2))
+    histogram.plot.view.brushed.emit((0.1, 0.3))  # waits for its turn
+    histogram.set_metric("scaled-jacobian")
+    qtbot.waitUntil(lambda: len(heard) == 2, timeout=PATIENCE)
+    assert heard[-1] is None
 
 
 def test_a_set_range_withdraws_one_that_waits_to_be_announced(histogram, heard, qtbot):

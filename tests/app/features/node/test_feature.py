@@ -70,8 +70,8 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
     choose_by_keys(window, "local-mnr")
     step = wait_for_step(window, qtbot, "local-mnr")
     assert "Shift" in texts(window)
-    window.features["smooth"].panel.form.set_values({"p": 3.0})
-    window.features["smooth"].panel.form.changed.emit()
+    window.features["smooth"].panel.stage.parameters.set_values({"p": 3.0})
+    window.features["smooth"].panel.stage.parameters.changed.emit()
     qtbot.waitUntil(lambda: shown(window).power.p == 3, timeout=PATIENCE)
     assert shown(window).energy != step.energy
 
@@ -110,9 +110,9 @@ def test_a_node_that_is_fixed_has_no_step_and_says_why(window, qtbot):
 
 def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
     window = at_work
-    if not window.features["smooth"].panel.form.isVisible():
+    if not window.features["smooth"].panel.stage.parameters.isVisible():
         press(named(window.features["smooth"].panel, QAbstractButton, "Parameters"))
-    editor = window.features["smooth"].panel.form.editor("p")
+    editor = window.features["smooth"].panel.stage.parameters.editor("p")
     target = editor.widget if hasattr(editor, "widget") else editor
     target.setFocus()
     line = target.lineEdit() if hasattr(target, "lineEdit") else target

@@ -81,7 +81,7 @@ def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
     press(window, "Choose: Mend")
     assert window.session.order.method == "mend"
     assert window.session.order.stage.stop == Stop()  # or one iteration would not help either
-    assert window.features["smooth"].panel.stop_form.values() == Stop().values()
+    assert window.features["smooth"].panel.stage.stop.values() == Stop().values()
     assert window.session.smoothing.phase is Phase.FINISHED
     click(window, "Run")
     qtbot.waitUntil(lambda: window.session.smoothing.busy, timeout=PATIENCE)

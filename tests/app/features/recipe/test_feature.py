@@ -61,7 +61,7 @@ def type_value(window, name, text):
     """Give the method at hand another value, as a hand does."""
     panel = window.features["smooth"].panel
     next(one for one in panel.findChildren(Section) if one.text() == "Parameters").expand()
-    editor = panel.form.editor(name).lineEdit()
+    editor = panel.stage.parameters.editor(name).lineEdit()
     editor.setFocus()
     editor.selectAll()
     QTest.keyClicks(editor, text)
@@ -120,7 +120,7 @@ def test_enter_shows_a_stage_above(window, panel):
     assert window.session.order.stage == Stage(METHODS["local-sd"](p=4.0), SHORT)
     shown = window.features["smooth"].panel
     assert named(shown, QComboBox, "Method").currentText() == METHODS["local-sd"].title
-    assert (shown.form.values()["p"], shown.stop_form.values()) == (4, SHORT.values())
+    assert (shown.stage.parameters.values()["p"], shown.stage.stop.values()) == (4, SHORT.values())
 
 
 def test_a_wrong_value_becomes_no_stage(window, panel):

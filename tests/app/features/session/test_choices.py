@@ -173,7 +173,7 @@ def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot,
     for record in data["window"]["history"]["records"]:
         del record["slot"], record["plotted"]
     write_archive(path, "Hexmend session", 1, data)
-    window.features["convergence"].panel.log.setChecked(False)
+    window.features["convergence"].panel.head.log.setChecked(False)
     choices = window.session.choices.given()
     open_and_wait(qtbot, window, path)
     at_rest(window, qtbot)
@@ -215,7 +215,7 @@ def test_a_step_of_too_many_iterations_is_refused(window, qtbot, tmp_path):
 
 
 def test_the_charts_of_sessions_are_those_that_are_offered(window):
-    assert tuple(window.features["convergence"].panel.charts) == CHARTS
+    assert tuple(window.features["convergence"].panel.head.charts) == CHARTS
 
 
 def test_the_list_of_the_worst_follows_the_session(window, qtbot, tmp_path):

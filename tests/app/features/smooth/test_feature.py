@@ -109,7 +109,7 @@ def test_a_method_with_a_wrong_value_is_not_started(window):
     choose(window, "mend")
     panel = window.features["smooth"].panel
     panel.findChild(Section).expand()
-    line = panel.form.editor("p").lineEdit()
+    line = panel.stage.parameters.editor("p").lineEdit()
     line.setFocus()
     line.selectAll()
     QTest.keyClicks(line, "0.1")

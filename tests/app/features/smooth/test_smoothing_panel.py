@@ -82,8 +82,8 @@ def test_a_run_can_be_stopped_exactly_while_there_is_one_and_nothing_is_edited_a
     click(panel, "stop")
     assert heard == ([("stop_requested",)] if under_way else [])
     method = named(panel, QComboBox, "Method")
-    assert panel.form.isEnabled() is panel.stop_form.isEnabled() is method.isEnabled()
-    assert panel.form.isEnabled() is (state == "paused" or not under_way)
+    assert panel.stage.parameters.isEnabled() is panel.stage.stop.isEnabled() is method.isEnabled()
+    assert panel.stage.parameters.isEnabled() is (state == "paused" or not under_way)
 
 
 def test_reset_is_offered_once_there_is_something_to_reset(panel, heard):
@@ -101,14 +101,14 @@ def test_keys_choose_a_method_and_each_keeps_its_values(panel, order):
     assert order.stage.smoother == METHODS["getme-sequential"]()
     assert METHODS["getme-sequential"].help in "".join(label.text() for label in panel.findChildren(QLabel))
     QTest.keyClick(method, Qt.Key.Key_Up)
-    assert panel.form.values()["scaling"] == 0.25
+    assert panel.stage.parameters.values()["scaling"] == 0.25
     assert order.stage == _STAGE
 
 
 def test_what_somebody_else_chooses_is_shown(panel, order, heard):
     order.choose(Stage(METHODS["laplacian"](), Stop(max_iterations=3)))
     assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
-    assert panel.stop_form.values()["max_iterations"] == 3
+    assert panel.stage.stop.values()["max_iterations"] == 3
     assert heard == []
     click(panel, "run")
     assert heard == [("run_requested", order.stage)]
@@ -121,8 +121,8 @@ def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, order):
     panel.set_state("paused")
     click(panel, "run")
     assert changes == []
-    panel.form.editor("scaling").setFocus()
-    panel.form.editor("scaling").stepUp()
+    panel.stage.parameters.editor("scaling").setFocus()
+    panel.stage.parameters.editor("scaling").stepUp()
     click(panel, "run")
     assert changes == [order.stage]
     assert order.stage.smoother.scaling > 0.25
@@ -131,7 +131,7 @@ def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, order):
 def test_a_wrong_value_is_led_to_instead_of_run_with(panel, order, heard):
     parameters = sections(panel)[0]
     parameters.expand()
-    editor = panel.form.editor("scaling")
+    editor = panel.stage.parameters.editor("scaling")
     editor.lineEdit().setFocus()
     editor.lineEdit().selectAll()
     QTest.keyClicks(editor.lineEdit(), "-7")
@@ -172,17 +172,17 @@ def test_parameters_are_unfolded_where_there_is_room(shown, order, height, opene
     area.setWidgetResizable(True)
     shown(area, 380, height)
     assert sections(panel)[0].isExpanded() is opened
-    assert panel.form.editor("scaling").isVisible() is opened
+    assert panel.stage.parameters.editor("scaling").isVisible() is opened
 
 
 def test_a_folded_section_is_not_walked_through_and_opens_by_key(panel):
     section = sections(panel)[0]
     section.collapse()
-    assert not panel.form.isVisible()
+    assert not panel.stage.parameters.isVisible()
     section.toggleButton().setFocus()
     QTest.keyClick(section.toggleButton(), Qt.Key.Key_Space)
-    assert panel.form.isVisible()
-    assert panel.form.editor("scaling").height() > 15
+    assert panel.stage.parameters.isVisible()
+    assert panel.stage.parameters.editor("scaling").height() > 15
 
 
 def test_nothing_moves_as_a_sentence_comes_and_goes(panel, qtbot):

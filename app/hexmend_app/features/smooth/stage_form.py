@@ -1,0 +1,108 @@
+"""What is to be run, as it is set: the method, its parameters, and when it stops."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from html import escape
+from typing import Any
+
+from PySide6.QtCore import QObject, QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QComboBox
+
+from hexmend.errors import ParameterError
+from hexmend.parameters import declared
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.state.order import Order
+from hexmend_app.widgets.combo import let_shrink
+from hexmend_app.widgets.parameter_form import ParameterForm
+from hexmend_app.widgets.style import explain, note
+
+
+class StageForm(QObject):
+    """Lets the order be set; the panel lays its parts out.
+
+    Parameters
+    ----------
+    order : Order
+        What is set here, and by others.
+
+    Attributes
+    ----------
+    method : QComboBox
+    help : QLabel
+        What the method does.
+    parameters, stop : ParameterForm
+
+    Signals
+    -------
+    edited
+        The user has set something, admitted or not.
+    """
+
+    edited = Signal()
+
+    def __init__(self, order: Order, parent: QObject | None = None):
+        super().__init__(parent)
+        self._order = order
+        self._name = ""
+        self.method = QComboBox()
+        let_shrink(self.method, 14)
+        explain(self.method, "Method", "How nodes are moved; the line below says what the chosen method does.")
+        for at, method in enumerate(METHODS.values()):
+            self.method.addItem(method.title, method.name)
+            about = f"<b>{escape(method.title)}</b> ({escape(method.name)})<br>{escape(method.help)}"
+            tip = f"<qt>{about}<br><i>{escape(method.source)}</i></qt>"
+            self.method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
+        self.help = note()
+        self.parameters, self.stop = ParameterForm(), ParameterForm(declared(Stop))
+        self.show_order()
+        self.method.activated.connect(self._on_method)
+        for form in (self.parameters, self.stop):
+            form.changed.connect(self._on_edited)
+
+    def show_order(self) -> None:
+        """Show what others have set; without a signal."""
+        stage = self._order.stage
+        self._show_method(stage.smoother.name, stage.smoother.values())
+        with QSignalBlocker(self.stop):
+            self.stop.set_values(stage.stop.values())
+
+    def set_enabled(self, on: bool) -> None:
+        """Let the user set it, or not."""
+        for part in (self.method, self.parameters, self.stop):
+            part.setEnabled(on)
+
+    @property
+    def wrong(self) -> ParameterForm | None:
+        """The first form in which a value is wrong."""
+        return next((form for form in (self.parameters, self.stop) if form.problems()), None)
+
+    def _show_method(self, name: str, values: Mapping[str, Any] | None = None) -> None:
+        """Show a method with what was last set for it, or with `values`."""
+        method = METHODS[name]
+        self._name = name
+        self.method.setCurrentIndex(self.method.findData(name))
+        self.help.setText(f"{method.help}\nSource: {method.source}" if method.source else method.help)
+        with QSignalBlocker(self.parameters):
+            self.parameters.set_declarations(declared(method))
+            self.parameters.set_values(self._order.values_of(name) | dict(values or {}))
+
+    def _on_method(self) -> None:
+        if self.method.currentData() != self._name:
+            self._show_method(self.method.currentData())
+            self._on_edited()
+
+    def _on_edited(self, *_: object) -> None:
+        self.edited.emit()
+        self._order.set(self._name, self.parameters.values(), self._stage())
+
+    def _stage(self) -> Stage | None:
+        """What the forms show; None while a value is wrong."""
+        if self.wrong is not None:
+            return None
+        try:
+            return Stage(METHODS[self._name](**self.parameters.values()), Stop(**self.stop.values()))
+        except ParameterError:
+            return None

@@ -1,0 +1,61 @@
+"""Which corners can be moved, and what they are worth as nodes move."""
+
+import numpy as np
+
+from hexmend.hexahedron import CORNER_TETRAHEDRA
+from hexmend.optimise.corners import scaled_jacobians
+from hexmend.optimise.movable import MovableCorners
+from tests.core.grids import grid, scrambled
+
+
+def movable(mesh):
+    return mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+
+
+def test_fixed_corners_are_not_raised():
+    mesh = scrambled(grid(3), 0.4, 1)
+    corners = MovableCorners(mesh, mesh.points)
+    values = scaled_jacobians(mesh.points, mesh.hexes)
+    np.testing.assert_array_equal(np.isfinite(corners.raised()), movable(mesh))
+    assert corners.least == corners.lowest == values[movable(mesh)].min()
+    locked = corners.locked_below(np.inf)
+    assert sorted(locked) == sorted(np.flatnonzero(~movable(mesh)))
+    assert (np.diff(values.ravel()[locked]) >= 0).all()
+
+
+def test_settled_corners_take_along_those_that_have_no_other_node():
+    mesh = grid(2)  # of one free node
+    corners = MovableCorners(mesh, mesh.points)
+    (one, *_) = np.flatnonzero(movable(mesh))
+    nodes = np.flatnonzero(mesh.free)
+    np.testing.assert_array_equal(corners.moving(np.arange(mesh.n_nodes)), nodes)
+    corners.settle(np.array([one]))
+    np.testing.assert_array_equal(corners.settled, movable(mesh))
+    assert corners.least == np.inf > corners.lowest
+    assert corners.moving(nodes).size == 0
+    corners.unsettle()
+    assert not corners.settled.any()
+    np.testing.assert_array_equal(corners.moving(nodes), nodes)
+
+
+def test_values_follow_the_hexes_at_nodes_that_moved():
+    mesh = scrambled(grid(3), 0.2, 2)
+    corners = MovableCorners(mesh, mesh.points)
+    (node, *_) = np.flatnonzero(mesh.free)
+    points = mesh.points.copy()
+    points[node] += 0.1
+    hexes = corners.hexes_at(np.array([node]))
+    np.testing.assert_array_equal(hexes, np.flatnonzero((mesh.hexes == node).any(axis=1)))
+    corners.measure(points, hexes)
+    np.testing.assert_array_equal(corners.values, scaled_jacobians(points, mesh.hexes))
+    ends = corners.nodes_of(8 * hexes)
+    np.testing.assert_array_equal(ends, mesh.hexes[hexes][:, CORNER_TETRAHEDRA[0]])
+
+
+def test_a_node_that_is_freed_makes_its_corners_movable():
+    mesh = grid(2)
+    corners = MovableCorners(mesh, mesh.points)
+    freed = mesh.with_fixed(np.zeros(mesh.n_nodes, dtype=bool))
+    corners.set_mesh(freed)
+    assert corners.mesh is freed
+    assert np.isfinite(corners.raised()).all()
