@@ -20,6 +20,9 @@ WIDTHS = (40.0, 1000.0)
 #: The size of what is written, in pt, and colour of the mesh as it was given.
 _LETTERS, _FIRST = 8.0, "#5b6573"
 
+#: Letters of a name in a legend.
+_LONGEST = 24
+
 #: What is followed over the iterations.
 _FOLLOWED = ("q_min", "objective", "inverted")
 
@@ -41,7 +44,7 @@ def write_distributions(path: Path, counts: Mapping[str, Sequence[int]], *, titl
         For another suffix, and where matplotlib is missing or the file cannot be written.
     """
     outlines = [
-        Outline(_plain(name), COLOURS[(k - 1) % len(COLOURS)] if k else _FIRST, numbers, filled=k == 0)
+        Outline(_label(name), COLOURS[(k - 1) % len(COLOURS)] if k else _FIRST, numbers, filled=k == 0)
         for k, (name, numbers) in enumerate(counts.items())
     ]
     ticks = [(k / 5, f"{k / 5:g}") for k in range(6)]
@@ -97,10 +100,15 @@ def _plain(text: str) -> str:
     return printable(text).replace("$", r"\$")
 
 
+def _label(name: str) -> str:
+    """A name that leaves room for what it names: a longer one has its beginning and its end."""
+    return _plain(name if len(name) <= _LONGEST else f"{name[: _LONGEST // 2]}…{name[-(_LONGEST // 2) :]}")
+
+
 def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> list[DrawnCurve]:
     return [
         DrawnCurve(
-            _plain(name),
+            _label(name),
             COLOURS[k % len(COLOURS)],
             [row["iteration"] for row in rows],
             [float("nan") if row[key] is None else row[key] for row in rows],
