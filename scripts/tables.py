@@ -73,18 +73,18 @@ def stops() -> str:
 
 
 def formats() -> str:
-    """The formats, and what of a mesh each holds."""
-    head = ("format", "suffix", "written as", *(one.value for one in Holds))
-    rows = (
-        (
-            one.title,
-            ", ".join(f"`{suffix}`" for suffix in one.suffixes),
-            " or ".join(one.encodings) or "not",
-            *("–" if not one.write else "yes" if thing in one.holds else "no" for thing in Holds),
-        )
+    """The formats, and what of a mesh those hold that are written: that across, so that a page is wide enough."""
+    all_of_them = (
+        (one.title, ", ".join(f"`{suffix}`" for suffix in one.suffixes), " or ".join(one.encodings) or "not written")
         for one in FORMATS.values()
     )
-    return table(head, rows)
+    alike: dict[frozenset[Holds], list[str]] = {}
+    for one in sorted(FORMATS.values(), key=lambda one: one.title.lower()):
+        if one.write:
+            alike.setdefault(frozenset(one.holds), []).append(one.title)
+    held = ((thing.value, *("yes" if thing in holds else "no" for holds in alike)) for thing in Holds)
+    first = table(("format", "suffix", "written as"), all_of_them)
+    return f"{first}\n\n{table(('', *map(', '.join, alike.values())), held)}"
 
 
 def memory() -> str:

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.browsers import chromium
+
 ROOT = Path(__file__).resolve().parents[1]
 
 
@@ -46,6 +48,34 @@ def test_links_are_called_as_their_pages_are(site):
     text = (site / "window.html").read_text(encoding="utf-8")
     assert '<a href="keys.html">Mouse and keys</a>' in text
     assert not re.search(r"<a[^>]*>[\w-]+\.md</a>", text)
+
+
+@pytest.fixture(scope="module")
+def opened(site, tmp_path_factory):
+    """A page of the site in Debian's browser, read from the disk, and what the browser asked for."""
+    with chromium(tmp_path_factory.mktemp("browser")) as launch, launch() as browser:
+        page, asked = browser.new_page(viewport={"width": 1366, "height": 768}), []
+        page.on("request", lambda request: asked.append(request.url))
+        page.goto((site / "formats.html").as_uri())
+        yield page, asked
+
+
+def test_search_finds_pages_that_are_read_from_the_disk(opened, site):
+    page, asked = opened
+    page.get_by_placeholder("Search").click()
+    page.keyboard.type("crinkle")
+    found = page.locator(".md-search-result__item a").first
+    found.wait_for()
+    assert found.get_attribute("href").startswith(site.as_uri())
+    assert all(url.startswith((site.as_uri(), "about:")) for url in asked)
+
+
+def test_the_tables_of_formats_have_room(opened):
+    page, _ = opened
+    wide = page.evaluate(
+        "() => [...document.querySelectorAll('.md-typeset__scrollwrap')].map((one) => one.scrollWidth - one.clientWidth)"
+    )
+    assert wide == [0, 0]
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 // How a hand steers the camera.
 
-/** Let mouse, fingers and keys steer a camera; a click or tap chooses what is there. */
+/** Let mouse, fingers and keys steer a camera; a click or tap chooses what is there, Enter what is in the middle. */
 function steer(canvas, camera, moved, chosen) {
   const pointers = new Map();
   let went = 0;
@@ -41,6 +41,12 @@ function steer(canvas, camera, moved, chosen) {
     camera.closer(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)));
     moved();
   }, { passive: false });
+  const shifted = {
+    ArrowLeft: () => camera.shift(-0.05, 0),
+    ArrowRight: () => camera.shift(0.05, 0),
+    ArrowUp: () => camera.shift(0, 0.05),
+    ArrowDown: () => camera.shift(0, -0.05),
+  };
   const keys = {
     ArrowLeft: () => camera.turn(0.1, 0),
     ArrowRight: () => camera.turn(-0.1, 0),
@@ -49,11 +55,17 @@ function steer(canvas, camera, moved, chosen) {
     "+": () => camera.closer(1.15),
     "-": () => camera.closer(1 / 1.15),
     0: () => camera.reset(),
+    c: () => camera.look("iso"),
+    x: () => camera.look("x"),
+    y: () => camera.look("y"),
+    z: () => camera.look("z"),
+    Enter: () => chosen(canvas.clientWidth / 2, canvas.clientHeight / 2),
   };
   canvas.addEventListener("keydown", (event) => {
-    if (!keys[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
+    const act = (event.shiftKey && shifted[event.key]) || keys[event.key];
+    if (!act || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
-    keys[event.key]();
+    act();
     moved();
   });
 }

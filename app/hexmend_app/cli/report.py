@@ -55,13 +55,13 @@ class Report:
             check_paper()
         style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))
         chapters, interrupted = [], False
-        for one in args.mesh:
+        for number, one in enumerate(args.mesh, 1):
             mesh, source = source_of(one)
             check_memory(args, smoothers, mesh, "report on fewer methods (--methods)")
             with Progress() as progress:
                 case = run_methods(mesh, source, smoothers, stop, names, progress.show)
             again = _again(one, case.name, given, runs.method_words(args))
-            chapters.append(chapter(case, style, again, alive=alive))
+            chapters.append(chapter(case, style, again, alive=alive, place=f"mesh-{number}"))
             interrupted = case.interrupted
             if interrupted:
                 break

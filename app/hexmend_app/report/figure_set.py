@@ -12,6 +12,7 @@ from hexmend.report import comparison_rows, comparison_table, write_documents
 from hexmend.report.run_figures import write_convergence, write_distributions
 from hexmend.report.tables import Table
 from hexmend_app.report.case import Case
+from hexmend_app.report.wording import coloured_by, cut_open, listed, opposite, seen_from
 from hexmend_app.scene.export.sheet import draw_sheet
 from hexmend_app.scene.export.subject import Subject
 from hexmend_app.state.look import Traces
@@ -80,6 +81,12 @@ def write_figures(case: Case, folder: Path, style: Style, parts: Sequence[str] =
             yield figure
 
 
+def write_behind(case: Case, folder: Path, style: Style) -> Figure:
+    """Write what `surface` does not show: the meshes from the opposite side; parameters as of `write_figures`."""
+    scene = replace(style.scene, cut=Cut(), camera=opposite(style.scene.camera))
+    return _sheet(case, folder, style, "behind", scene, "whole, seen from the opposite side")
+
+
 def stationary(scene: Scene) -> Scene:
     """A scene without what needs a mesh that has moved, and without panels: those of a set are its meshes."""
     moved = scene.colours.metric in MOVEMENTS
@@ -103,14 +110,15 @@ def table_of(case: Case) -> Table:
 
 def _surface(case: Case, folder: Path, style: Style) -> Figure:
     scene = replace(style.scene, cut=Cut())
-    return _sheet(case, folder, style, "surface", scene, "seen from outside")
+    return _sheet(case, folder, style, "surface", scene, f"whole, {seen_from(scene.camera)}")
 
 
 def _cut(case: Case, folder: Path, style: Style) -> Figure:
     scene = style.scene
     if not scene.cut.planes and scene.cut.box is None:
         scene = replace(scene, cut=Cut((Plane(position=0.5),)))
-    return _sheet(case, folder, style, "cut", scene, "cut open at the same place")
+    how = f"{cut_open(scene.cut)}, {seen_from(scene.camera)}"
+    return _sheet(case, folder, style, "cut", scene, how)
 
 
 def _sheet(case: Case, folder: Path, style: Style, part: str, scene: Scene, how: str) -> Figure:
@@ -129,9 +137,9 @@ def _sheet(case: Case, folder: Path, style: Style, part: str, scene: Scene, how:
     paths = [folder / f"{part}.{suffix}" for suffix in style.formats]
     for path in paths:
         sheet.write(path)
-    names = _listed([one.name for one in case.versions])
-    magenta = " Inverted hexes are magenta." if any(one.figures.n_inverted for one in case.versions) else ""
-    return Figure(part, f"{case.name}, {names}, {how}.{magenta}", tuple(paths))
+    inverted = any(one.figures.n_inverted for one in case.versions)
+    said = f"{case.name}, {listed([one.name for one in case.versions])}: {how}. {coloured_by(scene.colours, inverted)}"
+    return Figure(part, said, tuple(paths))
 
 
 def _distributions(case: Case, folder: Path, style: Style) -> Figure:
@@ -140,7 +148,7 @@ def _distributions(case: Case, folder: Path, style: Style) -> Figure:
     for path in paths:
         write_distributions(path, counts, title=case.name, width_mm=style.width)
     return Figure(
-        "distributions", f"Numbers of hexes of {case.name} by their quality q(H): {_listed([*counts])}.", paths
+        "distributions", f"Numbers of hexes of {case.name} by their quality q(H): {listed([*counts])}.", paths
     )
 
 
@@ -151,7 +159,7 @@ def _convergence(case: Case, folder: Path, style: Style) -> Figure | None:
     paths = tuple(folder / f"convergence.{suffix}" for suffix in style.formats)
     for path in paths:
         write_convergence(path, histories, title=case.name, width_mm=style.width)
-    return Figure("convergence", f"How {_listed([*histories])} went on {case.name}, by iteration.", paths)
+    return Figure("convergence", f"How {listed([*histories])} went on {case.name}, by iteration.", paths)
 
 
 def _table(case: Case, folder: Path, style: Style) -> Figure:
@@ -166,14 +174,6 @@ def _table(case: Case, folder: Path, style: Style) -> Figure:
     table = table_of(case)
     paths = write_documents(folder, "table", table, comparison_rows(record), record)
     return Figure("table", f"{table.title}.", tuple(paths))
-
-
-def _listed(names: Sequence[str]) -> str:
-    """
-    >>> _listed(["initial", "laplacian", "mend"])
-    'initial, laplacian and mend'
-    """
-    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
 
 #: The figures of a set, in order, and who writes them.

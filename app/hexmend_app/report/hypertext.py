@@ -10,9 +10,13 @@ from pathlib import Path
 
 from hexmend.figures import Worse
 from hexmend.report.tables import Table
+from hexmend_app.report.vectors import inline
 
 #: Of pictures in pixels: half the size of PNG, and nobody sees the difference.
 _WEBP = {"quality": 90, "method": 4}
+
+#: Columns of a table of figures beside its first for which paper has room.
+_COLUMNS = 7
 
 
 def heading(level: int, text: str, **attributes: str) -> str:
@@ -40,21 +44,35 @@ def commands(lines: Iterable[str]) -> str:
     return f"<pre>{escape(chr(10).join(lines))}</pre>"
 
 
-def picture(path: Path, caption: str) -> str:
-    """A picture within the page, of pixels or SVG, with its caption."""
-    kind, data = ("svg+xml", path.read_bytes()) if path.suffix == ".svg" else ("webp", _webp(path))
-    return (
-        f'<figure><img src="data:image/{kind};base64,{base64.b64encode(data).decode("ascii")}" alt="{escape(caption)}">'
-        f"<figcaption>{escape(caption)}</figcaption></figure>"
+def picture(path: Path, caption: str, prefix: str) -> str:
+    """A picture within the page with its caption: of pixels, or an SVG, whose names get a prefix."""
+    if path.suffix == ".svg":
+        drawn = inline(path, prefix)
+    else:
+        drawn = f'<img src="data:image/webp;base64,{_webp(path)}" alt="">'  # its caption tells
+    return f"<figure>{drawn}<figcaption>{escape(caption)}</figcaption></figure>"
+
+
+def contents(chapters: Iterable[tuple[str, str, Iterable[tuple[str, str]]]]) -> str:
+    """A table of contents: of each chapter its place in the page, its name, and places and names of its sections."""
+
+    def link(place: str, name: str) -> str:
+        return f'<a href="#{escape(place)}">{escape(name)}</a>'
+
+    rows = "".join(
+        f"<li>{link(place, name)}<p>{' '.join(link(*section) for section in sections)}</p></li>"
+        for place, name, sections in chapters
     )
+    return f'<nav aria-label="Contents"><ol>{rows}</ol></nav>'
 
 
-def _webp(path: Path) -> bytes:
+def _webp(path: Path) -> str:
+    """A picture in pixels, in base64."""
     from PIL import Image
 
     with Image.open(path) as image, BytesIO() as file:
         image.save(file, "WEBP", **_WEBP)
-        return file.getvalue()
+        return base64.b64encode(file.getvalue()).decode("ascii")
 
 
 def table(table: Table, words: int = 0) -> str:
@@ -74,6 +92,23 @@ def table(table: Table, words: int = 0) -> str:
     title = f"<caption>{escape(table.title)}</caption>" if table.title else ""
     notes = "".join(f'<p class="soft">{escape(note)}</p>' for note in table.notes)
     return f'<div class="wide"><table>{title}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>{notes}'
+
+
+def tables(whole: Table) -> str:
+    """A table that is laid across as many as have room on paper, each with its first column."""
+    last = max(2, len(whole.head))
+    parts = [slice(k, k + _COLUMNS) for k in range(1, last, _COLUMNS)]
+    return "".join(
+        table(
+            Table(
+                whole.title if part is parts[0] else "",
+                [whole.head[0], *whole.head[part]],
+                [[row[0], *row[part]] for row in whole.rows],
+                whole.notes if part is parts[-1] else [],
+            )
+        )
+        for part in parts
+    )
 
 
 def facts(pairs: Mapping[str, str]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from html import escape
 from pathlib import Path
@@ -18,7 +18,7 @@ from hexmend.study.bench import machine
 from hexmend.study.row import Row
 from hexmend_app.report import hypertext as html
 from hexmend_app.report.case import Case, Version, command_line
-from hexmend_app.report.figure_set import Style, table_of, write_figures
+from hexmend_app.report.figure_set import Style, table_of, write_behind, write_figures
 from hexmend_app.report.viewer import Shown, script, viewer
 from hexmend_app.report.worst import Locked, worst_table
 from hexmend_app.resources import resource
@@ -26,8 +26,11 @@ from hexmend_app.resources import resource
 #: What a browser lets the page do: nothing beyond itself.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 
-#: The suffix of each part of the figure set in the page.
-_PICTURES = {"surface": ".png", "cut": ".png", "distributions": ".svg", "convergence": ".svg"}
+#: Parts of the figure set that stand in the page, by their kind.
+_PICTURES = {"png": ("surface", "cut"), "svg": ("distributions", "convergence")}
+
+#: The width of a drawing, in mm, by which its letters have the size of those around it.
+_PLOT = 120.0
 
 
 @dataclass(frozen=True)
@@ -37,18 +40,23 @@ class Chapter:
     Parameters
     ----------
     name : str
+    place : str
+        What leads to it.
     row : sequence of str
-        Of the table of contents.
-    body : str
+        Of the table above all chapters.
+    preface : str
         HTML.
+    sections : sequence of (heading, HTML)
     """
 
     name: str
+    place: str
     row: Sequence[str]
-    body: str
+    preface: str
+    sections: Sequence[tuple[str, str]]
 
 
-def chapter(case: Case, style: Style, again: Sequence[Sequence[str]], *, alive: bool) -> Chapter:
+def chapter(case: Case, style: Style, again: Sequence[Sequence[str]], *, alive: bool, place: str = "mesh-1") -> Chapter:
     """Tell of a mesh.
 
     Parameters
@@ -60,21 +68,26 @@ def chapter(case: Case, style: Style, again: Sequence[Sequence[str]], *, alive: 
         The words of commands that repeat it.
     alive : bool
         Whether the mesh can be turned in the page, which takes a browser.
+    place : str
+        What its place in the page is called.
     """
     held = [Locked.of(one.mesh, one.figures) for one in case.versions]
-    body = [_preface(case), *_figures(case, style, alive)]
-    body += [html.heading(3, "Figures of quality"), html.table(table_of(case)), *map(_failed, case.failed)]
-    body += [html.heading(3, "The worst hexes"), *_worst(case, held)]
-    body += [html.heading(3, "What is locked, and what would help"), *_locked(case, held)]
-    body += [html.heading(3, "Runs"), *_runs(case)]
-    body += [html.heading(3, "Where this comes from"), _origin(case)]
-    body += [html.heading(3, "Commands that repeat it"), html.commands(map(command_line, again))]
+    sections = {
+        "The mesh": _figures(case, style, alive, place),
+        "Figures of quality": [html.tables(table_of(case)), *map(_failed, case.failed)],
+        "The worst hexes": _worst(case, held),
+        "What is locked, and what would help": _locked(case, held),
+        "Runs": _runs(case),
+        "Where this comes from": [_origin(case)],
+        "Commands that repeat it": [html.commands(map(command_line, again))],
+    }
     first, last = case.initial.summary, case.versions[-1].summary
     row = [case.name, count(first.hexes), _change(first.inverted, last.inverted, count)]
     row += [_change(one, other, quality) for one, other in (
         (first.q_min, last.q_min), (first.q_mean, last.q_mean), (first.scaled_jacobian_min, last.scaled_jacobian_min)
     )]  # fmt: skip
-    return Chapter(case.name, row, "\n".join(filter(None, body)))
+    told = [(name, "\n".join(filter(None, parts))) for name, parts in sections.items()]
+    return Chapter(case.name, place, row, _preface(case), told)
 
 
 def page(title: str, chapters: Sequence[Chapter], command: str, *, alive: bool) -> str:
@@ -92,7 +105,7 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, alive: bool) 
     style = resource("report/page.css").read_text(encoding="utf-8")
     made = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
     head = ["mesh", "hexes", "inverted", "q min", "q mean", "scaled Jacobian min"]
-    contents = Table("", head, [one.row for one in chapters])
+    summary = Table("", head, [one.row for one in chapters])
     parts = [
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8">',
@@ -101,15 +114,25 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, alive: bool) 
         f"<title>{escape(title)}</title><style>{style}</style></head><body>",
         f"<header>{html.heading(1, title)}",
         f'<p class="soft">Made by Hexmend {escape(__version__)} on {made}.</p></header><main>',
-        html.table(contents),
+        html.table(summary),
     ]
+    if len(chapters) > 1:
+        parts += [html.contents((one.place, one.name, _places(one)) for one in chapters)]
     for number, one in enumerate(chapters, 1):
         kind = {"class_": "first"} if number == 1 else {}
-        parts += [f"<section>{html.heading(2, one.name, id=f'mesh-{number}', **kind)}", one.body, "</section>"]
+        parts += ["<section>", html.heading(2, one.name, id=one.place, **kind), one.preface]
+        for (place, heading), (_, told) in zip(_places(one), one.sections, strict=True):
+            parts += [html.heading(3, heading, id=place), told]
+        parts += ["</section>"]
     parts += [f"</main><footer><p>{escape('This page was made by:')}</p>{html.commands([command])}</footer>"]
     parts += [f"<script>{script()}</script>"] if alive else []
     whole = "\n".join([*parts, "</body></html>"])
     return whole.encode("utf-8", "replace").decode("utf-8")  # names of files need not be text
+
+
+def _places(one: Chapter) -> list[tuple[str, str]]:
+    """What leads to the sections of a chapter, and their headings."""
+    return [(f"{one.place}-{number}", heading) for number, (heading, _) in enumerate(one.sections, 1)]
 
 
 def write_page(path: Path, text: str) -> None:
@@ -133,19 +156,17 @@ def _inverted(number: int) -> str:
     return f"{count(number)} {'is' if number == 1 else 'are'} inverted" if number else "None is inverted"
 
 
-def _figures(case: Case, style: Style, alive: bool) -> list[str]:
+def _figures(case: Case, style: Style, alive: bool, place: str) -> list[str]:
     """The mesh, and the pictures."""
-    pictures = {}
     with TemporaryDirectory(prefix="hexmend-report-") as folder:
-        for part, suffix in _PICTURES.items():
-            how = Style(style.scene, style.width, (suffix[1:],))
-            for figure in write_figures(case, Path(folder), how, [part]):
-                pictures[part] = html.picture(figure.paths[0], figure.caption)
-    mesh = case.initial.mesh
+        drawn = [write_behind(case, Path(folder), style)]
+        for part, how in {"png": style, "svg": replace(style, width=_PLOT, formats=("svg",))}.items():
+            drawn += write_figures(case, Path(folder), how, _PICTURES[part])
+        pictures = {one.part: html.picture(one.paths[0], one.caption, f"{place}-{one.part}-") for one in drawn}
     states = [Shown(one.name, one.mesh.points) for one in case.versions]
-    whole = viewer(mesh, states, pictures["surface"]) if alive else pictures["surface"]
-    plots = [pictures[part] for part in ("distributions", "convergence") if part in pictures]
-    return [html.heading(3, "The mesh"), whole, pictures["cut"], f'<div class="pair">{"".join(plots)}</div>']
+    whole = viewer(case.initial.mesh, states, pictures["surface"]) if alive else pictures["surface"]
+    plots = [pictures[part] for part in _PICTURES["svg"] if part in pictures]
+    return [whole, pictures["behind"], pictures["cut"], f'<div class="pair">{"".join(plots)}</div>']
 
 
 def _failed(row: Row) -> str:

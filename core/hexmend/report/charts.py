@@ -174,6 +174,6 @@ def save_figure(figure: Figure, path: Path, dpi: float = 160) -> None:
 
     kind = path.suffix.lower()[1:]
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-    # Names that are not drawn by lot, and no date.
-    with replacing(path) as temporary, rc_context({"svg.hashsalt": "hexmend"}):
+    # Names that are not drawn by lot, no date, and texts that stay texts.
+    with replacing(path) as temporary, rc_context({"svg.hashsalt": "hexmend", "svg.fonttype": "none"}):
         figure.savefig(temporary, dpi=dpi, format=kind, metadata=dates.get(kind))

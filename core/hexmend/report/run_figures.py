@@ -15,6 +15,9 @@ from hexmend.report.plots import COLOURS
 #: The colour of the mesh as it was given, and dots per inch of PNG.
 _FIRST, _DPI = "#5b6573", 160.0
 
+#: Letters of a name in a legend.
+_LONGEST = 24
+
 #: What is followed over the iterations.
 _FOLLOWED = ("q_min", "objective", "inverted")
 
@@ -36,7 +39,7 @@ def write_distributions(path: Path, counts: Mapping[str, Sequence[int]], *, titl
         For another suffix, and where matplotlib is missing or the file cannot be written.
     """
     outlines = [
-        Outline(name, COLOURS[(k - 1) % len(COLOURS)] if k else _FIRST, numbers, filled=k == 0)
+        Outline(_label(name), COLOURS[(k - 1) % len(COLOURS)] if k else _FIRST, numbers, filled=k == 0)
         for k, (name, numbers) in enumerate(counts.items())
     ]
     ticks = [(k / 5, f"{k / 5:g}") for k in range(6)]
@@ -67,10 +70,15 @@ def write_convergence(
     write_chart(path, Convergence(charts, title, "iteration").draw, ChartStyle(width=width_mm, resolution=_DPI))
 
 
+def _label(name: str) -> str:
+    """A name that leaves room for what it names: a longer one has its beginning and its end."""
+    return name if len(name) <= _LONGEST else f"{name[: _LONGEST // 2]}…{name[-(_LONGEST // 2) :]}"
+
+
 def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> list[DrawnCurve]:
     return [
         DrawnCurve(
-            name,
+            _label(name),
             COLOURS[k % len(COLOURS)],
             [row["iteration"] for row in rows],
             [float("nan") if row[key] is None else row[key] for row in rows],

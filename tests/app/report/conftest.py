@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from io import BytesIO
@@ -16,16 +14,12 @@ from hexmend import gallery
 from hexmend.optimise import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.report.case import Case, run_methods
-
-#: WebGL without a graphics card.
-SOFTWARE = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+from tests.browsers import SOFTWARE, chromium
 
 #: A promise that is kept when some frames have been drawn.
 _FRAMES = (
     "() => new Promise((done) => { let n = 4; const next = () => n-- ? requestAnimationFrame(next) : done(); next(); })"
 )
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 
 @pytest.fixture(scope="session")
@@ -75,25 +69,15 @@ class Opened:
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory) -> Iterator[Callable[..., Opened]]:
     """Makes pages; options are those of a context, and `arguments` of the browser."""
-    if CHROMIUM is None:
-        pytest.skip("there is no chromium")
-    playwright = pytest.importorskip("playwright.sync_api")
-    folder = str(tmp_path_factory.mktemp("browser"))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("TMPDIR", folder)
-        patch.setenv("HOME", folder)
-        manager = playwright.sync_playwright()
-        started = manager.start()
+    with chromium(tmp_path_factory.mktemp("browser")) as launch:
 
-    @contextmanager
-    def opened(arguments: tuple[str, ...] = SOFTWARE, **options) -> Iterator[Opened]:
-        env = os.environ | {"HOME": folder, "TMPDIR": folder}
-        program = started.chromium.launch(executable_path=CHROMIUM, args=list(arguments), env=env)
-        try:
-            context = program.new_context(viewport={"width": 1000, "height": 640}, **options)
-            yield Opened(context.new_page())
-        finally:
-            program.close()
+        @contextmanager
+        def opened(arguments: tuple[str, ...] = SOFTWARE, **options) -> Iterator[Opened]:
+            program = launch(*arguments)
+            try:
+                context = program.new_context(viewport={"width": 1000, "height": 640}, **options)
+                yield Opened(context.new_page())
+            finally:
+                program.close()
 
-    yield opened
-    started.stop()
+        yield opened

@@ -102,13 +102,16 @@ def test_mouse_and_keys_turn_it(fresh):
         fresh.page.mouse.up(button=button)
         seen.add(fresh.canvas())
     fresh.control("canvas").focus()
-    for key in ("ArrowLeft", "ArrowUp", "+"):
+    keys = ("ArrowLeft", "ArrowUp", "+", "Shift+ArrowDown", "Shift+ArrowLeft", "x", "y", "z")
+    for key in keys:
         fresh.page.keyboard.press(key)
         seen.add(fresh.canvas())
+    fresh.page.keyboard.press("Enter")
+    assert fresh.text("told").startswith("Hex ")
     fresh.page.mouse.move(*middle)
     fresh.page.mouse.wheel(0, 200)
     seen.add(fresh.canvas())
-    assert len(seen) == 7
+    assert len(seen) == 4 + len(keys)
 
 
 def test_before_more_is_inverted_than_after(fresh):
@@ -181,6 +184,32 @@ def test_without_webgl_the_picture_stands_in_its_place(browser, written):
         assert "cannot be turned here: there is no WebGL 2" in opened.page.locator(".viewer .cannot").inner_text()
         assert opened.page.locator(".viewer > figure img").is_visible()
         assert not opened.control("canvas").is_visible()
+
+
+def test_drawings_have_texts(fresh):
+    plots = fresh.page.locator(".pair svg")
+    assert [plots.nth(k).locator("text", has_text="mend").count() > 0 for k in range(plots.count())] == [True, True]
+
+
+def test_every_picture_says_what_it_shows(fresh):
+    first, behind, cut, *_ = fresh.page.locator("figcaption").all_inner_texts()
+    assert "initial, laplacian and mend: whole, seen from a corner. Coloured by q(H)" in first
+    assert "opposite side" in behind
+    assert "cut open across x at 50 % of its extent" in cut
+
+
+def test_contents_lead_to_every_part_of_several_meshes(browser, case, tmp_path):
+    path = tmp_path / "report.html"
+    told = [chapter(case, STYLE, [], alive=False, place=place) for place in ("mesh-1", "mesh-2")]
+    write_page(path, page("Two", told, "hexmend report", alive=False))
+    with browser() as opened:
+        opened.page.goto(path.as_uri())
+        links = opened.page.locator("nav a")
+        places = [links.nth(k).get_attribute("href") for k in range(links.count())]
+        assert len(places) == len(set(places)) == 2 + 2 * len(told[0].sections)
+        assert all(opened.page.locator(place).count() == 1 for place in places)
+        named = opened.page.evaluate("() => [...document.querySelectorAll('[id]')].map((one) => one.id)")
+        assert len(named) == len(set(named))
 
 
 def test_on_paper_there_are_pictures_and_no_controls(fresh):

@@ -26,3 +26,12 @@ def test_a_heading_is_on_the_page_of_the_table_that_follows():
         assert len(set(places)) == 1, tall
         found.add(places[0])
     assert found == {0, 1}
+
+
+def test_many_columns_are_laid_across_several_tables():
+    names = [f"method {k}" for k in range(16)]
+    whole = Table("All", ["figure", *names], [["q min", *map(str, range(16))]], ["A note."])
+    text = html.tables(whole)
+    assert text.count("<table>") == 3
+    assert all(text.count(f">{name}<") == 1 for name in names)
+    assert (text.count(">q min<"), text.count("A note."), text.count("<caption>")) == (3, 1, 1)

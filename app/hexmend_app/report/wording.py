@@ -1,0 +1,97 @@
+"""What a picture of meshes shows, in words: from where they are seen, how they are cut open, what colours mean."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from hexmend.movement import MOVEMENTS
+from hexmend.quality import METRICS
+from hexmend_app.scene.camera.directions import direction_of
+from hexmend_app.state.scene import Camera, Colours, Cut, Plane
+from hexmend_app.state.scene.cut import CutStyle
+from hexmend_app.state.stand import Vector
+
+_AXES = "xyz"
+
+
+def listed(names: Sequence[str]) -> str:
+    """
+    >>> listed(["initial", "laplacian", "mend"])
+    'initial, laplacian and mend'
+    """
+    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+
+
+def opposite(camera: Camera) -> Camera:
+    """The camera that sees what another does not: from the opposite side, with the same axis up.
+
+    >>> opposite(Camera(from_="+x")).from_
+    (-1.0, -0.0, -0.0)
+    """
+    if camera.stand is None:
+        return replace(camera, from_=tuple(-part for part in direction_of(camera.direction, camera.up)))
+    across = tuple(2 * at - stands for at, stands in zip(camera.focal, camera.position, strict=True))
+    return replace(camera, position=across)
+
+
+def seen_from(camera: Camera) -> str:
+    """
+    >>> seen_from(Camera()), seen_from(Camera(from_="-y")), seen_from(Camera(from_=(1.0, 0.5, 0.0)))
+    ('seen from a corner', 'seen from -y', 'seen from direction (1, 0.5, 0)')
+    """
+    if camera.stand is not None:
+        return "seen as in the scene"
+    if camera.direction == "iso":
+        return "seen from a corner"
+    return f"seen from {camera.direction if isinstance(camera.direction, str) else _named(camera.direction)}"
+
+
+def cut_open(cut: Cut) -> str:
+    """
+    >>> cut_open(Cut((Plane(position=0.25),)))
+    'cut open across x at 25 % of its extent'
+    >>> cut_open(Cut((Plane((0.0, 0.0, -1.0), point=(0.0, 0.0, 2.0)), Plane()), style=CutStyle.SMOOTH))
+    'cut open across -z through (0, 0, 2) and across x at 50 % of its extent, through the hexes'
+    """
+    if cut.box is not None:
+        low, high = (_vector(corner) for corner in (cut.box.low, cut.box.high))
+        unit = " in shares of its extents" if cut.box.shares else ""
+        where = f"by the box from {low} to {high}{unit}"
+    else:
+        where = listed([_plane(one) for one in cut.planes])
+    return f"cut open {where}{', through the hexes' if cut.style is CutStyle.SMOOTH else ''}"
+
+
+def coloured_by(colours: Colours, inverted: bool) -> str:
+    """What the colours mean, as a sentence; `inverted`: whether one of the meshes has inverted hexes.
+
+    >>> coloured_by(Colours("scaled-jacobian"), inverted=True)
+    'Coloured by Scaled Jacobian; inverted hexes are magenta.'
+    """
+    known = {**METRICS, **MOVEMENTS}
+    said = "Without colours" if colours.neutral else f"Coloured by {known[colours.metric].title}"
+    return f"{said}; inverted hexes are magenta." if inverted else f"{said}."
+
+
+def _plane(plane: Plane) -> str:
+    if plane.point is not None:
+        where = f"through {_vector(plane.point)}"
+    else:
+        where = f"at {100 * (0.5 if plane.position is None else plane.position):.3g} % of its extent"
+    return f"across {_named(plane.normal)} {where}"
+
+
+def _named(direction: Vector) -> str:
+    """
+    >>> _named((0.0, -2.0, 0.0)), _named((1.0, 1.0, 0.0))
+    ('-y', 'direction (1, 1, 0)')
+    """
+    (*along,) = (k for k, part in enumerate(direction) if part)
+    if len(along) == 1:
+        return f"{'-' if direction[along[0]] < 0 else ''}{_AXES[along[0]]}"
+    return f"direction {_vector(direction)}"
+
+
+def _vector(parts: Sequence[float]) -> str:
+    return f"({', '.join(f'{part:.4g}' for part in parts)})"
