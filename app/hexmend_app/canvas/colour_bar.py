@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
@@ -133,6 +133,8 @@ class _Gradient(QWidget):
         super().__init__()
         self.table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
         self.low, self.high = 0.0, 1.0
+        self._like: tuple = ()  # what `_drawn` was drawn for
+        self._drawn = QPixmap()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
 
     def text(self, value: float) -> str:
@@ -156,8 +158,19 @@ class _Gradient(QWidget):
         return ticks_with_ends(self.low, self.high, room, _MOST_TICKS)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint gradient, ticks and numbers."""
-        painter = QPainter(self)
+        """Show gradient, ticks and numbers: Qt asks for them with every frame of the view that they stand over."""
+        like = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.font().key())
+        like += (str(LINE), str(MUTED), str(TEXT))
+        if like != self._like:
+            self._like, self._drawn = like, self._draw()
+        QPainter(self).drawPixmap(0, 0, self._drawn)
+
+    def _draw(self) -> QPixmap:
+        ratio = self.devicePixelRatioF()
+        drawn = QPixmap(self.size() * ratio)
+        drawn.setDevicePixelRatio(ratio)
+        drawn.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(drawn)
         painter.setFont(self.font())
         metrics = QFontMetricsF(self.font())
         half = metrics.height() / 2
@@ -174,3 +187,5 @@ class _Gradient(QWidget):
             painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + _TICK, y))
             painter.setPen(QColor(str(TEXT)))
             painter.drawText(QPointF(bar.right() + _TICK + _GAP, y + metrics.ascent() / 2 - 1), self.text(value))
+        painter.end()
+        return drawn

@@ -157,13 +157,20 @@ def icon(name: str, role: Role = TEXT) -> QIcon:
 
 
 def explain(widget: QWidget, name: str, help: str) -> None:
-    """Give `widget` its accessible name, and one sentence of help as tooltip and for Shift+F1."""
-    widget.setAccessibleName(name)
-    widget.setAccessibleDescription(help)
+    """Give `widget` its accessible name, and one sentence of help as tooltip and for Shift+F1.
+
+    What it has already is left alone: Qt tells everybody of a text that is set, even of the same.
+    """
+    if widget.accessibleName() != name:
+        widget.setAccessibleName(name)
+    if widget.accessibleDescription() != help:
+        widget.setAccessibleDescription(help)
     # The tag makes Qt wrap long plain tooltips.
     tip = f"<qt>{help}</qt>" if help else ""
-    widget.setToolTip(tip)
-    widget.setWhatsThis(tip)
+    if widget.toolTip() != tip:
+        widget.setToolTip(tip)
+    if widget.whatsThis() != tip:
+        widget.setWhatsThis(tip)
 
 
 def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) -> QLabel:

@@ -83,6 +83,7 @@ class StatisticsTable(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._summaries: tuple[Any, Any] = (None, None)
+        self._measured = ("", 0)  # for which font, and what
         self._table = table = LinkTable(len(ROWS), len(_COLUMNS))
         table.link_activated.connect(self.isolate_requested)
         table.setHorizontalHeaderLabels(_COLUMNS)
@@ -216,7 +217,11 @@ class StatisticsTable(QWidget):
         return size.grownBy(margins)
 
     def _title_width(self) -> int:
-        return max(self._table.fontMetrics().horizontalAdvance(_name(row)) for row in ROWS) + 9
+        """Of the longest title; Qt asks for it many times a frame."""
+        font = self._table.font().key()
+        if font != self._measured[0]:
+            self._measured = font, max(map(self._table.fontMetrics().horizontalAdvance, map(_name, ROWS))) + 9
+        return self._measured[1]
 
     def _figures_width(self) -> int:
         return sum(self._table.columnWidth(column) for column in (_START, _NOW, _CHANGE))
