@@ -34,8 +34,8 @@ from hexmend.study.section import Section
 #: Gallery meshes by name, size and scramble.
 MESHES = [("cube", 1000, 0.6), ("bridge-sharp", 1372, 0.6), ("five-side", 1360, 0.0), ("plane", 2500, 0.0)]
 
-#: Names of the programs of the hexsmoothing project.
-_HEXSMOOTHING = "innerSmoothing", "mixedSmoothing", "hexsmoothing"
+#: Names of the programs of the hexsmoothing project that keep the boundary, the one for hexes alone first.
+_HEXSMOOTHING = "innerSmoother", "mixedSmoothing", "parallelMixedSmoothing"
 
 #: Positions and seconds of a mesh; raises `Absent`, `HexmendError` or `subprocess.TimeoutExpired`.
 Peer = Callable[[Mesh, Path, float], tuple[np.ndarray, float]]
@@ -67,12 +67,12 @@ class PythonPeer:
 
 
 def _hexsmoothing(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, float]:
-    """The whole process is timed."""
+    """The whole process is timed; of the formats that it reads, Medit's is the one that keeps every digit."""
     own = os.environ.get("HEXMEND_HEXSMOOTHING")
     program = shutil.which(own) if own else next(filter(None, map(shutil.which, _HEXSMOOTHING)), None)
     if program is None:
         raise Absent(f"there is no {own or ' or '.join(_HEXSMOOTHING)}: HEXMEND_HEXSMOOTHING names the program")
-    given, left = folder / "given.vtk", folder / "left.vtk"
+    given, left = folder / "given.mesh", folder / "left.mesh"
     write(given, mesh)
     began = perf_counter()
     _run([program, str(given), str(left)], seconds)
