@@ -11,7 +11,8 @@ import numpy as np
 from hexmend.mesh import Mesh
 from hexmend.registry import Registry
 
-_NONE = np.empty(0, np.int64)
+#: No hexes, or no nodes.
+NOWHERE = np.empty(0, np.int64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +40,8 @@ class Finding:
     message: str
     remedy: str = ""
     mendable: bool = False
-    hexes: np.ndarray = field(default_factory=lambda: _NONE)
-    nodes: np.ndarray = field(default_factory=lambda: _NONE)
+    hexes: np.ndarray = field(default_factory=lambda: NOWHERE)
+    nodes: np.ndarray = field(default_factory=lambda: NOWHERE)
 
     def to_dict(self, most: int = 10) -> dict[str, Any]:
         """The finding for other programs, with its first places."""
@@ -88,9 +89,18 @@ class Ailment(ABC):
     #: What `repair` does about it, as words after "to"; "" where nothing can be done.
     action: ClassVar[str] = ""
 
-    @abstractmethod
     def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
         """What there is of it; None for nothing. `quick`: only what can be found without a search in space."""
+        where = self.where(mesh, quick)
+        return self.told(mesh, where) if where.size else None
+
+    @abstractmethod
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        """The hexes, or the nodes, that have it, ascending, (k,) int64."""
+
+    @abstractmethod
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        """What there is of it, where there is something."""
 
     def mend(self, mesh: Mesh) -> Mesh:
         """The mesh without it, as far as that goes."""

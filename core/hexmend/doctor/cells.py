@@ -39,13 +39,13 @@ class DuplicateHexes(Ailment):
     rank = 3
     action = "keep the first of each"
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        again = np.flatnonzero(_repeated(np.sort(mesh.hexes, axis=1)))
-        if not again.size:
-            return None
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        return np.flatnonzero(_repeated(np.sort(mesh.hexes, axis=1)))
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
-            self.name, again.size, f"{counted(again.size, 'hex stands', 'hexes stand')} on the nodes of others.",
-            "Remove the duplicates.", True, again,
+            self.name, where.size, f"{counted(where.size, 'hex stands', 'hexes stand')} on the nodes of others.",
+            "Remove the duplicates.", True, where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -63,22 +63,21 @@ class DegenerateHexes(Ailment):
     rank = 5
     action = "keep wedges as wedges, whose nodes stay, and remove flat ones, with the sides on them"
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        which = np.flatnonzero(collapsed(mesh.hexes))
-        if not which.size:
-            return None
-        wedges, flat = _wedges(mesh, which)
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        return np.flatnonzero(collapsed(mesh.hexes))
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        wedges, flat = _wedges(mesh, where)
         kinds = f"{len(wedges):,} of them are wedges, {len(flat):,} flat" if len(wedges) + len(flat) else ""
         return Finding(
-            self.name, which.size,
-            f"{counted(which.size, 'hex uses', 'hexes use')} a node twice, so that edges are collapsed"
+            self.name, where.size,
+            f"{counted(where.size, 'hex uses', 'hexes use')} a node twice, so that edges are collapsed"
             f"{'; ' + kinds if kinds else ''}: as hexes they can never be good.",
-            "Make them wedges, or mesh them anew.", 0 < len(wedges) + len(flat) < mesh.n_hexes, which,
+            "Make them wedges, or mesh them anew.", 0 < len(wedges) + len(flat) < mesh.n_hexes, where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        which = np.flatnonzero(collapsed(mesh.hexes))
-        wedges, flat = _wedges(mesh, which)
+        wedges, flat = _wedges(mesh, self.where(mesh))
         gone = np.array([*wedges, *flat], dtype=np.int64)
         if not gone.size or gone.size == mesh.n_hexes:
             return mesh
@@ -104,10 +103,10 @@ def _wedges(mesh: Mesh, which: np.ndarray) -> tuple[dict[int, tuple[int, ...]], 
         if len(set(nodes.tolist())) <= 4:
             flat.append(h)
             continue
-        collapsed = {tuple(sorted(edge)) for edge in EDGES.tolist() if nodes[edge[0]] == nodes[edge[1]]}
-        if len(set(nodes.tolist())) == 6 and len(collapsed) == 2:
+        closed = {tuple(sorted(edge)) for edge in EDGES.tolist() if nodes[edge[0]] == nodes[edge[1]]}
+        if len(set(nodes.tolist())) == 6 and len(closed) == 2:
             for pair, corners in _WEDGES.items():
-                if {tuple(sorted(edge)) for edge in pair} == collapsed:
+                if {tuple(sorted(edge)) for edge in pair} == closed:
                     wedges[h] = tuple(int(k) for k in nodes[list(corners)])
     return wedges, flat
 

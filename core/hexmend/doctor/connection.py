@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import Ailment, Finding, ailment
+from hexmend.doctor.ailment import NOWHERE, Ailment, Finding, ailment
 from hexmend.hexahedron import FACES
 from hexmend.mesh import Mesh
 from hexmend.orientation import parts_of
@@ -17,17 +17,19 @@ class CrowdedFaces(Ailment):
     name, title = "crowded-faces", "Non-manifold faces"
     rank = 8
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        count = mesh.topology.crowded_faces
-        if not count:
-            return None
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        if not mesh.topology.crowded_faces:
+            return NOWHERE
         faces = np.sort(mesh.hexes[:, FACES], axis=2).reshape(-1, 4)
         _, which, times = np.unique(faces, axis=0, return_inverse=True, return_counts=True)
-        hexes = np.unique(np.flatnonzero(times[which.reshape(-1)] > 2) // 6)
+        return np.unique(np.flatnonzero(times[which.reshape(-1)] > 2) // 6)
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        count = mesh.topology.crowded_faces
         return Finding(
             self.name, count,
             f"{count:,} faces (counted once a hex) belong to more than two hexes; they are treated as boundary.",
-            "Look for overlapping hexes.", hexes=hexes,
+            "Look for overlapping hexes.", hexes=where,
         )  # fmt: skip
 
 
@@ -38,16 +40,17 @@ class Parts(Ailment):
     name, title = "parts", "Parts apart"
     rank = 9
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        more = mesh.topology.parts - 1
-        if more < 1:
-            return None
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        if mesh.topology.parts < 2:
+            return NOWHERE
         part = parts_of(mesh)
-        sizes = np.bincount(part)
-        small = np.flatnonzero(part != sizes.argmax())
+        return np.flatnonzero(part != np.bincount(part).argmax())
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        more, sizes = mesh.topology.parts - 1, np.bincount(parts_of(mesh))
         return Finding(
             self.name, more,
             f"The mesh has {more:,} part{'s' * (more > 1)} besides the largest that hang together with no other "
             f"({sizes.max():,} hexes, then {', '.join(f'{n:,}' for n in np.sort(sizes)[::-1][1:4])}).",
-            "Merge coincident nodes if they should be joined.", hexes=small,
+            "Merge coincident nodes if they should be joined.", hexes=where,
         )  # fmt: skip

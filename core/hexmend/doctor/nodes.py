@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import Ailment, Finding, ailment, counted
+from hexmend.doctor.ailment import NOWHERE, Ailment, Finding, ailment, counted
 from hexmend.doctor.surgery import collapsed, used_by_anything, with_nodes
 from hexmend.mesh import Mesh
 
@@ -20,22 +20,21 @@ class CoincidentNodes(Ailment):
     rank = 4
     action = "merge them, so that faces on each other become one"
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if quick and not _repeated(mesh.points[used_by_anything(mesh)] + 0.0):  # -0 and 0 are one place
-            return None
-        target = _merged(mesh)
-        again = np.flatnonzero(target != np.arange(mesh.n_nodes))
-        if not again.size:
-            return None
-        faces = np.sort(target[mesh.topology.boundary_faces], axis=1)
+            return NOWHERE
+        return np.flatnonzero(_merged(mesh) != np.arange(mesh.n_nodes))
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        faces = np.sort(_merged(mesh)[mesh.topology.boundary_faces], axis=1)
         pairs = len(faces) - len(np.unique(faces, axis=0))
         blocks = f" {pairs:,} pairs of boundary faces lie on each other: blocks that are not merged." if pairs else ""
         return Finding(
-            self.name, again.size,
-            f"{counted(again.size, 'node lies', 'nodes lie')} on others.{blocks}" + (
+            self.name, where.size,
+            f"{counted(where.size, 'node lies', 'nodes lie')} on others.{blocks}" + (
                 "" if blocks else " Hexes that should be joined may be apart there."
             ),
-            "Merge them, unless parts are meant to slide on each other.", True, nodes=again,
+            "Merge them, unless parts are meant to slide on each other.", True, nodes=where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -51,14 +50,14 @@ class UnusedNodes(Ailment):
     rank = 6
     action = "remove them"
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        which = np.flatnonzero(~used_by_anything(mesh))
-        if not which.size:
-            return None
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        return np.flatnonzero(~used_by_anything(mesh))
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
-            self.name, which.size,
-            f"{counted(which.size, 'node belongs', 'nodes belong')} to no cell: kept, and never moved.",
-            "Remove them.", True, nodes=which,
+            self.name, where.size,
+            f"{counted(where.size, 'node belongs', 'nodes belong')} to no cell: kept, and never moved.",
+            "Remove them.", True, nodes=where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -73,20 +72,9 @@ class HangingNodes(Ailment):
     name, title = "hanging-nodes", "Hanging nodes"
     rank = 7
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if quick:
-            return None
-        which = self._which(mesh)
-        if not which.size:
-            return None
-        return Finding(
-            self.name, which.size,
-            f"{which.size:,} nodes hang in the middle of edges or faces of hexes that do not use them.",
-            "They count as boundary and stay where they are, as the coarse side does; a mesher that makes conforming "
-            "transitions frees them.", nodes=which,
-        )  # fmt: skip
-
-    def _which(self, mesh: Mesh) -> np.ndarray:
+            return NOWHERE
         from scipy.spatial import cKDTree
 
         faces = mesh.topology.boundary_faces
@@ -95,6 +83,14 @@ class HangingNodes(Ailment):
         nodes = np.flatnonzero(mesh.topology.boundary)
         far, near = cKDTree(mesh.points[nodes]).query(middles, distance_upper_bound=_reach(mesh))
         return np.unique(nodes[near[np.isfinite(far)]])
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        return Finding(
+            self.name, where.size,
+            f"{where.size:,} nodes hang in the middle of edges or faces of hexes that do not use them.",
+            "They count as boundary and stay where they are, as the coarse side does; a mesher that makes conforming "
+            "transitions frees them.", nodes=where,
+        )  # fmt: skip
 
 
 def _repeated(rows: np.ndarray) -> int:

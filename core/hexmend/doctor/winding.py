@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import Ailment, Finding, ailment, counted
+from hexmend.doctor.ailment import NOWHERE, Ailment, Finding, ailment, counted
 from hexmend.hexahedron import FACES, VOXEL_ORDER
 from hexmend.mesh import Mesh
 from hexmend.orientation import mirrored_parts, turned
@@ -19,14 +19,14 @@ class MirroredParts(Ailment):
     rank = 0
     action = "number their hexes the other way"
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        which = np.flatnonzero(mirrored_parts(mesh))
-        if not which.size:
-            return None
-        whole = "All hexes" if which.size == mesh.n_hexes else f"{which.size:,} hexes, which make whole parts,"
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        return np.flatnonzero(mirrored_parts(mesh))
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        whole = "All hexes" if where.size == mesh.n_hexes else f"{where.size:,} hexes, which make whole parts,"
         return Finding(
-            self.name, which.size, f"{whole} are inside out: their corners are numbered left-handed.",
-            "Number them the other way: nodes stay where they are.", True, which,
+            self.name, where.size, f"{whole} are inside out: their corners are numbered left-handed.",
+            "Number them the other way: nodes stay where they are.", True, where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -41,15 +41,15 @@ class FlippedHexes(Ailment):
     rank = 2
     action = "number them the other way"
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        which = np.flatnonzero(self._which(mesh))
-        if not which.size:
-            return None
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        return np.flatnonzero(self._which(mesh))
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
-            self.name, which.size,
-            f"{counted(which.size, 'hex is', 'hexes are')} numbered left-handed, and sound if turned the other way, as "
+            self.name, where.size,
+            f"{counted(where.size, 'hex is', 'hexes are')} numbered left-handed, and sound if turned the other way, as "
             "the neighbours are.",
-            "Number them the other way: nodes stay where they are.", True, which,
+            "Number them the other way: nodes stay where they are.", True, where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -85,29 +85,23 @@ class VoxelOrder(Ailment):
     rank = 1
     action = "put their corners in the order of hexahedra"
 
-    def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        which = np.flatnonzero(self._which(mesh))
-        if not which.size:
-            return None
+    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        if mesh.mid_nodes is not None:
+            return NOWHERE
+        # The faces x- and x+ of such a hex are none of its own, so that no neighbour shares them.
+        alone = (mesh.topology.face_neighbours[:, :2] < 0).all(axis=1)
+        twisted = np.flatnonzero(alone & (corner_determinants(mesh.points, mesh.hexes) <= 0).any(axis=1))
+        return twisted[(corner_determinants(mesh.points, mesh.hexes[twisted][:, VOXEL_ORDER]) > 0).all(axis=1)]
+
+    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
-            self.name, which.size,
-            f"{counted(which.size, 'hex is', 'hexes are')} twisted, and sound with corners read in the order of voxels "
-            "(VTK type 11).", "Put their corners in the order of hexahedra (type 12).", True, which,
+            self.name, where.size,
+            f"{counted(where.size, 'hex is', 'hexes are')} twisted, and sound with corners read in the order of voxels "
+            "(VTK type 11).", "Put their corners in the order of hexahedra (type 12).", True, where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        which = self._which(mesh)
+        which = self.where(mesh)
         hexes = mesh.hexes.copy()
         hexes[which] = hexes[which][:, VOXEL_ORDER]
         return mesh.rebuilt(hexes=hexes)
-
-    def _which(self, mesh: Mesh) -> np.ndarray:
-        if mesh.mid_nodes is not None:
-            return np.zeros(mesh.n_hexes, dtype=bool)
-        # The faces x- and x+ of such a hex are none of its own, so that no neighbour shares them.
-        alone = (mesh.topology.face_neighbours[:, :2] < 0).all(axis=1)
-        twisted = alone & (corner_determinants(mesh.points, mesh.hexes) <= 0).any(axis=1)
-        rows = np.flatnonzero(twisted)
-        sound = (corner_determinants(mesh.points, mesh.hexes[rows][:, VOXEL_ORDER]) > 0).all(axis=1)
-        twisted[rows] = sound
-        return twisted
