@@ -10,6 +10,7 @@ from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.io import read
 from hexmend.optimise import Outcome
 from hexmend.optimise.corners import scaled_jacobians
+from hexmend.optimise.movable import MovableCorners
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS
@@ -89,6 +90,18 @@ def test_what_limits_the_least_is_told():
     shaped = smooth(mesh, Mend())
     assert "The least scaled Jacobian" not in shaped.message
     assert shaped.limits is None
+
+
+@pytest.mark.parametrize("name", ["bridge-sharp", "plane"])
+def test_corners_that_are_apart_are_not_said_to_hold_each_other(name):
+    mesh = make(name, size=500)
+    result = smooth(mesh, Mend(goal="scaled-jacobian"))
+    limits = result.limits
+    corner = (mesh.hexes[limits.hexes] == limits.nodes[:, None]).argmax(axis=1)
+    places = len(set(MovableCorners(mesh, result.mesh.points).groups(8 * limits.hexes + corner)))
+    assert places > 1
+    assert f"{limits.hexes.size} of them can go no further there, in {places} places apart" in result.message
+    assert "hold each other" not in result.message
 
 
 def test_a_corner_that_is_locked_below_the_others_is_told():

@@ -30,9 +30,9 @@ class Advice:
         Numbers, from 0, of the inverted hexes that fixed nodes hold in inversion, and of the other inverted ones.
     surface : str
         How far its boundary is from where it was, as a sentence; "" where no method let it slide.
-    holding, held : (k,) int64
-        Hexes whose corners hold each other, so that the least rises no further, and those with a corner that is lower
-        yet, whose nodes are all fixed.
+    limiting, held : (k,) int64
+        Hexes whose corners let the least rise no further, in one place or in several, and those with a corner that is
+        lower yet, whose nodes are all fixed.
     suggestions : tuple of Suggestion
         The most urgent first; empty where nothing is known to help.
     nothing : str
@@ -45,7 +45,7 @@ class Advice:
     locked: np.ndarray
     loose: np.ndarray
     surface: str
-    holding: np.ndarray
+    limiting: np.ndarray
     held: np.ndarray
     suggestions: tuple[Suggestion, ...]
     nothing: str
@@ -68,7 +68,7 @@ def advise(result: Result) -> Advice:
         locked=now.locked,
         loose=now.loose,
         surface="" if result.surface is None else result.surface.words,
-        holding=none if limits is None else np.unique(limits.hexes),
+        limiting=none if limits is None else np.unique(limits.hexes),
         held=none if limits is None else limits.locked[~now.figures.inverted[limits.locked]],
         suggestions=tuple(told),
         nothing=nothing,

@@ -44,8 +44,8 @@ class Limits:
     Parameters
     ----------
     hexes, nodes : (k,) int64
-        Corners that hold each other, the heaviest first: no displacement raises all of them. Of each the hex, which may
-        have several, and the node at its apex.
+        Corners of which no displacement raises all, the heaviest first: alone, or holding each other, in one place or
+        in several. Of each the hex, which may have several, and the node at its apex.
     locked : (l,) int64
         Hexes with a corner that is lower yet, all of whose nodes are fixed, the lowest first.
     """

@@ -77,6 +77,21 @@ class MovableCorners:
         """Apex and ends of corners, 8 * hex + corner, (k, 4) int32."""
         return np.take_along_axis(self.mesh.hexes[corners // 8], CORNER_TETRAHEDRA[corners % 8], axis=1)
 
+    def groups(self, corners: np.ndarray) -> np.ndarray:
+        """The group that each of some corners, 8 * hex + corner, belongs to, (k,) int from 0.
+
+        Corners of one group have free nodes in common, directly or by others of them: only those bear on each other.
+        """
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+
+        nodes, count = self.nodes_of(corners), len(corners)
+        corner, end = np.nonzero(self.mesh.free[nodes])
+        slot = np.unique(nodes, return_inverse=True)[1].reshape(nodes.shape)
+        ends = corner, count + slot[corner, end]
+        graph = coo_array((np.ones(corner.size, np.int8), ends), (count + nodes.size,) * 2)
+        return np.unique(connected_components(graph, directed=False)[1][:count], return_inverse=True)[1]
+
     def hexes_at(self, nodes: np.ndarray) -> np.ndarray:
         """Hexes that have one of some nodes, ascending, (k,) int."""
         return np.unique(self.mesh.topology.node_corners.of(nodes) // 8)

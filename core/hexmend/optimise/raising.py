@@ -76,7 +76,8 @@ class Limit:
     least : float
         The least scaled Jacobian of the corners that can be moved.
     hexes, corners : (k,) int64
-        Those that hold each other there, and which corner of each it is; by their weight, the heaviest first.
+        Those that let it rise no further, and which corner of each it is; by their weight, the heaviest first. Those
+        of one place hold each other.
     """
 
     least: float

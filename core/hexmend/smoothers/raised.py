@@ -87,18 +87,27 @@ def lifted(raising: Raising, room: float, other: Raising, limit: Limit) -> Gener
 
 
 def limits_of(raising: Raising, limit: Limit) -> Limits:
-    """Which corners hold each other, and which are locked below them."""
+    """Which corners let the least rise no further, and which are locked below them."""
     nodes = raising.mesh.hexes[limit.hexes, limit.corners].astype(np.int64)
     locked = _locked(raising, limit) // 8
     return Limits(limit.hexes, nodes, np.array(list(dict.fromkeys(locked.tolist())), dtype=np.int64))
 
 
 def what_limits(raising: Raising, limit: Limit) -> str:
-    """Which corners hold each other, and which are locked below them, in sentences; "" where none does."""
+    """What lets the least rise no further, and what is locked below that, in sentences; "" where nothing does.
+
+    Corners of places apart are at the limit together, but hold each other within their own place alone.
+    """
     count = len(limit.hexes)
     if not count:
         return ""
-    who = f"{count} of them hold each other there, in the hexes" if count > 1 else "it can go no further, in hex"
+    places = raising.corners.groups(8 * limit.hexes + limit.corners).max() + 1
+    if count == 1:
+        who = "it can go no further, in hex"
+    elif places == 1:
+        who = f"{count} of them hold each other there, in the hexes"
+    else:
+        who = f"{count} of them can go no further there, in {places} places apart, in the hexes"
     found = f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}"
     said = f"{found}: {who} {_named(limit.hexes)}."
     locked = _locked(raising, limit)

@@ -59,3 +59,15 @@ def test_a_node_that_is_freed_makes_its_corners_movable():
     corners.set_mesh(freed)
     assert corners.mesh is freed
     assert np.isfinite(corners.raised()).all()
+
+
+def test_corners_are_of_one_group_where_they_share_free_nodes():
+    mesh = grid(4)
+    corners = MovableCorners(mesh, mesh.points)
+    first, last = (np.flatnonzero(mesh.free)[at] for at in (0, -1))
+    here, there = (np.flatnonzero(mesh.hexes.ravel() == node) for node in (first, last))  # with it at their apexes
+    some = np.array([here[0], there[0], here[1], there[1]])
+    assert corners.groups(some).tolist() == [0, 1, 0, 1]
+    every = np.flatnonzero(movable(mesh))
+    assert set(corners.groups(np.concatenate([some, every]))) == {0}
+    assert corners.groups(here[:0]).size == 0

@@ -38,7 +38,7 @@ class OutcomePanel(QWidget):
     show_requested(list)
         The user wants to see these elements, and nothing else.
     visit_requested(list)
-        The same, and before the camera: they are near each other.
+        The same, and the camera goes where all of them are seen.
     chosen(int)
         The user wants to see this element.
     """
@@ -61,21 +61,20 @@ class OutcomePanel(QWidget):
         self._locked = _Elements("Locked", "whose fixed nodes alone hold them in inversion")
         self._loose = _Elements("Inverted", "that are inverted, and not locked")
         self._surface = self._text()
-        self._holding = _Elements(
-            "Holding each other",
-            "whose corners hold each other: the least scaled Jacobian rises no further, whatever moves",
-            "the hexes that hold each other",
+        self._limiting = _Elements(
+            "Limiting",
+            "whose corners let the least scaled Jacobian rise no further, whatever moves, in one place or in several",
         )
         self._held = _Elements(
             "Locked lower",
             "with a corner of fixed nodes alone that is lower than any that can be moved",
             "the hexes that are locked lower",
         )
-        for elements in (self._locked, self._loose, self._holding, self._held):
+        for elements in (self._locked, self._loose, self._limiting, self._held):
             elements.chosen.connect(self.chosen)
         for elements in (self._locked, self._loose, self._held):
             elements.show_requested.connect(self.show_requested)
-        self._holding.show_requested.connect(self.visit_requested)
+        self._limiting.show_requested.connect(self.visit_requested)
         self._next = QLabel("What to try next")
         self._next.setFont(font)
         self._nothing = note()
@@ -101,7 +100,7 @@ class OutcomePanel(QWidget):
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(6)
         heads = (self._title, self._where, self._why, self._left, self._worse)
-        elements = (self._locked, self._loose, self._holding, self._held)
+        elements = (self._locked, self._loose, self._limiting, self._held)
         parts = (*heads, *elements, self._surface, self._next, self._nothing)
         for part in parts:
             column.addWidget(part)
@@ -130,7 +129,7 @@ class OutcomePanel(QWidget):
         tint(self._worse, WORSE)
         self._locked.show_elements(advice.locked)
         self._loose.show_elements(advice.loose)
-        self._holding.show_elements(advice.holding)
+        self._limiting.show_elements(advice.limiting)
         self._held.show_elements(advice.held)
         self._surface.setText(advice.surface)
         self._surface.setVisible(bool(advice.surface))

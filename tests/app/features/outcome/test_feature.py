@@ -166,7 +166,7 @@ def test_locked_elements_are_listed_and_shown(window, qtbot, locked):
     assert window.session.view.look.isolation is not None
 
 
-def test_hexes_whose_corners_hold_each_other_are_shown_before_the_camera(window, qtbot, tmp_path):
+def test_hexes_whose_corners_limit_the_least_are_shown_before_the_camera(window, qtbot, tmp_path):
     io.write(tmp_path / "wavy.vtu", wavy(scrambled(grid(3), 0.3, 1), 0.2, 2))
     open_and_wait(qtbot, window, tmp_path / "wavy.vtu")
     ended = []
@@ -175,14 +175,14 @@ def test_hexes_whose_corners_hold_each_other_are_shown_before_the_camera(window,
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     window.show_panel("outcome")
-    holding = np.unique(ended[0].limits.hexes).tolist()
-    assert "Holding each other: " in said(window)
-    assert f'<a href="{holding[0]}">{holding[0]}</a>' in said(window)
+    limiting = np.unique(ended[0].limits.hexes).tolist()
+    assert "Limiting: " in said(window)
+    assert f'<a href="{limiting[0]}">{limiting[0]}</a>' in said(window)
     assert f"the least scaled Jacobian is {ended[0].after.scaled_jacobian_min:.4f}" in said(window)
     with qtbot.waitSignal(window.session.selection.visited) as visited:
-        press(window, "Show the hexes that hold each other")
-    assert visited.args == [tuple(holding)]
-    assert window.session.view.look.isolation.hexes == tuple(holding)
+        press(window, "Show the limiting hexes")
+    assert visited.args == [tuple(limiting)]
+    assert window.session.view.look.isolation.hexes == tuple(limiting)
     key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.isolation is None
     assert "The boundary slid" not in said(window)
@@ -198,7 +198,7 @@ def test_how_far_the_boundary_has_slid_is_said(window, qtbot, tmp_path):
     assert "The boundary slid: " in said(window)
     assert "of the diagonal) from where it was" in said(window)
     assert "48 of 48 sharp edges are kept." in said(window)
-    assert "Holding each other" not in said(window)
+    assert "Limiting" not in said(window)
 
 
 def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_path):
