@@ -145,11 +145,6 @@ class CameraView(QWidget):
         self.travel.fly(self.panes.eye.flight_around(place))
 
     @property
-    def flying(self) -> bool:
-        """Whether the camera flies somewhere."""
-        return self.travel.under_way
-
-    @property
     def can_go_back(self) -> bool:
         """Whether there is a view before the one of now."""
         return self.travel.can_go_back

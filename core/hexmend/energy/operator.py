@@ -25,10 +25,6 @@ class SymmetricOperator(ABC):
     def matvec(self, v: np.ndarray) -> np.ndarray:
         """The product with v (size,) float64."""
 
-    def rmatvec(self, v: np.ndarray) -> np.ndarray:
-        """The product of the transpose, which it is itself."""
-        return self.matvec(v)
-
     def __matmul__(self, v: np.ndarray) -> np.ndarray:
         if v.shape[0] != self.shape[1]:
             raise ValueError(f"a matrix of {self.shape[1]} columns times an array of {v.shape[0]} rows")

@@ -43,8 +43,8 @@ class Surface:
     >>> boundary = boundary_of(cube)
     >>> surface = Surface(cube.points, boundary)
     >>> sliding = np.flatnonzero(boundary.kind == Kind.PATCH)
-    >>> places, normals = surface.project(cube.points[sliding] + 0.1, sliding)
-    >>> sorted(set(np.abs(normals).sum(axis=1).tolist()))
+    >>> found = surface.trees.closest(cube.points[sliding] + 0.1, surface.group_of(sliding))
+    >>> sorted(set(np.abs(surface.directions(found)).sum(axis=1).tolist()))
     [1.0]
     """
 
@@ -63,34 +63,6 @@ class Surface:
         self._plain, self._smooth = (np.concatenate(both)[self.trees.order] for both in (plain, smooth))
         self._group = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])[self.trees.order]
 
-    def project(self, x: np.ndarray, nodes: np.ndarray, smooth: bool = True) -> tuple[np.ndarray, np.ndarray]:
-        """Put nodes back on their own curves and patches.
-
-        Parameters
-        ----------
-        x : (k, 3) float64
-            Where they are now.
-        nodes : (k,) int
-            Which they are: of kind `Kind.CURVE` or `Kind.PATCH`.
-        smooth : bool
-            Interpolate directions between vertices; else they are those of the triangle or segment.
-
-        Returns
-        -------
-        places : (k, 3) float64
-            The closest points.
-        directions : (k, 3) float64
-            There, of length 1: a patch's normal, to the outside; a curve's tangent, of either sense. 0 on a triangle or
-            segment that has none.
-
-        Raises
-        ------
-        MeshError
-            For a node of another kind, and as `Trees.closest` says.
-        """
-        found = self.trees.closest(x, self.group_of(nodes))
-        return found.places, self.directions(found, smooth)
-
     def group_of(self, nodes: np.ndarray) -> np.ndarray:
         """The group of `trees` that each of some nodes slides on, (k,) int32.
 
@@ -107,7 +79,17 @@ class Surface:
         return self.part[nodes] + np.where(kind == Kind.CURVE, np.int32(self.n_patches), np.int32(0))
 
     def directions(self, found: Closest, smooth: bool = True) -> np.ndarray:
-        """Normals of patches and tangents of curves at places that `trees` found; see `project`."""
+        """Normals of patches and tangents of curves at places that `trees` found, (k, 3) float64.
+
+        They are of length 1, normals to the outside, tangents of either sense; 0 on a triangle or segment that has no
+        direction.
+
+        Parameters
+        ----------
+        found : Closest
+        smooth : bool
+            Interpolate between vertices; else they are those of the triangle or segment.
+        """
         plain = self._plain[found.pieces]
         if not smooth:
             return plain

@@ -90,7 +90,7 @@ def test_views_are_gone_back_and_forward_through(canvas, qtbot):
         rested(qtbot, canvas)
         assert pose(canvas).looks_like(expected)
     canvas.forward_view()  # there is none
-    assert not canvas.flying
+    assert not canvas.travel.under_way
     canvas.draw(Frame(grid(2), measure(grid(2).points, grid(2).hexes)))
     assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
 
@@ -122,9 +122,9 @@ def test_strokes_of_keys_in_a_row_are_one_view(canvas, qtbot):
 def test_a_key_that_says_nothing_does_not_end_a_flight(canvas, qtbot):
     canvas.fly_to(0)
     QTest.keyClick(canvas.interactor, Qt.Key.Key_N)
-    assert canvas.flying
+    assert canvas.travel.under_way
     QTest.keyClick(canvas.interactor, Qt.Key.Key_Left)
-    assert not canvas.flying
+    assert not canvas.travel.under_way
 
 
 def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
@@ -134,12 +134,12 @@ def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
         canvas.fly_to(h)
         rested(qtbot, canvas)
     canvas.return_to_pose()
-    assert canvas.flying
+    assert canvas.travel.under_way
     rested(qtbot, canvas)
     assert pose(canvas).looks_like(home)
     canvas.look_along("+z")
     canvas.return_to_pose()  # there is nothing to return to
-    assert not canvas.flying
+    assert not canvas.travel.under_way
 
 
 def test_an_excursion_begun_on_the_way_ends_where_the_way_led(canvas, qtbot):
@@ -158,7 +158,7 @@ def test_a_double_click_sets_what_the_camera_turns_about(canvas, qtbot):
     before = pose(canvas)
     place = middle(canvas) + QPoint(60, 20)
     double_click(canvas, place)
-    qtbot.waitUntil(lambda: canvas.flying, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: canvas.travel.under_way, timeout=PATIENCE)
     rested(qtbot, canvas)
     after = pose(canvas)
     assert len(clicks) == 1  # the first of both chooses
@@ -183,7 +183,7 @@ def test_two_clicks_with_ctrl_dig_twice(canvas):
     for kind in (QEvent.Type.MouseButtonDblClick, QEvent.Type.MouseButtonRelease):
         QApplication.sendEvent(view, QMouseEvent(kind, at, view.mapToGlobal(at), LEFT, LEFT, ctrl))
     assert len(dug) == 2
-    assert not canvas.flying
+    assert not canvas.travel.under_way
 
 
 def test_a_right_click_asks_for_a_menu_and_a_right_drag_zooms(canvas, qtbot):
@@ -241,7 +241,7 @@ def test_up_and_projection_are_told(canvas):
 
 def test_a_plane_is_flown_to(canvas, qtbot):
     canvas.face(ClipPlane((0, 1, 0), (2, 2, 2)))
-    assert canvas.flying
+    assert canvas.travel.under_way
     rested(qtbot, canvas)
     np.testing.assert_allclose(canvas.viewport.camera.GetDirectionOfProjection(), (0, -1, 0), atol=1e-9)
 

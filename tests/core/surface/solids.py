@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh import Mesh
-from hexmend.surface import Sliding
+from hexmend.surface import Sliding, Surface
 from tests.core.grids import grid
 
 
@@ -43,3 +43,9 @@ def slid(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
     points = mesh.points + shift * sliding.mesh.free[:, None]
     points[sliding.nodes] = sliding.put_back(points[sliding.nodes])
     return mesh.with_points(points)
+
+
+def project(surface: Surface, x: np.ndarray, nodes: np.ndarray, smooth: bool = True) -> tuple[np.ndarray, np.ndarray]:
+    """Where nodes at x are put back on their own curves and patches, and the directions there."""
+    found = surface.trees.closest(x, surface.group_of(nodes))
+    return found.places, surface.directions(found, smooth)

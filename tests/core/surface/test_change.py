@@ -9,7 +9,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh import Mesh
 from hexmend.surface import Kind, Skin, Surface, boundary_of, distances, surface_change
 from tests.core.grids import grid
-from tests.core.surface.solids import ball, cylinder, wavy
+from tests.core.surface.solids import ball, cylinder, project, wavy
 from tests.core.surface.test_surface import brute
 
 
@@ -76,7 +76,7 @@ def test_flat_solids_keep_their_surface_and_volume_while_their_nodes_slide(seed)
     nodes = np.flatnonzero(boundary.kind >= Kind.CURVE)
     points = mesh.points.copy()
     random = np.random.default_rng(seed)
-    points[nodes], _ = surface.project(points[nodes] + random.uniform(-0.4, 0.4, (len(nodes), 3)), nodes)
+    points[nodes], _ = project(surface, points[nodes] + random.uniform(-0.4, 0.4, (len(nodes), 3)), nodes)
     change = surface_change(mesh, mesh.with_points(points))
     assert change.max < 1e-12
     assert abs(change.volume_change) < 1e-12
@@ -90,8 +90,8 @@ def test_nodes_that_slide_on_a_ball_leave_it_the_less_the_finer_it_is():
         surface = Surface(mesh.points, boundary_of(mesh))
         nodes = np.flatnonzero(mesh.topology.boundary)
         points = mesh.points.copy()
-        points[nodes], _ = surface.project(
-            points[nodes] + np.random.default_rng(0).uniform(-0.3, 0.3, (len(nodes), 3)) / n, nodes
+        points[nodes], _ = project(
+            surface, points[nodes] + np.random.default_rng(0).uniform(-0.3, 0.3, (len(nodes), 3)) / n, nodes
         )
         return surface_change(mesh, mesh.with_points(points)).furthest
 

@@ -12,7 +12,7 @@ from hexmend import kernels
 from hexmend.errors import MeshError
 from hexmend.surface import Kind, Surface, Trees, boundary_of, classify
 from tests.core.grids import grid
-from tests.core.surface.solids import ball, cylinder, wavy
+from tests.core.surface.solids import ball, cylinder, project, wavy
 
 
 def brute(corners, x):
@@ -93,7 +93,7 @@ def sliding(mesh, kinds=(Kind.CURVE, Kind.PATCH)):
 @pytest.mark.parametrize("mesh", [grid(4, 3, 2), ball(6), cylinder(), wavy(grid(4), 0.3)], ids=lambda mesh: mesh.name)
 def test_nodes_that_have_not_moved_stay_to_the_last_bit(mesh):
     _, surface, nodes = sliding(mesh)
-    places, directions = surface.project(mesh.points[nodes], nodes)
+    places, directions = project(surface, mesh.points[nodes], nodes)
     np.testing.assert_array_equal(places, mesh.points[nodes])
     np.testing.assert_allclose(np.linalg.norm(directions, axis=1), 1, rtol=1e-14)
 
@@ -104,7 +104,7 @@ def test_nodes_of_a_box_stay_in_their_planes_and_on_their_edges(seed, far):
     boundary, surface, nodes = sliding(mesh)
     x = mesh.points[nodes]
     moved = x + far * np.random.default_rng(seed).normal(size=x.shape)
-    places, directions = surface.project(moved, nodes)
+    places, directions = project(surface, moved, nodes)
     upper = np.array([4, 3, 5])
     held = (x == 0) | (x == upper)
     np.testing.assert_array_equal(places[held], x[held])
@@ -123,7 +123,7 @@ def test_nodes_of_a_turned_box_stay_in_their_planes(seed):
     box = grid(3)
     mesh = box.with_points(box.points @ turn)
     _, surface, nodes = sliding(mesh)
-    places, _ = surface.project(mesh.points[nodes] + random.normal(size=(len(nodes), 3)), nodes)
+    places, _ = project(surface, mesh.points[nodes] + random.normal(size=(len(nodes), 3)), nodes)
     held = (box.points[nodes] == 0) | (box.points[nodes] == 3)
     np.testing.assert_allclose((places @ turn.T)[held], box.points[nodes][held], atol=1e-13)
 
@@ -133,15 +133,15 @@ def test_putting_back_twice_is_putting_back_once(seed):
     mesh = cylinder()
     _, surface, nodes = sliding(mesh)
     x = mesh.points[nodes] + 0.2 * np.random.default_rng(seed).normal(size=(len(nodes), 3))
-    once, _ = surface.project(x, nodes)
-    np.testing.assert_allclose(surface.project(once, nodes)[0], once, atol=1e-14)
+    once, _ = project(surface, x, nodes)
+    np.testing.assert_allclose(project(surface, once, nodes)[0], once, atol=1e-14)
 
 
 def test_a_node_goes_to_its_own_patch_though_another_is_nearer():
     mesh = grid(4, 4, 1)
     _boundary, surface, nodes = sliding(mesh, (Kind.PATCH,))
     lower = nodes[mesh.points[nodes, 2] == 0]
-    places, normals = surface.project(mesh.points[lower] + [0, 0, 0.9], lower)
+    places, normals = project(surface, mesh.points[lower] + [0, 0, 0.9], lower)
     assert not places[:, 2].any()
     assert (normals[:, 2] == -1).all()
 
@@ -152,14 +152,14 @@ def test_nodes_of_a_loop_slide_around_it():
     upper = nodes[mesh.points[nodes, 2] == 1]
     x = mesh.points[upper]
     ahead = np.column_stack([-x[:, 1], x[:, 0], np.zeros(len(x))])
-    places, tangents = surface.project(x + 0.3 * ahead + [0, 0, 0.2], upper)
+    places, tangents = project(surface, x + 0.3 * ahead + [0, 0, 0.2], upper)
     np.testing.assert_array_equal(places[:, 2], 1)
     radius = np.linalg.norm(places[:, :2], axis=1)
     assert (radius <= 1 + 1e-14).all()
     assert (radius >= np.cos(np.pi / 64) - 1e-14).all()
     around = np.column_stack([-places[:, 1], places[:, 0], 0 * radius]) / radius[:, None]
     assert np.abs(np.einsum("ij,ij->i", tangents, around)).min() > 1 - 1e-5
-    _, plain = surface.project(x + 0.3 * ahead, upper, smooth=False)
+    _, plain = project(surface, x + 0.3 * ahead, upper, smooth=False)
     assert np.abs(np.einsum("ij,ij->i", plain, around)).min() < 1 - 1e-5
 
 
@@ -169,7 +169,7 @@ def test_normals_of_a_ball_come_nearer_to_its_radii_by_refinement_and_by_interpo
         random = np.random.default_rng(0)
         nodes = random.choice(nodes, 2000)
         x = random.normal(size=(2000, 3))
-        places, normals = surface.project(x, nodes, smooth)
+        places, normals = project(surface, x, nodes, smooth)
         assert (np.linalg.norm(places, axis=1) <= 1 + 1e-14).all()
         return np.linalg.norm(normals - places / np.linalg.norm(places, axis=1, keepdims=True), axis=1).max()
 
@@ -198,12 +198,12 @@ def test_nodes_that_do_not_slide_and_places_that_are_none_are_refused():
     boundary, surface, nodes = sliding(mesh)
     (corner, *_), (inside, *_) = (np.flatnonzero(boundary.kind == kind) for kind in (Kind.CORNER, Kind.INSIDE))
     with pytest.raises(MeshError, match=rf"node {corner} \(counted from 0\) is of kind CORNER"):
-        surface.project(mesh.points[[nodes[0], corner]], np.array([nodes[0], corner]))
+        project(surface, mesh.points[[nodes[0], corner]], np.array([nodes[0], corner]))
     with pytest.raises(MeshError, match="of kind INSIDE"):
-        surface.project(mesh.points[[inside]], np.array([inside]))
+        project(surface, mesh.points[[inside]], np.array([inside]))
     with pytest.raises(MeshError, match=r"closest to the point \[nan"):
-        surface.project(np.full((1, 3), np.nan), nodes[:1])
-    assert len(surface.project(np.empty((0, 3)), nodes[:0])[0]) == 0
+        project(surface, np.full((1, 3), np.nan), nodes[:1])
+    assert len(project(surface, np.empty((0, 3)), nodes[:0])[0]) == 0
 
 
 def as_triangles(mesh):
@@ -224,7 +224,7 @@ def test_nodes_slide_on_the_surface_of_a_file(fine):
     own = Surface(mesh.points, boundary)
     nodes = np.flatnonzero(boundary.kind >= Kind.CURVE)
     x = mesh.points[nodes] + 0.3 * np.random.default_rng(0).normal(size=(len(nodes), 3))
-    (places, there), (same, here) = surface.project(x, nodes), own.project(x, nodes)
+    (places, there), (same, here) = project(surface, x, nodes), project(own, x, nodes)
     np.testing.assert_allclose(places, same, atol=1e-12)
     np.testing.assert_allclose(np.abs(there), np.abs(here), atol=1e-12)
 
@@ -235,6 +235,6 @@ def test_curve_nodes_slide_on_patches_where_a_surface_has_no_curve():
     surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary_of(mesh))
     nodes = np.flatnonzero(mesh.topology.boundary)
     assert (surface.kind[nodes] == Kind.PATCH).all()
-    radius = np.linalg.norm(surface.project(mesh.points[nodes], nodes)[0], axis=1)
+    radius = np.linalg.norm(project(surface, mesh.points[nodes], nodes)[0], axis=1)
     assert radius.min() > 0.95
     assert radius.max() <= 1 + 1e-14

@@ -166,7 +166,7 @@ def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictu
     step = shown(window)
     assert window.session.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size
-    qtbot.waitUntil(lambda: not window.canvas.flying, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.canvas.travel.under_way, timeout=PATIENCE)
 
     assert min(seen(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(step.before - 100.0)))
