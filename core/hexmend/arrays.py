@@ -16,7 +16,7 @@ def as_hexes(hexes: np.ndarray) -> np.ndarray:
 
 
 def read_only(array: np.ndarray) -> np.ndarray:
-    """A read-only view, for positions that are handed out and never changed afterwards."""
+    """A read-only view of an array of any shape, for positions that are handed out and never changed afterwards."""
     view = array.view()
     view.flags.writeable = False
     return view
@@ -35,5 +35,5 @@ def dot(a: np.ndarray, b: np.ndarray) -> float:
 
 
 def norm(a: np.ndarray) -> float:
-    """Euclidean length."""
+    """Euclidean length of an array of any shape; see `dot`."""
     return float(np.sqrt(dot(a, a)))

@@ -84,7 +84,7 @@ def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
 
 
 def hexes_of(mesh: Mesh, name: str) -> np.ndarray:
-    """The hexes of a set, or, by the name "inverted", those that are; `MeshError` for a set that there is not."""
+    """The hexes of a set, or, by the name "inverted", those that are, (k,) int; raises `MeshError` if there is none."""
     if name in mesh.hex_sets:
         return np.asarray(mesh.hex_sets[name])
     if name == "inverted":
@@ -95,7 +95,7 @@ def hexes_of(mesh: Mesh, name: str) -> np.ndarray:
 
 
 def nodes_of(mesh: Mesh, name: str) -> np.ndarray:
-    """The nodes of a set of nodes, hexes or sides; raises `MeshError` for a set that there is not."""
+    """The nodes of a set of nodes, hexes or sides, (k,) int; raises `MeshError` for a set that there is not."""
     if name in mesh.node_sets:
         return np.asarray(mesh.node_sets[name])
     if name in mesh.hex_sets:

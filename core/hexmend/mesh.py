@@ -158,6 +158,11 @@ class Mesh:
         ----------
         points : (n, 3) float64
             Taken as it is, not copied, and made read-only.
+
+        Raises
+        ------
+        MeshError
+            For another shape, or where a coordinate is no finite number.
         """
         points = np.asanyarray(points)
         if points.dtype != np.float64 or not points.flags.c_contiguous:  # else NumPy may make another view of it
@@ -221,7 +226,15 @@ class Mesh:
         return copy
 
     def replace(self, **changes: object) -> Mesh:
-        """A copy with other pins, data, sets or name (not points or hexes); all else is shared."""
+        """A copy with other pins, data, sets or name (not points or hexes); all else is shared.
+
+        Raises
+        ------
+        MeshError
+            For points or hexes, and where an array has the wrong length.
+        TypeError
+            For what a mesh does not have.
+        """
         if "points" in changes or "hexes" in changes:
             raise MeshError("replace() changes what is carried; use with_points() or rebuilt()")
         unknown = changes.keys() - {one.name for one in dataclasses.fields(self) if one.init}

@@ -11,7 +11,7 @@ LARGEST, SMALLEST = 1e75, 1e-75
 
 
 def check_size(points: np.ndarray) -> None:
-    """Raise `MeshError` where lengths are so large, or so small, that volumes are beyond what numbers can be."""
+    """Raise `MeshError` where points (n, 3) are so far apart, or so near, that volumes are no numbers."""
     if not len(points):
         return
     low, high = points.min(axis=0), points.max(axis=0)
@@ -23,14 +23,14 @@ def check_size(points: np.ndarray) -> None:
 
 
 def check_finite(points: np.ndarray) -> None:
-    """Raise `MeshError` naming the first node whose coordinates are not all finite."""
+    """Raise `MeshError` naming the first of points (n, 3) whose coordinates are not all finite."""
     if not np.isfinite(points).all():
         i = int(np.nonzero(~np.isfinite(points).all(axis=1))[0][0])
         raise MeshError(f"node {i} (counted from 0) has the coordinates {points[i].tolist()}: expected finite numbers")
 
 
 def check_node_numbers(hexes: np.ndarray, n: int) -> None:
-    """Raise `MeshError` naming the first hex that uses a node which does not exist."""
+    """Raise `MeshError` naming the first of hexes (m, 8) that uses a node which is none of the n."""
     if hexes.min() < 0 or hexes.max() >= n:
         h = int(np.nonzero(((hexes < 0) | (hexes >= n)).any(axis=1))[0][0])
         raise MeshError(

@@ -83,7 +83,7 @@ class Parameter:
         return kind
 
     def parse(self, text: str) -> Any:
-        """The value that a word of the command line or of a recipe stands for."""
+        """The value that a word of the command line or of a recipe stands for; raises `ParameterError` for none."""
         if self.type is bool:
             words = {
                 "true": True,

@@ -105,7 +105,7 @@ def jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> n
 
 
 def check_mid_nodes(mid_nodes: np.ndarray, hexes: int, nodes: int) -> np.ndarray:
-    """The nodes of second order as an array of their type and shape.
+    """The nodes of second order of so many hexes, numbers below `nodes`, as (m, 19) int32.
 
     Raises
     ------

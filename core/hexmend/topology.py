@@ -32,7 +32,7 @@ class Rows:
         return self.start.size - 1
 
     def of(self, rows: np.ndarray) -> np.ndarray:
-        """The items of several rows, one row after another."""
+        """The items of several rows (k,), one row after another, (j,) int32."""
         count = self.start[rows + 1] - self.start[rows]
         before = np.cumsum(count) - count
         return self.items[np.arange(count.sum()) + np.repeat(self.start[rows] - before, count)]

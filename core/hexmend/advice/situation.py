@@ -107,7 +107,7 @@ class Situation:
         return int(np.count_nonzero(freed_by_sliding(self.mesh, which, degrees)))
 
     def pins_of(self, hexes: np.ndarray) -> np.ndarray:
-        """Numbers of the nodes of these hexes that are fixed by nothing but a pin."""
+        """Numbers of the nodes of hexes (k,) that are fixed by nothing but a pin, ascending, (j,) int."""
         if self.mesh.pinned is None:
             return np.zeros(0, dtype=np.int64)
         nodes = np.unique(self.mesh.hexes[hexes])

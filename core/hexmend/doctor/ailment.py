@@ -100,7 +100,7 @@ class Ailment(ABC):
 
     @abstractmethod
     def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        """What there is of it, where there is something."""
+        """What there is of it: `where` is what the method of that name gives, and not empty."""
 
     def mend(self, mesh: Mesh) -> Mesh:
         """The mesh without it, as far as that goes."""

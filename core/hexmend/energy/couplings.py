@@ -58,7 +58,19 @@ class Couplings:
         self._shares: dict[int, tuple[np.ndarray, ...]] = {}
 
     def shares(self, count: int) -> tuple[np.ndarray, ...]:
-        """The slots in `count` shares, and the hexes at the slots of each, as `assembly.assemble` takes them."""
+        """The slots in `count` shares, and the hexes at the slots of each, as `assembly.assemble` takes them.
+
+        Returns
+        -------
+        bounds : (count + 1,) int32
+            Where the shares begin and end, in slots.
+        start : (count + 1,) int32
+            Where the hexes of each begin and end in what follows.
+        chosen : (j,) int32
+            Their numbers; a hex at slots of several shares is in each.
+        hexes, slots : (j, 8) int32
+        target : (j, 28) int32
+        """
         if count not in self._shares:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
             slots = self.slots
@@ -73,7 +85,7 @@ class Couplings:
 
     @property
     def pattern(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """What the kernels of `conjugate_gradients` begin with."""
+        """`bounds`, `row_start` and `columns`: what the kernels of `conjugate_gradients` begin with."""
         return self.bounds, self.row_start, self.columns
 
     @property

@@ -77,7 +77,14 @@ class MeshEnergy:
         return self.power.least * self.mesh.n_hexes
 
     def but(self, power: Power, left_out: np.ndarray) -> MeshEnergy:
-        """The energy with another power and other corners left out; what depends on the mesh alone is shared."""
+        """The energy with another power and other corners left out; what depends on the mesh alone is shared.
+
+        Parameters
+        ----------
+        power : Power
+        left_out : (m,) uint8
+            As of `MeshEnergy`.
+        """
         other = copy.copy(self)
         other.power, other.left_out = power, left_out
         return other

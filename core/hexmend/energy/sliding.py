@@ -78,7 +78,7 @@ class SlidingEnergy(MeshEnergy):
         return SlidingHessian(self, x, delta)
 
     def projectors(self, x: np.ndarray) -> np.ndarray:
-        """What takes a displacement of each sliding node to its part along the surface, (k, 3, 3) symmetric."""
+        """What takes displacements of sliding nodes at x, all nodes' (n, 3), along the surface, (k, 3, 3) symmetric."""
         if self._seen is None or self._seen[0] is not x:
             bases = self.sliding.bases(x[self.sliding.nodes] * self.unit)
             self._seen = x, bases @ bases.transpose(0, 2, 1)
@@ -86,7 +86,7 @@ class SlidingEnergy(MeshEnergy):
 
     @cached_property
     def touched(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The blocks above an assembled Hessian's diagonal that couple nodes that slide, and the slots of both."""
+        """The blocks above an assembled Hessian's diagonal of nodes that slide, and the slots of both, (b,) each."""
         couplings = self.couplings
         slides = np.zeros(couplings.nodes.size, dtype=bool)
         slides[couplings.order[self._rows]] = True

@@ -36,13 +36,13 @@ class Fuselage:
         return (np.array([[self.bow, -r, -r], [self.stern, r, r]]),)
 
     def section(self, x: np.ndarray) -> np.ndarray:
-        """Radius of the section at x."""
+        """Radius of the section at x (n,), (n,)."""
         ellipse = np.sqrt(np.clip(1 - np.clip(1 - x / self.nose, 0, None) ** 2, 0, None))
         aft = np.clip((x - self.tail) / (1 - self.tail), 0, None)
         return self.radius * ellipse * (1 - self.narrowing * aft**2)
 
     def onto(self, points: np.ndarray) -> np.ndarray:
-        """Squares about the axis become circles; the two ends become caps."""
+        """Points (n, 3), squares about the axis having become circles, and the two ends caps."""
         x, y, z = points.T
         square = np.maximum(np.abs(y), np.abs(z)) / self.radius
         rho, distance = square * self.section(x), np.hypot(y, z)
@@ -82,13 +82,13 @@ class Wing:
         return tuple(found)
 
     def profile(self, c: np.ndarray) -> np.ndarray:
-        """Thickness at the share c of the chord, over the greatest."""
+        """Thickness at the share c (n,) of the chord, over the greatest, (n,)."""
         fore = self.edge + (1 - self.edge) * np.sqrt(np.clip(1 - (1 - c / self.crest) ** 2, 0, 1))
         aft = 1 - (1 - self.edge) * np.clip((c - self.crest) / (1 - self.crest), 0, 1) ** 1.5
         return np.where(c < self.crest, fore, aft)
 
     def onto(self, points: np.ndarray) -> np.ndarray:
-        """The box is sheared, tapered and given a profile; its root goes onto the fuselage, its edges are rounded."""
+        """Points (n, 3) of the box sheared, tapered, given a profile, its root on the fuselage, its edges rounded."""
         out, across = points[:, self.axis], points[:, 3 - self.axis] / HALF_BOX
         c = (points[:, 0] - self.leading) / self.root
         s = np.clip((np.abs(out) - self.fuselage.radius) / (self.span - self.fuselage.radius), 0, 1)

@@ -59,7 +59,7 @@ class Patch:
         return answer
 
     def value(self, direction: np.ndarray, alpha: float) -> float:
-        """The energy at alpha of a direction, in `unit`."""
+        """The energy at alpha of a direction (3,), in `unit`."""
         answer = np.array([[alpha, 0.0]])
         local.along(*self._where, direction, self.delta, self.power, answer)
         return float(answer[0, 1])

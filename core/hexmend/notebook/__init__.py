@@ -28,6 +28,11 @@ _SIZE = (960, 640)
 def html(value: object) -> str:
     """A mesh or a result as HTML: a picture where one can be drawn, a table, and what became of a run.
 
+    Raises
+    ------
+    TypeError
+        For anything else.
+
     Examples
     --------
     >>> from hexmend.gallery import make

@@ -114,7 +114,17 @@ WORSE, MORE, HALVINGS, STAYS = 2.0, 1.0, 8, 0.25
 
 
 def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
-    """Halve the steps of nodes that stray or whose hexes would be spoilt, again and again: the rest need not wait."""
+    """Halve the steps of nodes that stray or whose hexes would be spoilt, again and again: the rest need not wait.
+
+    Parameters
+    ----------
+    energy : MeshEnergy
+    x : (n, 3) float64
+        Where the nodes are, in mean edge lengths.
+    delta : float
+    step : (k, 3) float64
+        Of the free nodes; changed.
+    """
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
     limit = WORSE * energies(x, hexes, delta, energy.left_out) + MORE
     for _ in range(HALVINGS):

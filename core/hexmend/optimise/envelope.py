@@ -37,7 +37,7 @@ class Envelope:
         self._seen: Apart | None = None
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
-        """Which of some nodes are put back on the surface wherever they are moved to, bool."""
+        """Which of some nodes (k,) are put back on the surface wherever they are moved to, (k,) bool."""
         if self.sliding is None:
             return np.zeros(nodes.size, dtype=bool)
         return self.sliding.slides(nodes) & ~self.lifted[nodes]
@@ -77,13 +77,13 @@ class Envelope:
         self._seen = self._apart(before).moved(points, nodes)
 
     def furthest(self, points: np.ndarray) -> float:
-        """The largest distance of the boundary and the surface, both ways."""
+        """The largest distance of the boundary, nodes being at points (n, 3), and the surface, both ways."""
         if self.sliding is None:
             return 0.0
         return max(float(off.far.max(initial=0.0)) for off in self._off(points, 0.0))
 
     def strayed(self, points: np.ndarray) -> np.ndarray:
-        """Nodes where the boundary is out of its room, ascending, (k,) int."""
+        """Nodes where the boundary, at points (n, 3), is out of its room, ascending, (k,) int."""
         return np.unique(np.concatenate([off.nodes for off in self._off(points, self.room)]))
 
     @property

@@ -60,7 +60,7 @@ class MovableCorners:
         return low[np.argsort(values[low], kind="stable")]
 
     def settle(self, corners: np.ndarray) -> None:
-        """Let corners, 8 * hex + corner, be, and their nodes stay; others that have no node left are settled too."""
+        """Let corners, 8 * hex + corner, be, (k,), and their nodes stay; others with no node left are settled too."""
         self._stays[self.nodes_of(corners)] = True
         moves = self.mesh.free & ~self._stays
         self.settled = ~moves[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2) & ~self._held

@@ -49,7 +49,7 @@ class Models:
 
 
 def bounds_of(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> Models:
-    """Models of what is not to fall below its bound."""
+    """Models of what is not to fall below its bound; arrays as of `Models`."""
     return Models(ends, above, slopes, np.zeros(len(above)))
 
 

@@ -45,7 +45,7 @@ class ElementFigure:
     unit: str = ""
 
     def unacceptable(self, values: np.ndarray) -> np.ndarray:
-        """True for each value that is worse than the acceptable range, or outside it where neither way is better."""
+        """True for each of values (m,) worse than the acceptable range, or outside it where neither way is better."""
         low, high = self.acceptable
         return ~(values >= low) & (self.better >= 0) | ~(values <= high) & (self.better <= 0)
 

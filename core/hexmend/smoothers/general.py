@@ -89,7 +89,7 @@ def _beginning_with(decision: str, steps: Steps) -> Steps:
 
 
 def size_ratio(points: np.ndarray, hexes: np.ndarray) -> float:
-    """Ratio of the 95th to the 5th percentile of the hexes' mean edge lengths; infinite if some have no extent."""
+    """Ratio of the 95th to the 5th percentile of the mean edge lengths of hexes (m, 8); inf if some have no extent."""
     total = np.zeros(len(hexes))
     for a, b in EDGES:
         total += np.linalg.norm(points[hexes[:, a]] - points[hexes[:, b]], axis=1)

@@ -101,7 +101,15 @@ class Visits:
         self._groups: Rows | None = None
 
     def groups(self, points: np.ndarray, sweep: int) -> Rows:
-        """The nodes of a sweep in groups that share no hex: one group after another does what the sequence does."""
+        """The nodes of a sweep in groups that share no hex: one group after another does what the sequence does.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Where the nodes are as the sweep begins.
+        sweep : int
+            Its number, from 0.
+        """
         nodes = self.sequence(points, sweep)
         if nodes is not self._nodes:
             self._nodes, self._groups = nodes, self._mesh.topology.wavefronts(nodes)

@@ -48,7 +48,22 @@ def locked_corners(mesh: Mesh) -> np.ndarray:
 def tangled_in(
     points: np.ndarray, hexes: np.ndarray, left_out: np.ndarray, figures: ElementQuality
 ) -> tuple[int, float]:
-    """How many hexes have an inverted corner that is not left out, and the least determinant of those corners."""
+    """How many hexes have an inverted corner that is not left out, and the least determinant of those corners.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    left_out : (m,) uint8
+        A bit for each corner, as of `inverted_corners`.
+    figures : ElementQuality
+        Of these hexes.
+
+    Returns
+    -------
+    int, float
+        The determinant in the cube of the points' unit of length; 0 where no such corner is inverted.
+    """
     where = np.flatnonzero(figures.inverted)
     counts = np.unpackbits(left_out[where, None], axis=1, bitorder="little") == 0
     sigma = np.where(counts, corner_determinants(points, hexes, where), np.inf)

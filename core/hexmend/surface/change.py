@@ -109,7 +109,7 @@ class Skin:
         self._trees = _one_tree(points, faces)
 
     def with_points(self, points: np.ndarray) -> Skin:
-        """The same faces with their nodes elsewhere."""
+        """The same faces with their nodes elsewhere, at points (n, 3) float64."""
         other = copy.copy(self)
         vertices, _, _ = triangulated(points, self.faces)
         other.points, other._trees = points, self._trees.with_points(vertices)
@@ -177,7 +177,7 @@ def _one_tree(points: np.ndarray, faces: np.ndarray) -> Trees:
 
 
 def distances(one: Skin, other: Skin) -> tuple[np.ndarray, np.ndarray]:
-    """How far the samples of each of two boundaries are from the other: those of the first, those of the second."""
+    """How far samples of each of two boundaries are from the other, of the first and of the second: (s,), (t,)."""
     return other.distances(one.samples()), one.distances(other.samples())
 
 

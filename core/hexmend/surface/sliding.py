@@ -73,7 +73,7 @@ class Sliding(Room):
         self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
-        """Which of some nodes slide, bool."""
+        """Which of some nodes (k,) slide, (k,) bool."""
         return self._number[nodes] >= 0
 
     def put_back(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
