@@ -32,8 +32,8 @@ NOTES: dict[str, Figure] = {
         Figure("step_length", "step length", "α, the share of the search direction that was gone (A.5).", significant),
         Figure(
             "solver_iterations",
-            "CG iterations",
-            "Conjugate gradient iterations that the Newton direction took (A.4).",
+            "solver iterations",
+            "Iterations of the linear solver that the Newton direction took (A.3, A.4).",
             count,
         ),
         Figure("cuts", "line search cuts", "How often the line search cut the step (A.5).", count),

@@ -39,7 +39,7 @@ class Summary:
     )
     inverted: int = _figure(
         "inverted",
-        "Elements turned inside out at a corner: one of their eight corner tetrahedra has a determinant σ ≤ 0 (2.8). "
+        "Elements turned inside out at a corner: one of their eight corner tetrahedra has a determinant σ ≤ 0 (2.9). "
         "A solver cannot use them.",
         count,
         -1,
@@ -55,7 +55,7 @@ class Summary:
     q_min: float = _figure(
         "q min",
         "Quality of the worst element. q(H) is the mean over the eight corner tetrahedra of 3 σ^⅔ / |S|², and 0 for "
-        "those with σ ≤ 0 (2.9, 2.10): 1 for a cube, 0 for a flat element.",
+        "those with σ ≤ 0 (2.8, 2.10): 1 for a cube, 0 for a flat element.",
         quality,
         1,
     )

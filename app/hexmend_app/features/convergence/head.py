@@ -12,7 +12,7 @@ from hexmend_app.widgets.menu_button import MenuButton
 from hexmend_app.widgets.segmented import Segmented
 from hexmend_app.widgets.style import icon, smaller
 
-_LOG = "Axes by powers of ten, but for quality and the counts of CG iterations and cuts; zero stands below them."
+_LOG = "Axes by powers of ten, but for quality and the counts of solver iterations and cuts; zero stands below them."
 _FROM_ZERO = "Lay all runs over one another from their start, rather than let a branch begin where it left its parent."
 
 
