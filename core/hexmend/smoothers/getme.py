@@ -63,7 +63,7 @@ class GETMe(SlidingSmoother):
             now = standing(figures)
             idle = 0 if np.any(now > best + RISE) else idle + 1
             best = np.maximum(best, now)
-            yield Step(points, {"relaxed nodes": relaxed}, figures=figures)
+            yield Step(points, {"relaxed_nodes": relaxed}, figures=figures)
         return Outcome.NO_IMPROVEMENT
 
     def weigh(self, q: np.ndarray) -> np.ndarray:

@@ -58,7 +58,7 @@ class SequentialGETMe(SlidingSmoother):
             points, taken_back = sweeps(points, partial(self._sweep, mesh, sliding, figures, relaxation))
             before, figures = figures, measure(points, mesh.hexes)
             # Algorithm A.1 does not apply: a sweep may end where it began, and a finer one still raise q_min.
-            yield Step(points, {"relaxation": relaxation, "taken back": taken_back}, more=True, figures=figures)
+            yield Step(points, {"relaxation": relaxation, "taken_back": taken_back}, more=True, figures=figures)
             if not np.any((standing(figures) - standing(before))[:2] > RISE):
                 relaxation /= 2
         return Outcome.NO_IMPROVEMENT
