@@ -58,12 +58,21 @@ def turned(mesh: Mesh, which: np.ndarray) -> Mesh:
     return mesh.rebuilt(hexes=hexes, mid_nodes=mids, side_sets=sides)
 
 
-def parts_of(mesh: Mesh) -> np.ndarray:
-    """The part that each hex belongs to, parts hanging together by nodes; (m,) int from 0."""
+def parts_of(mesh: Mesh, others: bool = False) -> np.ndarray:
+    """The part that each hex belongs to, parts hanging together by nodes; (m,) int from 0.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    others : bool
+        Cells of other kinds join parts too.
+    """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    m = mesh.n_hexes
-    ends = np.repeat(np.arange(m), 8), mesh.hexes.ravel() + m
-    graph = coo_array((np.ones(8 * m, np.int8), ends), (m + mesh.n_nodes,) * 2)
-    return np.unique(connected_components(graph, directed=False)[1][:m], return_inverse=True)[1]
+    rows = [mesh.hexes, *(cells.nodes for cells in mesh.cells if others)]
+    cells, width = sum(map(len, rows)), [one.shape[1] for one in rows]
+    first = np.repeat(np.arange(cells), np.repeat(width, [len(one) for one in rows]))
+    ends = first, np.concatenate([one.ravel() for one in rows]) + cells
+    graph = coo_array((np.ones(len(first), np.int8), ends), (cells + mesh.n_nodes,) * 2)
+    return np.unique(connected_components(graph, directed=False)[1][: mesh.n_hexes], return_inverse=True)[1]

@@ -35,7 +35,7 @@ class CrowdedFaces(Ailment):
 
 @ailment
 class Parts(Ailment):
-    """Parts that hang together with no other."""
+    """Parts of hexes that hang together with no other, by cells of other kinds neither."""
 
     name, title = "parts", "Parts apart"
     rank = 9
@@ -43,14 +43,16 @@ class Parts(Ailment):
     def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if mesh.topology.parts < 2:
             return NOWHERE
-        part = parts_of(mesh)
+        part = parts_of(mesh, others=True)
         return np.flatnonzero(part != np.bincount(part).argmax())
 
     def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        more, sizes = mesh.topology.parts - 1, np.bincount(parts_of(mesh))
+        sizes = np.bincount(parts_of(mesh, others=True))
+        more = len(sizes) - 1
         return Finding(
             self.name, more,
             f"The mesh has {more:,} part{'s' * (more > 1)} besides the largest that hang together with no other "
             f"({sizes.max():,} hexes, then {', '.join(f'{n:,}' for n in np.sort(sizes)[::-1][1:4])}).",
-            "Merge coincident nodes if they should be joined.", hexes=where,
+            "Where they should be joined, merge their coincident nodes: hexmend repair MESH -o OUT --only "
+            "coincident-nodes, or Edit > Doctor in the window. Others are smoothed each for itself.", hexes=where,
         )  # fmt: skip

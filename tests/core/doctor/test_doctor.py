@@ -97,6 +97,13 @@ def test_what_is_mended_is_found_no_more_and_every_hex_is_sound(mesh, kind):
     assert measure(after.points, after.hexes).n_inverted <= measure(mesh.points, mesh.hexes).n_inverted
 
 
+def test_parts_that_other_cells_join_are_not_apart():
+    apart = with_hexes(SOUND.hexes[[0, 26]])
+    bridge = Cells("tetra", np.array([[*apart.hexes[0][:2], *apart.hexes[1][:2]]], np.int32))
+    assert "hexmend repair" in found_in(apart)["parts"].remedy
+    assert "parts" not in found_in(apart.replace(cells=(bridge,)))
+
+
 def test_merged_blocks_are_one_grid():
     after, _ = repair(blocks())
     assert examine(after) == ()
