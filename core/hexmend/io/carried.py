@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 
+import numpy as np
+
 from hexmend.io.content import ID
 from hexmend.io.format import Holds
 from hexmend.io.pins import held_by_pins
 from hexmend.mesh import Mesh
+
+#: Whole numbers up to here are the same as real ones.
+_EXACT = 1 << 53
 
 
 def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Holds, str]:
@@ -39,6 +44,21 @@ def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Holds, str]:
         for kind, found in left.items()
         if found
     }
+
+
+def rounded(mesh: Mesh) -> list[str]:
+    """That whole numbers are rounded by a format whose data are real numbers, in words; nothing where none are."""
+    parts = {"point data": [mesh.node_data], "cell data": [mesh.hex_data, *(cells.data for cells in mesh.cells)]}
+    left = []
+    for what, data in parts.items():
+        arrays = [(name, np.asarray(values)) for one in data for name, values in one.items() if name != ID]
+        names = {name for name, values in arrays if values.dtype.kind in "iu" and _beyond(values)}
+        left += [f"whole numbers of {what} above 2^53, which are rounded ({', '.join(sorted(names))})"] if names else []
+    return left
+
+
+def _beyond(values: np.ndarray) -> bool:
+    return bool(((values > _EXACT) | (values < -_EXACT)).any())
 
 
 def _all(parts: Iterable[Mapping[str, object]]) -> list[str]:

@@ -60,8 +60,15 @@ def polyhedra(sections: Sequence[Section], n_nodes: int, notes: list[str]) -> li
         answer += [((kind, nodes, section.first + which), section) for kind, (which, nodes) in found.items()]
     first = 0
     for section, own in zip(polygons, rows, strict=True):
-        widths, outer = own.lengths, uses[first : first + len(own)] == 1
+        widths, times = own.lengths, uses[first : first + len(own)]
+        outer = times == 1
         first += len(own)
+        left = int((times == 0).sum() + (outer & (widths != 3) & (widths != 4)).sum())
+        if left:
+            notes.append(
+                f"{left:,} polygons of section {section.name!r} that bound no polyhedron, or have more than 4 nodes, "
+                "are left out."
+            )
         for kind, width in (("triangle", 3), ("quad", 4)):
             which = np.flatnonzero(outer & (widths == width))
             if which.size:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.io import hdf5, netcdf3
+from hexmend.io.carried import rounded
 from hexmend.io.content import to_mesh
 from hexmend.io.exodus_ids import IDS
 from hexmend.io.format import FORMATS, Format, Holds
@@ -53,5 +54,6 @@ FORMATS.add(
         ),
         names=frozenset({IDS}),
         recognised=recognised,
+        cannot=rounded,
     )
 )  # fmt: skip

@@ -8,6 +8,7 @@ from typing import BinaryIO
 
 import numpy as np
 
+from hexmend.io.carried import rounded
 from hexmend.io.content import ID, Block, from_mesh, unused
 from hexmend.io.gmsh_content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
 from hexmend.io.gmsh_data import Writer, data_title, width_of_row, write_data, written_width
@@ -15,9 +16,6 @@ from hexmend.io.names import distinct, renamed
 from hexmend.io.numbering import combinations, element_numbers, ids_lost, node_numbers, runs
 from hexmend.io.pins import with_marks
 from hexmend.mesh import Mesh
-
-#: Whole numbers up to here are the same as real ones.
-_EXACT = 1 << 53
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
@@ -50,17 +48,17 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 def cannot(mesh: Mesh) -> list[str]:
     """Ids and names of sets that the format cannot have, and data of other widths than its own, in words."""
     content = from_mesh(mesh)
-    left = ids_lost(mesh) + renamed(_titles(content.blocks))
+    left = ids_lost(mesh) + renamed(_titles(content.blocks)) + rounded(mesh)
     for what, data in (("point data", [with_marks(mesh)]), ("cell data", [block.data for block in content.blocks])):
         arrays = [(name, np.asarray(values)) for part in data for name, values in part.items() if name != ID]
         lost = {name for name, values in arrays if written_width(values) is None}
         wider = {name for name, values in arrays if written_width(values) not in (None, width_of_row(values))}
         left += [f"{what} of more than 9 columns, or no numbers ({', '.join(sorted(lost))})"] if lost else []
-        rounded = {name for name, values in arrays if values.dtype.kind in "iu" and (np.abs(values) > _EXACT).any()}
-        left += [f"whole numbers of {what} above 2^53, which are rounded ({', '.join(sorted(rounded))})"] * bool(
-            rounded
-        )
-        left += renamed(distinct((name for name, _ in arrays), data_title), what)
+        titles = distinct((name for name, _ in arrays), data_title)
+        for name, title in titles.items():
+            if len({values.shape[1:] for other, values in arrays if other == name}) > 1:
+                titles[name] = f"{title}_2"  # as those of another width are called
+        left += renamed(titles, what)
         left += [f"the width of {what}, filled up to 3 or 9 columns ({', '.join(sorted(wider))})"] if wider else []
     return left
 

@@ -122,3 +122,17 @@ def test_rows_that_do_not_add_up_are_named(offsets, tmp_path):
         data[" data"] = offsets
     with pytest.raises(FileError, match="section 'Faces' does not name 6 rows"):
         io.read(path)
+
+
+def test_polygons_that_are_left_out_are_told(tmp_path):
+    mesh = grid(2)
+
+    def with_more(faces, cells):
+        """A face that nothing uses, and a quad of the boundary with a fifth node."""
+        outer = next(k for k in range(len(faces)) if sum(abs(face) == k + 1 for cell in cells for face in cell) == 1)
+        faces[outer] = [*faces[outer], faces[outer][0]]
+        faces.append(faces[0][:3])
+
+    back = io.read(written(tmp_path / "a.cgns", mesh.points, [("hex", mesh.hexes)], change=with_more))
+    assert back.n_hexes == 7
+    assert sum("2 polygons of section 'Faces'" in note for note in back.notes) == 1

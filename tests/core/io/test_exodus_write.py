@@ -124,3 +124,14 @@ def test_ids_of_blocks_and_sets_are_kept(tmp_path):
     with netcdf_file(tmp_path / "again.exo", mmap=False) as file:
         ids = {name: file.variables[name + "_prop1"][:].tolist() for name in ("eb", "ns", "ss")}
     assert ids == {"eb": [300, 20], "ns": [101, 100], "ss": [200]}
+
+
+def test_whole_numbers_that_are_rounded_are_told(tmp_path):
+    large = np.arange(8) + 2**53
+    mesh = grid(2).replace(hex_data={"exact": large - 8, "key": large, "low": -large}, node_data={"u": np.arange(27)})
+    told = ["whole numbers of cell data above 2^53, which are rounded (key, low)"]
+    assert io.left_out(tmp_path / "a.exo", mesh) == told
+    kept = mesh.replace(hex_data={"exact": large - 8, "id": large})
+    assert io.left_out(tmp_path / "a.exo", kept) == []
+    io.write(tmp_path / "a.exo", kept)
+    np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], large)

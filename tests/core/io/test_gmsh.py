@@ -229,3 +229,14 @@ def test_no_cells_have_no_data(tmp_path):
 def test_whole_numbers_that_are_rounded_are_told(tmp_path):
     mesh = grid(2).replace(hex_data={"exact": np.arange(8) + 2**53 - 8, "key": np.arange(8) + 2**53})
     assert "whole numbers of cell data above 2^53, which are rounded (key)" in io.left_out(tmp_path / "a.msh", mesh)
+
+
+def test_data_of_one_name_and_several_widths_are_told(tmp_path):
+    quads = Cells("quad", grid(2).topology.boundary_faces[:2], {"d": np.ones((2, 3)), "e": np.ones(2)})
+    mesh = grid(2).replace(hex_data={"d": np.ones(8), "e": np.ones(8)}, cells=(quads,))
+    path = tmp_path / "a.msh"
+    assert io.left_out(path, mesh) == ["names of cell data as they are (d)"]
+    io.write(path, mesh)
+    back = io.read(path)
+    assert set(back.hex_data) == {"d", "e", "id"}
+    assert set(back.cells[0].data) == {"d_2", "e", "id"}

@@ -11,10 +11,10 @@ from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_mes
 
 def read(path: Path) -> Polygons:
     """Read an OBJ file: its vertices and faces."""
-    from meshlane.obj import _obj
+    from meshlane import obj
 
     text = path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ")
-    return parsed(path, "OBJ", lambda: of_meshlane(_obj.read_buffer(io.StringIO(_in_form(text)))))
+    return parsed(path, "OBJ", lambda: of_meshlane(obj.read(io.StringIO(_in_form(text)))))
 
 
 def _in_form(text: str) -> str:

@@ -14,7 +14,7 @@ _END = b"end_header"
 
 def read(path: Path) -> Polygons:
     """Read a PLY file: its vertices and faces."""
-    from meshlane.ply import _ply
+    from meshlane import ply
 
     data = path.read_bytes()
     head, end, rest = data.partition(_END)
@@ -29,7 +29,7 @@ def read(path: Path) -> Polygons:
     # The list has two names, and other programs read both.
     head = head.replace(b"\r\n", b"\n").replace(b" vertex_index\n", b" vertex_indices\n")
     rest = b"\n" + rest.lstrip(b"\r")[1:]
-    return parsed(path, "PLY", lambda: of_meshlane(_ply.read_buffer(io.BytesIO(head + end + rest))))
+    return parsed(path, "PLY", lambda: of_meshlane(ply.read(io.BytesIO(head + end + rest))))
 
 
 SURFACES.add("ply", SurfaceFormat("ply", "PLY", (".ply",), read))

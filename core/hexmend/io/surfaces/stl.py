@@ -1,39 +1,50 @@
-"""STL, in decimals and binary, parsed by meshlane."""
+"""STL, in decimals and binary: triangles as nine numbers each, of which meshlane reads some files only."""
 
 from __future__ import annotations
 
-import io
 import re
 from pathlib import Path
 
-from hexmend.errors import FileError
-from hexmend.io.surfaces.format import DAMAGED, SURFACES, Polygons, SurfaceFormat, of_meshlane, parsed
+import numpy as np
 
-#: Bytes before the triangles of a binary file, and of each of them.
-_HEAD, _TRIANGLE = 84, 50
+from hexmend.errors import FileError
+from hexmend.io.surfaces.format import DAMAGED, SURFACES, Polygons, SurfaceFormat, parsed
+
+#: Bytes before the triangles of a binary file, and what each of them has.
+_HEAD = 84
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 def read(path: Path) -> Polygons:
     """Read an STL file; each triangle has corners of its own."""
-    from meshlane.stl import _stl
-
     data = path.read_bytes()
     if len(data) >= _HEAD:
         count = int.from_bytes(data[_HEAD - 4 : _HEAD], "little")
-        if len(data) == _HEAD + _TRIANGLE * count:
-            return parsed(path, "binary STL", lambda: of_meshlane(_stl.read(str(path))))
+        if len(data) == _HEAD + _TRIANGLE.itemsize * count:
+            return _soup(np.frombuffer(data, _TRIANGLE, offset=_HEAD)["corners"])
     if data.lstrip()[:5].lower() != b"solid":
-        have = max(len(data) - _HEAD, 0) / _TRIANGLE
+        have = max(len(data) - _HEAD, 0) / _TRIANGLE.itemsize
         raise FileError(
             path, f"is no STL: it begins without 'solid' and ends after {have:.1f} binary triangles", DAMAGED
         )
-    return parsed(path, "STL", lambda: of_meshlane(_stl._read_ascii(io.BytesIO(_in_form(data)))))
+    return parsed(path, "STL", lambda: _soup(_corners(data.lower())))
 
 
-def _in_form(data: bytes) -> bytes:
-    """The facets as meshlane takes them: in small letters, without blank lines and what names the solids."""
-    lines = re.split(rb"[\r\n]+", data.lower())
-    return b"\n".join(line for line in map(bytes.strip, lines) if line.startswith((b"facet", b"vertex")))
+def _corners(data: bytes) -> np.ndarray:
+    """The corners of all facets, (3 k, 3) float64; ValueError where a facet has not three of three numbers."""
+    lines = [
+        line for line in map(bytes.split, re.split(rb"[\r\n]+", data)) if line and line[0] in (b"facet", b"vertex")
+    ]
+    kinds = [line[0] for line in lines]
+    if kinds != [b"facet", b"vertex", b"vertex", b"vertex"] * (len(kinds) // 4):
+        raise ValueError("a facet has not three vertices")
+    return np.array([line[1:4] for line in lines if line[0] == b"vertex"], np.float64).reshape(-1, 3)
+
+
+def _soup(corners: np.ndarray) -> Polygons:
+    """Triangles none of which shares a corner."""
+    points = corners.reshape(-1, 3).astype(np.float64)
+    return Polygons(points, [np.arange(len(points)).reshape(-1, 3)])
 
 
 SURFACES.add("stl", SurfaceFormat("stl", "STL", (".stl",), read))
