@@ -80,6 +80,7 @@ class FilmDialog(QDialog):
         self._rate.setValue(choice.rate)
         explain(self._rate, "Rate", "How many iterations are shown in a second.")
         self._frames.setRange(2, 1000)
+        self._frames.setSuffix(" frames")
         self._frames.setValue(choice.frames)
         explain(self._frames, "Frames", "The most: of more iterations, some are left out evenly.")
         self._histogram = QCheckBox("Histogram beside the mesh")

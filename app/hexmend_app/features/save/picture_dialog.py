@@ -47,6 +47,9 @@ _GROUPS = (
 )
 
 
+#: How much of the screen the dialog takes, for its preview.
+_SHARE = 0.7
+
 #: Keys that mean something for several panels alone.
 _OF_SEVERAL = ("captions", "figures", "columns")
 
@@ -128,6 +131,9 @@ class PictureDialog(QDialog):
             if title == "Letters":
                 column.addWidget(texts)
         column.addStretch()
+        labels = [label for label in settings.findChildren(QLabel) if label.buddy() is not None]
+        for label in labels:  # fields of all groups begin at one place
+            label.setMinimumWidth(max(one.sizeHint().width() for one in labels))
         left = QVBoxLayout()
         left.addWidget(self.preview, 1)
         left.addWidget(self._about)
@@ -156,7 +162,8 @@ class PictureDialog(QDialog):
         layout.addLayout(where)
         layout.addWidget(self._problem)
         layout.addWidget(buttons)
-        self.resize(1000, 640)
+        room = self.screen().availableSize() * _SHARE
+        self.resize(room.expandedTo(QSize(1000, 640)))
 
     def path(self) -> Path:
         """Where the picture goes; a name without a suffix gets one."""

@@ -14,8 +14,8 @@ _COLOURS = (("#d1342f", "#ff7a66"), ("#2e8b57", "#5fd394"), ("#1f4fd8", "#7fa6ff
 #: In heights of a letter: an axis, a letter's place beyond its end, a tip's length and half its width, what stays free.
 _ARM, _BEYOND, _TIP, _HALF, _FREE = 2.2, 0.65, 0.75, 0.27, 0.6
 
-#: How much of the mesh the paper behind the axes covers.
-_BEHIND = 0.6
+#: Paper behind an axis, as wide as so many lines; behind a letter, within so many of its heights; how much that covers.
+_RIM, _DISC, _BEHIND = 4.0, 0.55, 0.7
 
 #: The share of a panel's side that the axes take at most.
 _MOST = 0.3
@@ -33,7 +33,7 @@ def draw_axes(ink: Ink, box: Box, axes: np.ndarray, corner: Corner, page: Page) 
         What each axis is to who looks: to the right, up, and towards him.
     corner : Corner
     page : Page
-        Of its paper there is some behind the axes, so that they are seen over the mesh too.
+        Of its paper there is a rim around axes and letters, so that they are seen over the mesh too.
     """
     letter = ink.letters.height
     reach = _ARM + _BEYOND + 0.45
@@ -47,9 +47,6 @@ def draw_axes(ink: Ink, box: Box, axes: np.ndarray, corner: Corner, page: Page) 
     free = _FREE * letter
     x = box.left + free - low[0] if across == "left" else box.left + box.width - free - high[0]
     y = box.top + free - low[1] if down == "upper" else box.top + box.height - free - high[1]
-    if page.ground is not None:
-        left, top, right, bottom = x + low[0], y + low[1], x + high[0], y + high[1]
-        ink.fill([(left, top), (right, top), (right, bottom), (left, bottom)], page.ground, alpha=_BEHIND)
     for axis in np.argsort(axes[:, 2]):  # what is nearer covers what is farther
         colour = _COLOURS[axis][page.dark]
         along = flat[axis]
@@ -60,14 +57,21 @@ def draw_axes(ink: Ink, box: Box, axes: np.ndarray, corner: Corner, page: Page) 
             tip = min(_TIP, _ARM * length) * letter
             aside = _HALF * letter * np.array([-unit[1], unit[0]])
             base = end - tip * unit
+            place = end + _BEYOND * letter * unit
+            if page.ground is not None:
+                ink.lines((x, y, *end), colour=page.ground, wide=_RIM)
+                ink.fill(_ring(*place, _DISC * letter), page.ground, alpha=_BEHIND)
             ink.lines((x, y, *base), colour=colour, wide=1.6)
             ink.fill([tuple(end), tuple(base + aside), tuple(base - aside)], colour)
-            place = end + _BEYOND * letter * unit
         else:
-            half = 0.16 * letter
-            ring = [(x + half * np.cos(t), y + half * np.sin(t)) for t in np.linspace(0, 2 * np.pi, 24, endpoint=False)]
-            ink.fill(ring, colour)
+            ink.fill(_ring(x, y, 0.16 * letter), colour)
             if axes[axis, 2] < 0:
                 continue  # its end is behind
             place = np.array([x - 0.55 * letter, y + 0.6 * letter])
         ink.text(*place, "XYZ"[axis], anchor="mm", bold=True, colour=colour, share=0.9)
+
+
+def _ring(x: float, y: float, radius: float) -> list[tuple[float, float]]:
+    """A circle as a polygon."""
+    turn = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    return [*zip((x + radius * np.cos(turn)).tolist(), (y + radius * np.sin(turn)).tolist(), strict=True)]
