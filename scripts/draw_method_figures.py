@@ -226,7 +226,7 @@ def main(folder: Path) -> None:
     """Draw all into a folder."""
     with mpl.rc_context(LETTERS):
         for file, draw in FIGURES.items():
-            save_figure(draw(), folder / file)
+            save_figure(draw(), folder / file, outlines=True)
             print(f"{folder / file}: {(folder / file).stat().st_size / 1000:.0f} kB")
 
 

@@ -168,12 +168,15 @@ def new_figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def save_figure(figure: Figure, path: Path, dpi: float = 160) -> None:
-    """Write a figure as a whole or not at all, as its path's suffix says; equal figures make equal files."""
+def save_figure(figure: Figure, path: Path, dpi: float = 160, *, outlines: bool = False) -> None:
+    """Write a figure as a whole or not at all, as its path's suffix says; equal figures make equal files.
+
+    Texts of an SVG stay texts, which can be found and edited, or are `outlines`, which look the same everywhere.
+    """
     from matplotlib import rc_context
 
     kind = path.suffix.lower()[1:]
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-    # Names that are not drawn by lot, no date, and texts that stay texts.
-    with replacing(path) as temporary, rc_context({"svg.hashsalt": "hexmend", "svg.fonttype": "none"}):
+    how = {"svg.hashsalt": "hexmend", "svg.fonttype": "path" if outlines else "none"}
+    with replacing(path) as temporary, rc_context(how):  # names that are not drawn by lot, and no date
         figure.savefig(temporary, dpi=dpi, format=kind, metadata=dates.get(kind))
