@@ -1,5 +1,6 @@
 """The way back after an unexpected end: the session is written beside the window, and found again at the next start.
 
+What is new of it is written each time, into a folder that is whole at any moment (`hexmend.io.session.KeptSession`).
 Every window has a folder of its own below `state_folder`, with a lock that ends with its process. A window that ends in
 order removes its folder; one whose lock nobody holds any more was left by a crash.
 """
@@ -19,6 +20,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
 from hexmend.errors import HexmendError
+from hexmend.io.archive_members import DESCRIPTION
+from hexmend.io.session import KeptSession
 from hexmend_app.state import session_data
 from hexmend_app.state.places import state_folder
 from hexmend_app.state.task import Task
@@ -85,6 +88,7 @@ class Recovery(QObject):
         super().__init__(parent)
         self._session = session
         self._folder: Path | None = None
+        self._kept: KeptSession | None = None
         self._lock: QLockFile | None = None
         self._task: Task | None = None
         self._changed = False
@@ -125,7 +129,7 @@ class Recovery(QObject):
         except OSError as error:
             self.failed.emit(error)
             return
-        self._folder, self._lock = folder, _locked(folder)
+        self._folder, self._lock, self._kept = folder, _locked(folder), KeptSession(folder / _SESSION)
         others = [one for one in place.iterdir() if one.is_dir() and one != folder]
         self._left = sorted(filter(None, map(_found, others)), key=lambda one: one.when, reverse=True)
         self._changed = True
@@ -138,7 +142,7 @@ class Recovery(QObject):
         if not (self.watching and self._changed and self._worth) or runs or self._task is not None:
             return
         self._changed = False
-        self._task = Task("keeping the session", partial(_write, self._folder, session.given()))
+        self._task = Task("keeping the session", partial(_write, self._folder, self._kept, session.given()))
         self._task.ended.connect(self._on_written)
         self._task.start()
 
@@ -189,9 +193,9 @@ class Recovery(QObject):
             self._task.wait()
             self._task = None
         left, self._taken_up = self._taken_up, None
+        _remove_session(self._folder)
+        self._kept = KeptSession(self._folder / _SESSION)
         if left is None:
-            with suppress(OSError):
-                (self._folder / _SESSION).unlink(missing_ok=True)
             return
         for name in (_SESSION, _ABOUT):
             with suppress(OSError):
@@ -211,12 +215,14 @@ class Recovery(QObject):
             raise task.error
 
 
-def _write(folder: Path, data: session_data.SessionData, task: Task) -> None:
-    """Write a session with an account of it."""
+def _write(folder: Path, kept: KeptSession, data: session_data.SessionData, task: Task) -> None:
+    """Write what is new of a session, with an account of it."""
     name = Path(data.document.path or data.document.now.mesh.name).name
     about = json.dumps({"name": name, "runs": len(data.history.records)})
     (folder / _ABOUT).write_text(about, encoding="utf-8")
-    session_data.write(folder / _SESSION, data)
+    if (folder / _SESSION).is_file():  # of an earlier version, taken up
+        (folder / _SESSION).unlink()
+    session_data.keep(kept, data)
 
 
 def _locked(folder: Path) -> QLockFile | None:
@@ -232,7 +238,9 @@ def _found(folder: Path) -> Left | None:
     if lock is None:
         return None
     try:
-        when = datetime.fromtimestamp((folder / _SESSION).stat().st_mtime)
+        session = folder / _SESSION
+        written = session if session.is_file() else session / DESCRIPTION  # a file is of an earlier version
+        when = datetime.fromtimestamp(written.stat().st_mtime)
     except OSError:
         _removed(folder, lock)
         return None
@@ -246,8 +254,14 @@ def _found(folder: Path) -> Left | None:
 
 def _removed(folder: Path, lock: QLockFile) -> None:
     """Remove a window's folder, what is in it first: as long as it is locked, nobody offers it."""
-    for name in (_SESSION, _ABOUT):
-        with suppress(OSError):
-            (folder / name).unlink(missing_ok=True)
+    _remove_session(folder)
     lock.unlock()
     shutil.rmtree(folder, ignore_errors=True)
+
+
+def _remove_session(folder: Path) -> None:
+    """Remove what a window's folder holds of a session; first that without which it is none."""
+    for path in (folder / _SESSION / DESCRIPTION, folder / _SESSION, folder / _ABOUT):
+        with suppress(OSError):
+            path.unlink()
+    shutil.rmtree(folder / _SESSION, ignore_errors=True)

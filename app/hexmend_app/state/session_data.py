@@ -10,7 +10,7 @@ from typing import Any
 
 from hexmend.errors import FileError, MeshError
 from hexmend.io.atomic import replacing
-from hexmend.io.session import SUFFIX, is_session, read_session, write_session
+from hexmend.io.session import SUFFIX, KeptSession, is_session, read_session, write_session
 from hexmend.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
@@ -99,11 +99,27 @@ def write(path: Path, data: SessionData) -> None:
     FileError
         Where the place cannot be written to.
     """
+    with replacing(path) as temporary:
+        write_session(temporary, *_stored(data))
+
+
+def keep(kept: KeptSession, data: SessionData) -> None:
+    """Write what is new of a session.
+
+    Raises
+    ------
+    FileError
+        Where the place cannot be written to.
+    """
+    kept.write(*_stored(data))
+
+
+def _stored(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:
+    """The meshes of a session, which of them is shown, and all that the window keeps beside them."""
     numbers: dict[Mesh, int] = {}
     window = _plain(numbers).data(data, SessionData)
     now = _number(numbers, data.document.now.mesh)
-    with replacing(path) as temporary:
-        write_session(temporary, tuple(numbers), now, window)
+    return tuple(numbers), now, window
 
 
 def numbered(data: SessionData) -> dict[State, int]:

@@ -59,14 +59,45 @@ def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int
     window : object
     """
     from hexmend.io.archive import write_archive
+
+    write_archive(path, _FORMAT, VERSION, _tree(meshes, now, window))
+
+
+class KeptSession:
+    """A session that is written again and again as a folder, of which only what is new is written each time.
+
+    The folder can be read at any moment, whenever who writes it is killed; see `hexmend.io.archive_folder`.
+
+    Parameters
+    ----------
+    path : Path
+        Of the folder.
+    """
+
+    def __init__(self, path: Path):
+        from hexmend.io.archive_folder import ArchiveFolder
+
+        self._folder = ArchiveFolder(path)
+
+    def write(self, meshes: Sequence[Mesh], now: int, window: Any) -> None:
+        """Write the session as it is now; parameters as of `write_session`.
+
+        Raises
+        ------
+        FileError
+            Where the folder cannot be written to; what was there stays.
+        """
+        self._folder.write(_FORMAT, VERSION, _tree(meshes, now, window))
+
+
+def _tree(meshes: Sequence[Mesh], now: int, window: Any) -> dict[str, Any]:
     from hexmend.io.mesh_data import mesh_data
 
-    data = {"meshes": [mesh_data(mesh) for mesh in meshes], "now": now, "window": window}
-    write_archive(path, _FORMAT, VERSION, data)
+    return {"meshes": [mesh_data(mesh) for mesh in meshes], "now": now, "window": window}
 
 
 def read_session(path: str | os.PathLike[str]) -> Stored:
-    """Read a session.
+    """Read a session, from a file or from the folder of a `KeptSession`.
 
     Raises
     ------
@@ -99,7 +130,8 @@ def _data(path: str | os.PathLike[str]) -> tuple[int, Any]:
     from hexmend.io.archive import read_archive
     from hexmend.io.files import check_readable
 
-    check_readable(Path(path), "a session")
+    if not Path(path).is_dir():
+        check_readable(Path(path), "a session")
     try:
         return read_archive(path, _FORMAT, VERSION)
     except OSError as error:

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QPushButton
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.state import session_data
 from hexmend_app.state.places import VARIABLE
 from tests.app.driving import open_and_wait, press
 from tests.patience import PATIENCE
@@ -136,6 +137,40 @@ def test_a_window_that_ends_in_order_leaves_nothing(fresh_window, qtbot, own_sta
     assert not (own / "session.hexmend").exists()  # it was of work that was given up
     recovery.end()
     assert list(own_state.iterdir()) == []
+
+
+def test_of_a_session_that_is_kept_again_only_what_is_new_is_written(fresh_window, qtbot, own_state):
+    session, recovery = fresh_window.session, fresh_window.features["session"].recovery
+    recovery.begin()
+    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
+        run(fresh_window, qtbot)
+    (arrays,) = own_state.glob("*/session.hexmend/arrays")
+    before = {one.name: one.stat().st_mtime_ns for one in arrays.iterdir()}
+    session.view.change(peel=1)
+    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
+        recovery.write()
+    assert {one.name: one.stat().st_mtime_ns for one in arrays.iterdir()} == before
+    kept = session_data.read(arrays.parent)
+    assert kept.view.look.peel == 1
+    assert len(kept.history.records) == 1
+    recovery.end()
+
+
+def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot, own_state, mesh_file):
+    run(fresh_window, qtbot)
+    (own_state / "1-left").mkdir(parents=True)
+    session_data.write(own_state / "1-left/session.hexmend", fresh_window.session.given())
+    feature = fresh_window.features["session"]
+    feature.guard()
+    (left,) = feature.recovery.left
+    with qtbot.waitSignal(fresh_window.session.opener.ended, timeout=PATIENCE):
+        feature.recovery.take_up(left)
+    assert len(fresh_window.session.history.records) == 1
+    fresh_window.session.view.change(peel=1)
+    with qtbot.waitSignal(feature.recovery.written, timeout=PATIENCE):
+        feature.recovery.write()
+    (own,) = own_state.iterdir()
+    assert session_data.read(own / "session.hexmend").view.look.peel == 1
 
 
 def test_a_window_that_is_open_is_not_offered(fresh_window, qtbot, own_state):
