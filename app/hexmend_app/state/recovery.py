@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 PERIOD = 180_000
 
 _FOLDER, _LOCK, _SESSION, _ABOUT = "windows", "lock", "session.hexmend", "about.json"
+#: What a file of an earlier version is called until all that is in it is written anew.
+_EARLIER = "earlier.hexmend"
 #: Bytes of an account that are read.
 _LARGEST = 10_000
 
@@ -220,9 +222,10 @@ def _write(folder: Path, kept: KeptSession, data: session_data.SessionData, task
     name = Path(data.document.path or data.document.now.mesh.name).name
     about = json.dumps({"name": name, "runs": len(data.history.records)})
     (folder / _ABOUT).write_text(about, encoding="utf-8")
-    if (folder / _SESSION).is_file():  # of an earlier version, taken up
-        (folder / _SESSION).unlink()
+    if (folder / _SESSION).is_file():
+        os.replace(folder / _SESSION, folder / _EARLIER)
     session_data.keep(kept, data)
+    (folder / _EARLIER).unlink(missing_ok=True)
 
 
 def _locked(folder: Path) -> QLockFile | None:
@@ -239,6 +242,9 @@ def _found(folder: Path) -> Left | None:
         return None
     try:
         session = folder / _SESSION
+        if (folder / _EARLIER).is_file() and not (session / DESCRIPTION).exists():  # it was being written anew
+            shutil.rmtree(session, ignore_errors=True)
+            os.replace(folder / _EARLIER, session)
         written = session if session.is_file() else session / DESCRIPTION  # a file is of an earlier version
         when = datetime.fromtimestamp(written.stat().st_mtime)
     except OSError:

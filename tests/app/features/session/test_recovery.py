@@ -156,10 +156,15 @@ def test_of_a_session_that_is_kept_again_only_what_is_new_is_written(fresh_windo
     recovery.end()
 
 
-def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot, own_state, mesh_file):
+@pytest.mark.parametrize("name", ["session.hexmend", "earlier.hexmend"])
+def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot, own_state, mesh_file, name):
+    """Be it that a window was killed while it wrote all that is in it anew."""
     run(fresh_window, qtbot)
     (own_state / "1-left").mkdir(parents=True)
-    session_data.write(own_state / "1-left/session.hexmend", fresh_window.session.given())
+    session_data.write(own_state / "1-left" / name, fresh_window.session.given())
+    if name != "session.hexmend":
+        (own_state / "1-left/session.hexmend/arrays").mkdir(parents=True)
+        (own_state / "1-left/session.hexmend/arrays/0.npy").touch()
     feature = fresh_window.features["session"]
     feature.guard()
     (left,) = feature.recovery.left
@@ -170,6 +175,7 @@ def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot,
     with qtbot.waitSignal(feature.recovery.written, timeout=PATIENCE):
         feature.recovery.write()
     (own,) = own_state.iterdir()
+    assert sorted(one.name for one in own.iterdir()) == ["about.json", "lock", "session.hexmend"]
     assert session_data.read(own / "session.hexmend").view.look.peel == 1
 
 
