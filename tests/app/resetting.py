@@ -26,6 +26,7 @@ from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend_app.state.history import LIMIT
 from hexmend_app.state.look import Look
+from hexmend_app.state.scene.kept_cameras import KeptCameras
 from hexmend_app.state.timeline import SPEED
 from hexmend_app.widgets import theming
 from tests.app.driving import open_and_wait
@@ -90,6 +91,7 @@ class Resetting:
         session.timeline.hold()
         session.timeline.set_speed(SPEED)
         session.views.close_all()
+        session.cameras.take(KeptCameras())
         session.view.change(**{name: getattr(Look(), name) for name in Look.__dataclass_fields__})
         session.view.set_handles(True)
         session.view.set_snap(True)

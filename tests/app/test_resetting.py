@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QAbstractSpinBox
 
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.run import Phase
+from hexmend_app.state.scene import Camera
 from tests.app.driving import click, phase
 from tests.app.picturing import everything
 from tests.patience import PATIENCE
@@ -55,6 +56,7 @@ def live(window, qtbot):
     session.view.set_clip(PlaneClip.at((1, 0, 0), middle))
     session.view.isolate([7], 1)
     session.kept.keep("kept", session.document.now)
+    session.cameras.keep("kept", Camera("+y"))
     session.views.show("start", session.document.start)
     window.messages.show_error("Something is wrong", "And that is what it is.")
     for panel in window.docks.ids():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -32,7 +32,7 @@ from hexmend_app.widgets.style import dress
 
 if TYPE_CHECKING:
     from hexmend_app.scene.export.sheet import Sheet
-    from hexmend_app.state.scene import Page, Scene
+    from hexmend_app.state.scene import Camera, Page, Scene
 
 #: Width in pixels of the ring that marks the focus, and how the focus comes by keys.
 _RING = 2
@@ -235,11 +235,11 @@ class Canvas(CameraView):
         """What the captions of several views call them."""
         return [caption.name for caption in self.frame.captions]
 
-    def scene(self, page: Page) -> Scene:
-        """The scene that shows what is seen, without the plane, on a page."""
+    def scene(self, page: Page, cameras: Mapping[str, Camera] | None = None) -> Scene:
+        """The scene that shows what is seen, without the plane, on a page, with cameras that it names."""
         from hexmend_app.scene.export.views import scene_of  # with what no view needs
 
-        return scene_of(self.panes, self.names, page)
+        return scene_of(self.panes, self.names, page, cameras)
 
     def sheet(self, scene: Scene) -> Sheet:
         """A scene of what is seen, drawn."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -38,7 +39,11 @@ class Render:
             "--scene", metavar="FILE.toml", help="draw what this file describes; other options go before it"
         )
         parser.add_argument("--save-scene", metavar="FILE.toml", help="write what is drawn as such a file")
-        parser.add_argument("--camera", metavar="CAMERA", help="a name in the scene, or what Copy camera gives")
+        parser.add_argument(
+            "--camera",
+            metavar="CAMERA",
+            help="a name in the scene or in the session drawn, or what Copy camera gives",
+        )
         looks.add_arguments(parser)
         size = parser.add_mutually_exclusive_group()
         size.add_argument("--size", metavar="WxH", help="in pixels (default 1600x1000)")
@@ -86,7 +91,7 @@ def _scene(args: argparse.Namespace) -> Scene:
     scene = looks.with_options(args, scene)
     changes: dict[str, Any] = {"page": replace(scene.page, **_page(args))}
     if args.camera:
-        changes["camera"] = _camera(args.camera, scene)
+        changes["camera"] = _camera(args.camera, scene, args.mesh)
     if args.no_bar:
         changes["bar"] = replace(scene.bar, place=Place.NONE)
     if args.captions:
@@ -109,15 +114,29 @@ def _page(args: argparse.Namespace) -> dict[str, Any]:
     return page
 
 
-def _camera(text: str, scene: Scene) -> Camera:
+def _camera(text: str, scene: Scene, paths: Sequence[str]) -> Camera:
+    """The camera of a name, in the scene or else in a session that is drawn, or that a text describes."""
     from hexmend_app.state.scene import camera_from
 
-    if text.lstrip().startswith(("{", "camera")) and text not in scene.cameras:
+    named = scene.cameras if text in scene.cameras else {**_kept(paths), **scene.cameras}
+    if text in named:
+        return named[text]
+    if re.match(r"\s*(camera\s*=\s*)?\{", text):
         return camera_from(text)
-    if text not in scene.cameras:
-        known = ", ".join(scene.cameras) or "none"
-        raise wrong("--camera", text, f"the text of a camera, or a name in the scene (known: {known})")
-    return scene.cameras[text]
+    known = ", ".join(named) or "none"
+    raise wrong("--camera", text, f"the text of a camera, or a name in the scene or the session (known: {known})")
+
+
+def _kept(paths: Sequence[str]) -> dict[str, Camera]:
+    """The cameras of the sessions among some meshes; of one name, that of the first."""
+    from hexmend.io.session import SUFFIX
+    from hexmend_app.state.scene.kept_cameras import cameras_of
+
+    found: dict[str, Camera] = {}
+    for path in paths:
+        if path.lower().endswith(SUFFIX):
+            found = {**cameras_of(path), **found}
+    return found
 
 
 def _captioned(args: argparse.Namespace, scene: Scene) -> tuple[Any, ...]:

@@ -228,7 +228,7 @@ class Window(QMainWindow):
         if document.is_open:
             self._counts.refresh(self.session)
         self.setWindowTitle(f"{document.name}[*] – Hexmend" if document.is_open else "Hexmend")
-        self.setWindowModified(document.modified)
+        self.setWindowModified(self.session.modified)
 
     def _open_menu(self, hit: tuple[int, int] | None, at: QPoint) -> None:
         """Offer what can be done with what was clicked in the view."""

@@ -72,6 +72,7 @@ class Commands(QObject):
         if Path(path).suffix.lower() == SUFFIX:
             session_data.write(Path(path), self._session.given())
             self.done.emit(Saved(Path(path), self.document.now, session=True))
+            self._session.cameras.saved()
             self.document.saved(Path(path), changes=True)
             return []
         moment = self._session.timeline.moment

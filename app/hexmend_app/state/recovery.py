@@ -102,7 +102,7 @@ class Recovery(QObject):
         self._soon.timeout.connect(self.write)
         for told in (session.document.changes_changed, session.timeline.runs_changed, session.view.look_changed,
                      session.kept.changed, session.views.changed, session.order.changed, session.chain.changed,
-                     session.comparison.changed):  # fmt: skip
+                     session.comparison.changed, session.cameras.changed):  # fmt: skip
             told.connect(self._on_change)
         for told in (session.smoothing.ended, session.smoothing.failed):
             told.connect(lambda _: self._on_run())
@@ -178,7 +178,8 @@ class Recovery(QObject):
         """Whether there is something that its file has not."""
         session = self._session
         work = session.history.records or session.chain.stages or session.comparison.results or session.kept.all
-        return session.document.is_open and bool(session.document.modified or work)
+        unsaved = session.document.modified or session.cameras.modified
+        return session.document.is_open and bool(unsaved or work)
 
     def _on_change(self, *_: object) -> None:
         self._changed = True

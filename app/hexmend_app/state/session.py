@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.io.session import SUFFIX
+from hexmend_app.state.cameras import Cameras
 from hexmend_app.state.chain import Chain
 from hexmend_app.state.choices import Choices
 from hexmend_app.state.classer import Classer
@@ -62,6 +64,7 @@ class Session(QObject):
     views : Views
     kept : KeptMoments
     eye : Eye
+    cameras : Cameras
     choices : Choices
     commands : Commands
     """
@@ -89,6 +92,7 @@ class Session(QObject):
         self.kept = KeptMoments(self)
         self.views = Views(self.document, self.kept, self)
         self.eye = Eye(self)
+        self.cameras = Cameras(self)
         self.choices = Choices()
         self.commands = Commands(self)
         self.opener.loaded.connect(self.take)
@@ -102,6 +106,13 @@ class Session(QObject):
     def editable(self) -> bool:
         """Whether the mesh may be changed: not by hand while a method runs on it, nor while another is being read."""
         return self.document.is_open and not self.smoothing.busy and not self.opener.busy
+
+    @property
+    def modified(self) -> bool:
+        """Whether there is something that was not saved: of the mesh or, where a session is open, of the cameras."""
+        path = self.document.path
+        kept = path is not None and path.suffix.lower() == SUFFIX
+        return self.document.modified or (kept and self.cameras.modified)
 
     def given(self) -> SessionData:
         """All that a session's file keeps; a mesh is open, no run goes on, and no sweep is under way."""
@@ -124,6 +135,7 @@ class Session(QObject):
             eye=self.eye.given(),
             journey=self.eye.travelled(),
             choices=self.choices.given(),
+            cameras=self.cameras.given(),
         )
 
     def take(self, data: SessionData, path: Path | None = None) -> None:
@@ -147,6 +159,7 @@ class Session(QObject):
         self.chain.restore(data.chain)
         self.smoothing.break_at(data.breakpoints)
         self.choices.take(data.choices)
+        self.cameras.take(data.cameras, saved=path is not None)
         self.eye.take(data.eye, data.journey)
 
     def shut_down(self) -> None:
@@ -171,6 +184,7 @@ class Session(QObject):
         carried = restored.carried
         self.view.show_as(restored.look)
         self.eye.look_through(carried.scene.camera_of(carried.scene.panels_of(len(carried.meshes))[0]))
+        self.cameras.take_in(carried.scene.cameras)
         if carried.recipe is not None:
             self.chain.take(carried.recipe)
 

@@ -25,6 +25,8 @@ from hexmend_app.state.history import HistoryData
 from hexmend_app.state.kept import Kept
 from hexmend_app.state.order import OrderData
 from hexmend_app.state.plain import Misfit, Own, Plain, since
+from hexmend_app.state.scene import table
+from hexmend_app.state.scene.kept_cameras import KeptCameras
 from hexmend_app.state.selection import SelectionData
 from hexmend_app.state.stand import Stand
 from hexmend_app.state.timeline import TimelineData
@@ -53,6 +55,7 @@ class SessionData:
     eye: Stand | None
     journey: Journey = field(default=Journey(), metadata=since(2))
     choices: ChoicesData = field(default=ChoicesData(), metadata=since(2))
+    cameras: KeptCameras = field(default=KeptCameras(), metadata=since(3))
 
     def __post_init__(self) -> None:
         mesh = self.document.now.mesh
@@ -138,6 +141,7 @@ def _plain(numbers: dict[Mesh, int]) -> Plain:
         Mesh: Own(partial(_number, numbers), _none),
         State: Own(lambda state: _number(numbers, state.mesh), _none),
         Smoother: Own(_smoother_data, _none),
+        KeptCameras: Own(table.plain, _none),
     })  # fmt: skip
 
 
@@ -159,6 +163,7 @@ def read(path: Path) -> SessionData:
         Mesh: Own(_none, lambda at: states(at).mesh),
         State: Own(_none, states),
         Smoother: Own(_none, _smoother),
+        KeptCameras: Own(_none, lambda data: table.made(KeptCameras, data, ("cameras",))),
     }, stored.version)  # fmt: skip
     try:
         data = plain.value(stored.window, SessionData, "the window")

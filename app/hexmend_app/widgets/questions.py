@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from enum import Enum
 from pathlib import Path
 
-from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox, QWidget
 
 from hexmend.io import readable_suffixes, writable_suffixes
 from hexmend.io.session import SUFFIX
@@ -110,25 +111,27 @@ def named(path: str, kinds: str) -> str:
 
 def ask_replacing(parent: QWidget, path: str) -> bool:
     """Whether a file may be written where there may be one."""
-    if not Path(path).exists():
-        return True
+    return not Path(path).exists() or _ask_yes(parent, f"{Path(path).name} already exists.", "Replace it?")
+
+
+def ask_camera_name(parent: QWidget, names: Collection[str]) -> str:
+    """What to call a camera that is kept, "" for nothing: none of these names unless that one is to be replaced."""
+    free = next(name for k in range(1, len(names) + 2) if (name := f"camera {k}") not in names)
+    asked, given = QInputDialog.getText(
+        parent, "Keep the camera", "Name, for pictures and hexmend render --camera:", QLineEdit.EchoMode.Normal, free
+    )
+    name = asked.strip() if given else ""
+    return name if name not in names or _ask_yes(parent, f"There is a camera “{name}” already.", "Replace it?") else ""
+
+
+def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
+    """What becomes of a smoothed mesh that was not saved or, not `of_mesh`, of cameras that a session has not."""
     buttons = QMessageBox.StandardButton
     box = QMessageBox(parent)
     box.setIcon(QMessageBox.Icon.Question)
-    box.setText(f"{Path(path).name} already exists.")
-    box.setInformativeText("Replace it?")
-    box.setStandardButtons(buttons.Yes | buttons.No)
-    box.setDefaultButton(buttons.No)
-    return box.exec() == buttons.Yes
-
-
-def ask_unsaved(parent: QWidget, name: str) -> Answer:
-    """What becomes of a smoothed mesh that was not saved."""
-    buttons = QMessageBox.StandardButton
-    box = QMessageBox(parent)
-    box.setIcon(QMessageBox.Icon.Question)
-    box.setText(f"{name} has been smoothed and not saved.")
-    box.setInformativeText("Save the smoothed mesh before it is closed?")
+    smoothed, others = f"{name} has been smoothed and not saved.", f"The cameras of {name} are others than were saved."
+    box.setText(smoothed if of_mesh else others)
+    box.setInformativeText(f"Save the {'smoothed mesh' if of_mesh else 'session'} before it is closed?")
     box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
     box.setDefaultButton(buttons.Save)
     return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(box.exec(), Answer.CANCEL)
@@ -157,6 +160,18 @@ def show_about(parent: QWidget, version: str) -> None:
         "<p>Its mathematics is T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
         "Meshes</i>. BSD 3-clause licence.</p>",
     )
+
+
+def _ask_yes(parent: QWidget, text: str, question: str) -> bool:
+    """Whether something is meant that takes something away."""
+    buttons = QMessageBox.StandardButton
+    box = QMessageBox(parent)
+    box.setIcon(QMessageBox.Icon.Question)
+    box.setText(text)
+    box.setInformativeText(question)
+    box.setStandardButtons(buttons.Yes | buttons.No)
+    box.setDefaultButton(buttons.No)
+    return box.exec() == buttons.Yes
 
 
 def _ask_to_save(parent: QWidget, title: str, name: str, kinds: str, chosen: str = "") -> str:

@@ -9,10 +9,13 @@ from PySide6.QtGui import QGuiApplication
 
 from hexmend.errors import ParameterError
 from hexmend_app.feature import Action, Feature, Host, Seen
+from hexmend_app.features.camera.cameras_dialog import CamerasDialog
+from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.eye import Journey
 from hexmend_app.state.scene import Camera, camera_from, camera_text
 from hexmend_app.state.stand import Stand
+from hexmend_app.widgets.questions import ask_camera_name
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -40,6 +43,9 @@ class FeatureCamera(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._seen = Seen()
+        self._cameras = self.session.cameras
+        self._menu = CamerasMenu(self._cameras, host.window)
+        self._menu.chosen.connect(self.go)
         self.session.selection.visited.connect(self._fly)
         self.session.eye.now = self._stand
         self.session.eye.travelled = self._journey
@@ -100,10 +106,31 @@ class FeatureCamera(Feature):
                        "window.", self.copy, lambda: self._draws),
             self._move("paste_camera", "&Paste camera", "", "Look from where a copied text says.", self.paste),
             Action(
+                id="keep_camera",
+                text="&Keep camera as…",
+                menu="View/Camera",
+                part=2,
+                keys="Ctrl+Shift+K",
+                icon="camera-plus-outline",
+                help="Keep where the camera stands under a name, to come back to, for pictures and in the session.",
+                handle=self.ask_name,
+                enabled=lambda: self._draws,
+                submenu=self._menu,
+            ),
+            Action(
+                id="cameras",
+                text="Kept ca&meras…",
+                menu="View/Camera",
+                part=2,
+                help="Go to a kept camera, rename or delete it.",
+                handle=lambda: self.cameras_dialog().exec(),
+                enabled=lambda: self._draws and bool(self._cameras.all),
+            ),
+            Action(
                 id="parallel",
                 text="&Parallel projection",
                 menu="View/Camera",
-                part=2,
+                part=3,
                 keys="P",
                 help="Without perspective, for figures.",
                 handle=lambda on: self.canvas.set_parallel(on),
@@ -167,6 +194,29 @@ class FeatureCamera(Feature):
             self.host.messages.show_error("The camera cannot be pasted", f"{error}.")
             return
         self._look_through(camera)
+
+    def ask_name(self) -> None:
+        """Ask what to call where the camera stands, and keep it."""
+        name = ask_camera_name(self.host.window, self._cameras.all)
+        if name:
+            self.keep(name)
+
+    def keep(self, name: str) -> None:
+        """Keep where the camera stands under a name, or say why not."""
+        camera = Camera.at(self.canvas.stand)
+        done = f"The camera is kept as “{name}”: View > Camera has it, and so have pictures."
+        self.host.said("The camera was not kept", lambda: self._cameras.keep(name, camera), done)
+
+    def go(self, name: str) -> None:
+        """Look through a kept camera."""
+        if self._draws and name in self._cameras.all:
+            self._look_through(self._cameras.all[name])
+
+    def cameras_dialog(self) -> CamerasDialog:
+        """The dialog in which kept cameras are gone to, renamed and deleted."""
+        dialog = CamerasDialog(self._cameras, self.host.window)
+        dialog.chosen.connect(self.go)
+        return dialog
 
     def _look_through(self, camera: Camera, journey: Journey | None = None) -> None:
         if camera.stand is not None:

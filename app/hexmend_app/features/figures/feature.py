@@ -85,7 +85,8 @@ class FeatureFigures(Feature):
 
         check_matplotlib()
         made_folder(folder)
-        scene = stationary(self.canvas.scene(Page(pixels=(self.canvas.width(), self.canvas.height()))))
+        page = Page(pixels=(self.canvas.width(), self.canvas.height()))
+        scene = stationary(self.canvas.scene(page, self.session.cameras.all))
         write_scene(folder / "scene.toml", scene)
         recipes = recipes_of(self.session)
         for name, recipe in recipes.items():

@@ -62,9 +62,10 @@ class FeatureSave(Feature):
         """Whether what is unsaved was saved or may be lost."""
         session = self.session
         session.stepping.leave()
-        if not session.document.modified and not session.smoothing.busy:
+        if not session.modified and not session.smoothing.busy:
             return True
-        answer = ask_unsaved(self.host.window, session.document.name)
+        of_mesh = session.document.modified or session.smoothing.busy
+        answer = ask_unsaved(self.host.window, session.document.name, of_mesh)
         if answer is Answer.SAVE:
             session.smoothing.end_now()
             return self.ask_mesh()
@@ -94,23 +95,25 @@ class FeatureSave(Feature):
         dialog = self.picture_dialog()
         if dialog.exec():
             self._last = dialog.scene()
+            self.session.cameras.take_in(self._last.cameras)
             self.write_picture(dialog.path(), self._last)
 
     def picture_dialog(self) -> PictureDialog:
         """The dialog that edits the scene of what is seen: page, lines, bar and axes are as they were last."""
         canvas, last = self.canvas, self._last
         size = canvas.size() * self.host.window.devicePixelRatioF()
-        scene = canvas.scene(Page(pixels=(size.width(), size.height())) if last is None else last.page)
+        page = Page(pixels=(size.width(), size.height())) if last is None else last.page
+        scene = canvas.scene(page, self.session.cameras.all)
         if last is not None:
             lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
-            scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes, cameras=last.cameras)
+            scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
         return PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.window)
 
     def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
         """Write the view as a picture of `size` pixels; whether it was."""
         page = Page(pixels=size, background="transparent" if transparent else "white")
-        return self.write_picture(Path(path), self.canvas.scene(page))
+        return self.write_picture(Path(path), self.canvas.scene(page, self.session.cameras.all))
 
     def _carried(self, path: Path, scene: Scene) -> dict[str, str]:
         """What a picture carries: the scene, which meshes it shows, and what ran on the first of them."""

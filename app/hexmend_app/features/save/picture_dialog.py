@@ -27,6 +27,7 @@ from hexmend_app.features.save.preview import Preview
 from hexmend_app.features.save.size_form import SizeForm
 from hexmend_app.state.scene import Camera, Panel, Scene, Table, read_scene, write_scene
 from hexmend_app.state.scene.camera import DIRECTIONS
+from hexmend_app.state.scene.kept_cameras import joined
 from hexmend_app.widgets.key_form import KeyForm
 from hexmend_app.widgets.questions import ask_replacing, ask_scene, ask_scene_target, folder, named, remember_folder
 from hexmend_app.widgets.scrolled import scrolled
@@ -189,8 +190,9 @@ class PictureDialog(QDialog):
         return replace(self._base, panels=panels, camera=camera or self._seen.camera, **tables)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show another scene of what is seen; its panels are as the views are."""
-        self._base = replace(scene, panels=self._seen.panels)
+        """Show another scene of what is seen, with its cameras too; its panels are as the views are."""
+        cameras = joined(self._seen.cameras, scene.cameras)
+        self._base = replace(scene, panels=self._seen.panels, cameras=cameras)
         self.size_form.show_page(scene.page)
         for name, form in self.forms:
             form.show_table(getattr(scene, name))

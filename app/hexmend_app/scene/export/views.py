@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.export.sheet import Sheet, draw_sheet
 from hexmend_app.scene.export.subject import Subject
 from hexmend_app.scene.panes import Panes
-from hexmend_app.state.scene import Page, Panel, Scene, Wiped
+from hexmend_app.state.scene import Camera, Page, Panel, Scene, Wiped
 from hexmend_app.state.stand import Stand
 
 
-def scene_of(panes: Panes, names: Sequence[str] = (), page: Page | None = None) -> Scene:
+def scene_of(
+    panes: Panes, names: Sequence[str] = (), page: Page | None = None, cameras: Mapping[str, Camera] | None = None
+) -> Scene:
     """The scene that shows what views show, from where they are seen.
 
     Parameters
@@ -21,10 +23,13 @@ def scene_of(panes: Panes, names: Sequence[str] = (), page: Page | None = None) 
     names : sequence of str
         What the captions of several views call them.
     page : Page, optional
+    cameras : mapping, optional
+        What the scene names beside its own.
     """
     pose = Pose.of(panes.first.camera)
     stand = Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, panes.eye.up)
-    return Scene.of(panes.first.frame.look, stand, page=page or Page(), panels=_panels(panes, names))
+    tables = {"page": page or Page(), "panels": _panels(panes, names), "cameras": dict(cameras or {})}
+    return Scene.of(panes.first.frame.look, stand, **tables)
 
 
 def subjects_of(panes: Panes, names: Sequence[str] = ()) -> list[Subject]:

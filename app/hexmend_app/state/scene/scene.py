@@ -10,6 +10,7 @@ from hexmend.mesh import Mesh
 from hexmend_app.state.look import Look, Structure, Traces
 from hexmend_app.state.scene.camera import MOST, Camera, Panel
 from hexmend_app.state.scene.cut import Cut
+from hexmend_app.state.scene.kept_cameras import MOST as MOST_CAMERAS
 from hexmend_app.state.scene.page import Axes, Bar, Lines, Page
 from hexmend_app.state.scene.show import Colours, Show
 from hexmend_app.state.scene.table import Table, key
@@ -55,7 +56,7 @@ class Scene(Table):
 
     format: int = key(FORMAT, low=1)
     camera: Camera = key(Camera)
-    cameras: dict[str, Camera] = key(dict, most=100)
+    cameras: dict[str, Camera] = key(dict, most=MOST_CAMERAS)
     panels: tuple[Panel, ...] = key((), most=MOST)
     cut: Cut = key(Cut)
     show: Show = key(Show)

@@ -17,6 +17,7 @@ from hexmend_app.shell.starting import Starting
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Structure, Traces, ValueRange
 from hexmend_app.state.run import Phase
+from hexmend_app.state.scene import Camera
 from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
@@ -52,6 +53,8 @@ def work(window, qtbot):
         traces=Traces(arrows=Arrows.SIGHT, factor=2.0),
     )
     session.view.counted = "volume"
+    session.cameras.keep("from below", Camera("-z"))
+    session.cameras.keep("as it is", Camera.at(window.canvas.stand))
     session.selection.choose(9, int(session.document.now.mesh.hexes[9, 3]))
     window.refresh()
     window.canvas.look_along("-x")
@@ -94,6 +97,7 @@ def tables(window):
         "look": session.view.look,
         "counted": window.features["histogram"].metric,
         "kept": [(one.slot, one.name) for one in session.kept.all],
+        "cameras": list(session.cameras.all.items()),
         "chosen": (session.selection.hex, session.selection.node),
         "order": (session.order.stage, session.order.why),
         "chain": session.chain.given(),

@@ -1,0 +1,141 @@
+"""The cameras that are kept, to be gone to, renamed and deleted."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QHBoxLayout,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from hexmend.errors import ParameterError
+from hexmend_app.state.cameras import Cameras
+from hexmend_app.widgets.style import WORSE, explain, note
+
+_NAME = Qt.ItemDataRole.UserRole
+
+
+class CamerasDialog(QDialog):
+    """A list of names, and what is done with the one that is chosen.
+
+    Parameters
+    ----------
+    cameras : Cameras
+
+    Signals
+    -------
+    chosen(name)
+        It is to be looked through; the dialog stays.
+    """
+
+    chosen = Signal(str)
+
+    def __init__(self, cameras: Cameras, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setWindowTitle("Kept cameras")
+        self._cameras = cameras
+        self.list = QListWidget()
+        explain(self.list, "Kept cameras", "Double-click looks through a camera, F2 renames it, Delete deletes it.")
+        self.list.setEditTriggers(QListWidget.EditTrigger.EditKeyPressed)
+        self._problem = note("", WORSE)
+        self._problem.setAccessibleName("What is wrong")
+        self._buttons = [QPushButton(text) for text in ("&Go to", "&Rename", "&Delete")]
+        for button, act in zip(self._buttons, (self._go, self._edit, self._delete), strict=True):
+            button.setAutoDefault(False)
+            button.clicked.connect(act)
+        self.list.itemActivated.connect(self._go)
+        self.list.itemChanged.connect(self._rename)
+        self.list.currentRowChanged.connect(self._enable)
+        QShortcut(QKeySequence(QKeySequence.StandardKey.Delete), self.list, self._delete,
+                  context=Qt.ShortcutContext.WidgetShortcut)  # fmt: skip
+        self._lay_out()
+        self._show("")
+        # Later: the list is not to be filled anew within the editor that renames.
+        cameras.changed.connect(self._on_changed, Qt.ConnectionType.QueuedConnection)
+
+    def _lay_out(self) -> None:
+        column = QVBoxLayout()
+        for button in self._buttons:
+            column.addWidget(button)
+        column.addStretch()
+        row = QHBoxLayout()
+        row.addWidget(self.list, 1)
+        row.addLayout(column)
+        close = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        close.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        layout.addLayout(row, 1)
+        layout.addWidget(self._problem)
+        layout.addWidget(close)
+        self._problem.hide()
+        self.resize(380, 260)
+
+    @property
+    def _name(self) -> str:
+        """The camera that is chosen, "" for none."""
+        item = self.list.currentItem()
+        return "" if item is None else item.data(_NAME)
+
+    def _go(self) -> None:
+        if self._name:
+            self.chosen.emit(self._name)
+
+    def _edit(self) -> None:
+        if self.list.currentItem() is not None:
+            self.list.editItem(self.list.currentItem())
+
+    def _delete(self) -> None:
+        if self._name:
+            self._cameras.remove(self._name)
+
+    def _rename(self, item: QListWidgetItem) -> None:
+        """Call a camera as was typed, or say why not."""
+        name, before = item.text().strip(), item.data(_NAME)
+        problem = ""
+        try:
+            if name != before and name in self._cameras.all:
+                problem = f"There is a camera “{name}” already: choose another name, or delete that one first."
+            elif name != before:
+                self._cameras.rename(before, name)
+                return
+        except ParameterError as error:
+            problem = f"{error}."
+        self.list.blockSignals(True)
+        item.setText(before)
+        self.list.blockSignals(False)
+        self._refuse(problem)
+
+    def _on_changed(self) -> None:
+        """Show the cameras of now; the one in the place of the chosen one is chosen."""
+        row = self.list.currentRow()
+        self._refuse("")
+        self._show("")
+        self.list.setCurrentRow(min(max(row, 0), self.list.count() - 1))
+
+    def _show(self, chosen: str) -> None:
+        self.list.blockSignals(True)
+        self.list.clear()
+        for name in self._cameras.all:
+            item = QListWidgetItem(name)
+            item.setData(_NAME, name)
+            item.setFlags(item.flags() | Qt.ItemFlag.ItemIsEditable)
+            self.list.addItem(item)
+        names = list(self._cameras.all)
+        self.list.setCurrentRow(names.index(chosen) if chosen in names else min(0, len(names) - 1))
+        self.list.blockSignals(False)
+        self._enable()
+
+    def _enable(self) -> None:
+        for button in self._buttons:
+            button.setEnabled(bool(self._name))
+
+    def _refuse(self, problem: str) -> None:
+        self._problem.setText(problem)
+        self._problem.setVisible(bool(problem))

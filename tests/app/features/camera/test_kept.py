@@ -1,0 +1,171 @@
+"""Cameras that are kept by name: asked for, gone to, renamed, deleted, and in pictures."""
+
+from __future__ import annotations
+
+import pytest
+from PIL import Image
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMenu, QMessageBox, QPushButton
+
+from hexmend.cli.main import main
+from hexmend_app.state.scene import Camera, Scene, read_scene, write_scene
+from hexmend_app.state.scene.carried import read_carried
+from tests.app.driving import open_and_wait
+from tests.patience import PATIENCE
+
+
+@pytest.fixture
+def kept(window):
+    """Two cameras, and what the canvas had for them."""
+    stands = {}
+    for name, direction in (("front & side", "-y"), ("top", "+z")):
+        window.canvas.look_along(direction)
+        window.features["camera"].keep(name)
+        stands[name] = window.canvas.stand
+    window.canvas.look_along("iso")
+    window.refresh()
+    return stands
+
+
+@pytest.fixture
+def dialog(window, kept, qtbot):
+    dialog = window.features["camera"].cameras_dialog()
+    qtbot.addWidget(dialog)
+    dialog.show()
+    return dialog
+
+
+def names(dialog):
+    return [dialog.list.item(row).text() for row in range(dialog.list.count())]
+
+
+def button(dialog, text):
+    return next(one for one in dialog.findChildren(QPushButton) if one.text() == text)
+
+
+def menu_of(window):
+    (menu,) = (one for one in window.findChildren(QMenu) if one.title().replace("&", "") == "Go to camera")
+    return menu
+
+
+def test_a_camera_is_kept_under_a_name_and_replaced_by_asking(window, monkeypatch):
+    cameras, asked = window.session.cameras, []
+    monkeypatch.setattr(QInputDialog, "getText", lambda *given: asked.append(given[4]) or (" front ", True))
+    window.action("keep_camera").trigger()
+    first = Camera.at(window.canvas.stand)
+    assert cameras.all == {"front": first}
+    window.canvas.look_along("+x")
+    for answer in (QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes):
+        monkeypatch.setattr(QMessageBox, "exec", lambda self, answer=answer: answer)
+        before = cameras.all
+        window.action("keep_camera").trigger()
+        assert (cameras.all == before) == (answer == QMessageBox.StandardButton.No)
+    assert cameras.all == {"front": Camera.at(window.canvas.stand)}
+    assert asked[0] == "camera 1"
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("never", False))
+    window.action("keep_camera").trigger()
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("x" * 500, True))
+    window.action("keep_camera").trigger()
+    assert list(cameras.all) == ["front"]
+    assert window.messages.messages()[-1][1] == "The camera was not kept"
+
+
+def test_the_menu_goes_to_a_camera(window, kept):
+    menu = menu_of(window)
+    assert menu.menuAction().isEnabled()
+    menu.aboutToShow.emit()
+    first, second = menu.actions()
+    second.trigger()
+    assert window.canvas.stand == kept["top"]
+    first.trigger()
+    assert window.canvas.stand == kept["front & side"]
+
+
+def test_without_cameras_there_is_nothing_to_go_to(window):
+    window.refresh()
+    assert not menu_of(window).menuAction().isEnabled()
+    assert not window.action("cameras").isEnabled()
+
+
+def test_the_dialog_goes_to_cameras_and_deletes_them(window, kept, dialog, qtbot):
+    assert names(dialog) == list(kept)
+    dialog.list.setCurrentRow(1)
+    button(dialog, "&Go to").click()
+    assert window.canvas.stand == kept["top"]
+    button(dialog, "&Delete").click()
+    qtbot.waitUntil(lambda: names(dialog) == ["front & side"], timeout=PATIENCE)
+    button(dialog, "&Delete").click()
+    qtbot.waitUntil(lambda: not names(dialog), timeout=PATIENCE)
+    assert not button(dialog, "&Go to").isEnabled()
+    assert window.session.cameras.all == {}
+
+
+def type_name(dialog, row, text):
+    dialog.list.setCurrentRow(row)
+    button(dialog, "&Rename").click()
+    editor = dialog.list.findChildren(QLineEdit)[-1]
+    editor.selectAll()
+    QTest.keyClicks(editor, text)
+    QTest.keyClick(editor, Qt.Key.Key_Return)
+
+
+def test_the_dialog_renames(window, kept, dialog, qtbot):
+    camera = window.session.cameras.all["top"]
+    type_name(dialog, 1, "from above")
+    qtbot.waitUntil(lambda: names(dialog) == ["front & side", "from above"], timeout=PATIENCE)
+    assert window.session.cameras.all["from above"] == camera
+    type_name(dialog, 0, "from above")
+    said = next(one for one in dialog.findChildren(QLabel) if one.accessibleName() == "What is wrong")
+    qtbot.waitUntil(lambda: "already" in said.text(), timeout=PATIENCE)
+    assert names(dialog) == list(window.session.cameras.all) == ["front & side", "from above"]
+
+
+def test_scenes_and_pictures_of_the_window_have_them(window, kept, tmp_path, qtbot, mesh_file):
+    save, cameras = window.features["save"], window.session.cameras
+    dialog = save.picture_dialog()
+    qtbot.addWidget(dialog)
+    dialog.camera.setCurrentText("top")
+    assert dialog.scene().camera.stand == kept["top"]
+    write_scene(tmp_path / "more.toml", Scene(cameras={"top": Camera("-x"), "left": Camera("-y")}))
+    dialog.load(str(tmp_path / "more.toml"))
+    assert list(dialog.scene().cameras) == [*kept, "top (2)", "left"]
+    assert save.picture(tmp_path / "p.png", (200, 150))
+    mine = dict(cameras.all)
+    assert read_carried(tmp_path / "p.png").scene.cameras == mine
+    for name in mine:
+        cameras.remove(name)
+    open_and_wait(qtbot, window, tmp_path / "p.png")
+    assert cameras.all == mine
+    open_and_wait(qtbot, window, mesh_file)
+    assert cameras.all == mine
+
+
+def test_render_looks_through_a_camera_of_a_session(window, kept, tmp_path, capsys):
+    path = tmp_path / "work.hexmend"
+    assert window.features["session"].save(path)
+    scene = tmp_path / "scene.toml"
+    words = ["render", str(path), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--save-scene", str(scene)]
+    assert main([*words, "--camera", "front & side"]) == 0
+    assert read_scene(scene).camera.stand == kept["front & side"]
+    with Image.open(tmp_path / "p.png") as image:
+        assert image.size == (200, 150)
+    assert main([*words, "--camera", "camera 9"]) == 2
+    assert "in the scene or the session (known: front & side, top)" in capsys.readouterr().err
+
+
+def test_a_session_whose_cameras_are_lost_is_asked_about(window, kept, tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        QMessageBox, "exec", lambda self: asked.append(self.text()) or QMessageBox.StandardButton.Cancel
+    )
+    assert window.may_leave()
+    window.features["session"].save(tmp_path / "work.hexmend")
+    window.refresh()
+    assert window.may_leave()
+    assert not window.isWindowModified()
+    window.features["camera"].keep("another")
+    window.refresh()
+    assert window.isWindowModified()
+    assert not window.may_leave()
+    assert asked == ["The cameras of work.hexmend are others than were saved."]
