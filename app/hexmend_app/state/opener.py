@@ -9,12 +9,12 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.errors import FileError, HexmendError, ParameterError
+from hexmend.errors import FileError, HexmendError
 from hexmend.io import read
 from hexmend_app.state import session_data
 from hexmend_app.state.document import Document, State
-from hexmend_app.state.look import Look
-from hexmend_app.state.scene.carried import Carried, digest, read_carried
+from hexmend_app.state.restoring import Restored, Wanting, restored
+from hexmend_app.state.scene.carried import read_carried
 from hexmend_app.state.scene.png import is_png
 from hexmend_app.state.session_data import SessionData
 from hexmend_app.state.task import Task
@@ -37,50 +37,12 @@ class Progress:
     hexes: int = 0
 
 
-@dataclass(frozen=True, eq=False)
-class Restored:
-    """What a picture shows.
-
-    Parameters
-    ----------
-    picture : Path
-    carried : Carried
-    path : Path
-        Of the mesh's file.
-    state : State
-        The mesh of that.
-    look : Look
-        How the picture has it looked at.
-    digest : str
-        Of the mesh.
-    """
-
-    picture: Path
-    carried: Carried
-    path: Path
-    state: State
-    look: Look
-    digest: str
-
-
-@dataclass(frozen=True, eq=False)
-class Wanting:
-    """A picture whose mesh is not where it was: somebody has to say where it is."""
-
-    picture: Path
-    carried: Carried
-
-
 def _read_picture(wanting: Wanting, path: Path, task: Task) -> Restored:
-    """Read the mesh that a picture shows, and look at it as the picture does."""
+    """Read the mesh that a picture shows, and look at it as the picture does; then the others that it shows."""
     state = _read(path, task)
     if not isinstance(state, State):
         raise FileError(path, "is no mesh: expected the one that the picture shows", "Name a mesh file.")
-    try:
-        look = wanting.carried.scene.look(state.mesh)
-    except ParameterError as error:
-        raise FileError(wanting.picture, f"shows another mesh than {path.name}: {error}", "Name its mesh.") from None
-    return Restored(wanting.picture, wanting.carried, path, state, look, digest(state.mesh))
+    return restored(wanting, path, state, lambda other: task.tell(Progress(Doing.READING, other)))
 
 
 def _open(path: Path, wanting: Wanting | None, task: Task) -> State | SessionData | Restored | Wanting:

@@ -32,7 +32,7 @@ from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
 
 if TYPE_CHECKING:
-    from hexmend_app.state.opener import Restored
+    from hexmend_app.state.restoring import Restored
     from hexmend_app.state.session_data import SessionData
 
 
@@ -180,10 +180,16 @@ class Session(QObject):
         self.classer.forget()
 
     def _look_as(self, restored: Restored) -> None:
-        """Look at the mesh as a picture has it, with the recipe at hand that ran there."""
+        """Look at the mesh as a picture has it, the others beside it, with the recipe at hand that ran there."""
         carried = restored.carried
         self.view.show_as(restored.look)
-        self.eye.look_through(carried.scene.camera_of(carried.scene.panels_of(len(carried.meshes))[0]))
+        for one in restored.others:
+            if one.state is not None:
+                self.views.show(one.name, one.state)
+        if restored.wiped is not None:
+            self.views.set_wiping(True)
+            self.views.move_wipe(restored.wiped)
+        self.eye.look_through(carried.scene.camera_of(carried.panels[0]))
         self.cameras.take_in(carried.scene.cameras)
         if carried.recipe is not None:
             self.chain.take(carried.recipe)

@@ -12,6 +12,9 @@ from hexmend_app.state.kept import KeptMoments
 #: Views beside that of the mesh as it is now.
 MOST = 3
 
+#: What the view of the mesh as it is now is called.
+NOW = "now"
+
 #: How near the wipe's edge comes to a side of the view, as a share of its width.
 _MARGIN = 0.03
 

@@ -9,15 +9,13 @@ from hexmend_app.canvas.captions import Caption
 from hexmend_app.feature import Action, Feature, Host, Seen
 from hexmend_app.scene.palette import BLUE, KEPT, Role
 from hexmend_app.state.document import State
+from hexmend_app.state.views import NOW
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
 #: How far a key moves the wipe's edge, as a share of the view's width.
 STEP = 0.02
-
-#: What the view of the mesh as it is now is called, as in the histogram.
-_NOW = "now"
 
 
 class FeatureBeside(Feature):
@@ -127,7 +125,7 @@ class FeatureBeside(Feature):
             self._views.move_wipe(self._views.wipe.at + way * STEP)
 
     def _show_captions(self) -> None:
-        shown = [(_NOW, self.session.document.now, BLUE)]
+        shown = [(NOW, self.session.document.now, BLUE)]
         shown += [(one.name, one.state, self._colour(one.state)) for one in self._views.all]
         captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
         self.canvas.frame.set_captions(captions, self._views.wipe)

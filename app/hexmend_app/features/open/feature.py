@@ -12,10 +12,11 @@ from hexmend.errors import FileError
 from hexmend_app.feature import Action, Feature, Host, Panel, Place
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.features.open.welcome import Welcome
-from hexmend_app.features.open.words import alike, lost, of_picture, said
+from hexmend_app.features.open.words import lost, of_picture, said
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state.opener import Doing, Progress, Restored, Wanting
+from hexmend_app.state.opener import Doing, Progress
 from hexmend_app.state.recent import Recent
+from hexmend_app.state.restoring import Restored, Wanting
 from hexmend_app.widgets.questions import ask_mesh, remember_folder
 
 
@@ -116,7 +117,7 @@ class FeatureOpen(Feature):
         self.host.messages.clear()
         if restored := self._restored:
             self._restored = None
-            show = self.host.messages.show_info if alike(restored) else self.host.messages.show_warning
+            show = self.host.messages.show_info if restored.alike else self.host.messages.show_warning
             show(*of_picture(restored))
         elif notes := self._document.start.mesh.notes:
             self.host.messages.show_info(" ".join(notes), timeout_ms=0)

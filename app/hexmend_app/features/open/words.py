@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from hexmend_app.state.opener import Doing, Progress, Restored, Wanting
+from hexmend_app.state.opener import Doing, Progress
+from hexmend_app.state.restoring import Beside, Lack, Restored, Wanting
+from hexmend_app.state.views import MOST
 
 
 def said(progress: Progress) -> str:
@@ -20,22 +22,47 @@ def said(progress: Progress) -> str:
     }[progress.doing]
 
 
-def alike(restored: Restored) -> bool:
-    """Whether a mesh is the one that a picture shows, be it before what ran on it."""
-    return restored.digest in (restored.carried.first.opened, restored.carried.first.shown)
-
-
 def of_picture(restored: Restored) -> tuple[str, ...]:
-    """What is said of the mesh that was opened from a picture: of another than it shows, a title first."""
+    """What is said of meshes that were opened from a picture: of others than it shows, a title first."""
     name, picture, carried = restored.path.name, restored.picture.name, restored.carried
-    several = f" It shows {len(carried.meshes)} meshes, of which this is one." if len(carried.meshes) > 1 else ""
-    if not alike(restored):
-        text = f"{name} has other hexes, or nodes elsewhere, than the mesh that {picture} was made of.{several}"
-        return f"This is not the mesh of {picture}", text
+    if restored.digest not in (carried.first.opened, carried.first.shown):
+        text = f"{name} has other hexes, or nodes elsewhere, than the mesh that {picture} was made of."
+        return f"This is not the mesh of {picture}", text + _beside(restored)
     if restored.digest == carried.first.shown:
-        return (f"{name} is looked at as in {picture}.{several}",)
-    ran = f" after “{carried.recipe.title}”, which is in the Recipe panel" if carried.recipe is not None else " changed"
-    return (f"{name} is looked at as in {picture}, which shows it{ran}.{several}",)
+        seen = f"{name} is looked at as in {picture}."
+    else:
+        ran = (
+            f"after “{carried.recipe.title}”, which is in the Recipe panel" if carried.recipe is not None else "changed"
+        )
+        seen = f"{name} is looked at as in {picture}, which shows it {ran}."
+    text = seen + _beside(restored)
+    return (text,) if restored.alike else (f"This is not all that {picture} shows", text)
+
+
+def _beside(restored: Restored) -> str:
+    """What is said of the other meshes of a picture, after what is said of the first."""
+    shown = [f"“{one.name}”" for one in restored.others if one.state is not None]
+    names = " and ".join(filter(None, (", ".join(shown[:-1]), *shown[-1:])))
+    how = "is wiped over it" if restored.wiped is not None else "stands beside it"
+    if len(shown) > 1:
+        how = "stand beside it"
+    found = [f"{names} {how}."] if shown else []
+    found += [_lacking(one) for one in restored.others if one.lack is not None]
+    return "".join(f" {sentence}" for sentence in found)
+
+
+def _lacking(one: Beside) -> str:
+    """Why another mesh of a picture is not shown, or in what it is another."""
+    if one.lack is Lack.PLACES:
+        return f"“{one.name}” is another than in the picture: {one.file} has its nodes elsewhere."
+    why = {
+        Lack.ROOM: f"the window has room for {MOST + 1} views",
+        Lack.FILE: f"{one.file} is not there" if one.file else "the picture does not say in which file it is",
+        Lack.READING: str(one.error).rstrip("."),
+        Lack.RUN: f"it is an iteration, or a result, of a run on {one.file}, which the file alone does not give",
+        Lack.HEXES: f"{one.file} has other hexes, and views beside are of one mesh",
+    }[one.lack]
+    return f"“{one.name}” is not shown: {why}."
 
 
 def lost(wanting: Wanting) -> tuple[str, str]:

@@ -17,7 +17,7 @@ from hexmend.mesh import Mesh
 from hexmend.recipe import Recipe
 from hexmend.toml_text import parsed
 from hexmend_app.state.scene import png
-from hexmend_app.state.scene.camera import MOST
+from hexmend_app.state.scene.camera import MOST, Panel
 from hexmend_app.state.scene.scene import Scene
 from hexmend_app.state.scene.table import Table, key, made
 from hexmend_app.state.scene.toml import from_toml, table_text, to_toml
@@ -102,9 +102,14 @@ class Carried:
     recipe: Recipe | None = None
 
     @property
+    def panels(self) -> tuple[Panel, ...]:
+        """The pictures on its page."""
+        return self.scene.panels_of(len(self.meshes))
+
+    @property
     def first(self) -> Pictured:
         """The mesh of the first panel."""
-        return self.meshes[self.scene.panels_of(len(self.meshes))[0].mesh - 1]
+        return self.meshes[self.panels[0].mesh - 1]
 
 
 def carrying(scene: Scene, meshes: Sequence[Pictured], recipe: Recipe | None = None) -> dict[str, str]:
