@@ -96,7 +96,6 @@ def stationary(scene: Scene) -> Scene:
         movement=Traces(),
         structure=replace(scene.structure, original=False, kinds=False),
         panels=(),
-        cameras={},
     )
 
 

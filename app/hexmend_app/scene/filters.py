@@ -13,7 +13,7 @@ from hexmend_app.scene import sides
 from hexmend_app.scene.cutting import cut
 from hexmend_app.scene.frame import Frame, same_hexes
 from hexmend_app.scene.values import within
-from hexmend_app.state.clip import Clip
+from hexmend_app.state.clip import Clip, CutLeft
 from hexmend_app.state.look import ValueRange
 from hexmend_app.state.measured import values
 
@@ -37,15 +37,18 @@ class Filters:
     def kept(self, frame: Frame) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all.
 
-        A cut by whole elements is made where the nodes are as a plane comes, so that none flickers as they move.
+        A cut by whole elements is made where the nodes are as a plane comes, so that none flickers as they move; or it
+        is as the look says.
         """
         look, points, figures = frame.look, frame.mesh.points, frame.figures
         clip, chosen, topology = look.clip, look.quality_range, self._mesh.topology
+        crinkled = clip is not None and clip.crinkle
+        left = look.left if look.left is not None and look.left.clip == clip else None
         parts = (
             self._part(
                 "clip",
-                clip if clip is not None and clip.crinkle else None,
-                lambda: _uncut(points, self._mesh.hexes, clip),
+                (clip, left) if crinkled else None,
+                lambda: self.uncut(points, clip) if left is None else left.mask(self._mesh.n_hexes),
             ),
             self._part("peel", look.peel or None, lambda: topology.layers >= look.peel),
             self._part(
@@ -58,6 +61,26 @@ class Filters:
         )
         masks = [mask for mask in parts if mask is not None]
         return reduce(np.logical_and, masks) if masks else None
+
+    def uncut(self, points: np.ndarray, clip: Clip) -> np.ndarray:
+        """The hexes that a cut by whole elements leaves where the nodes are, (m,) bool."""
+        normals, offsets = zip(*(plane.equation for plane in clip.planes), strict=True)
+        return sides.centres_kept(points, self._mesh.hexes, np.array(normals), np.array(offsets), clip.notch)
+
+    def cut_left(self, frame: Frame) -> CutLeft | None:
+        """What the cut by whole elements has left, where one made now would leave others; else None."""
+        clip = frame.look.clip
+        if clip is None or not clip.crinkle:
+            return None
+        self.kept(frame)
+        left = self._known["clip"][1]
+        return None if np.array_equal(left, self.uncut(frame.mesh.points, clip)) else CutLeft.of(clip, left)
+
+    def copied(self) -> Filters:
+        """The same, for another view that may come to another look."""
+        copy = Filters(self._mesh)
+        copy._known = dict(self._known)
+        return copy
 
     def ghosts(self, frame: Frame) -> np.ndarray | None:
         """The hexes around what is isolated, as many rings of them as the look wants, (m,) bool; None for none.
@@ -97,11 +120,6 @@ class Filters:
         if name not in self._known or self._known[name][0] != reason:
             self._known[name] = reason, find()
         return self._known[name][1]
-
-
-def _uncut(points: np.ndarray, hexes: np.ndarray, clip: Clip) -> np.ndarray:
-    normals, offsets = zip(*(plane.equation for plane in clip.planes), strict=True)
-    return sides.centres_kept(points, hexes, np.array(normals), np.array(offsets), clip.notch)
 
 
 def _all_but(dug: frozenset[int], m: int) -> np.ndarray:

@@ -139,3 +139,44 @@ class BoxClip:
 
 
 Clip = PlaneClip | BoxClip
+
+
+@dataclass(frozen=True)
+class CutLeft:
+    """Which whole elements a cut has left: it was made where the nodes were then, and holds while they move.
+
+    Parameters
+    ----------
+    clip : PlaneClip or BoxClip
+        To another cut it says nothing.
+    hexes : tuple of (first, last)
+        Ascending ranges of their numbers, both ends within.
+    """
+
+    clip: Clip
+    hexes: tuple[tuple[int, int], ...] = ()
+
+    def __post_init__(self) -> None:
+        before = -1
+        for first, last in self.hexes:
+            if not before < first <= last:
+                raise ValueError(f"elements {first} to {last} come after {before}: expected ascending ranges")
+            before = last
+
+    @classmethod
+    def of(cls, clip: Clip, left: np.ndarray) -> CutLeft:
+        """The elements that are True, (m,) bool."""
+        ends = np.flatnonzero(np.diff(left, prepend=False, append=False))
+        return cls(clip, tuple((int(first), int(end) - 1) for first, end in ends.reshape(-1, 2)))
+
+    @property
+    def most(self) -> int:
+        """The greatest number; -1 where nothing is left."""
+        return self.hexes[-1][1] if self.hexes else -1
+
+    def mask(self, hexes: int) -> np.ndarray:
+        """Which of so many elements are left, (m,) bool."""
+        answer = np.zeros(hexes, dtype=bool)
+        for first, last in self.hexes:
+            answer[first : last + 1] = True
+        return answer

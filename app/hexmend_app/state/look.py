@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
 
-from hexmend_app.state.clip import Clip
+from hexmend_app.state.clip import Clip, CutLeft
+from hexmend_app.state.plain import since
 
 #: Maps of colours that can be chosen, the first of them the default, and last that of changes.
 COLOUR_MAPS = ("viridis", "cividis", "plasma", "inferno", "BrBG")
@@ -217,6 +218,8 @@ class Look:
         What is drawn of the mesh's structure.
     traces : Traces
         What is drawn of how the mesh has moved.
+    left : CutLeft, optional
+        What the cut by whole elements has left; without it, it is made where the nodes are.
     """
 
     clip: Clip | None = None
@@ -232,6 +235,7 @@ class Look:
     neutral: bool = False
     structure: Structure = Structure()
     traces: Traces = Traces()
+    left: CutLeft | None = field(default=None, metadata=since(3))
 
     def coloured_as(self, other: Look) -> bool:
         """Whether the same elements have the same colours."""

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.movement import MOVEMENTS
 from hexmend.quality import METRICS
-from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, PlaneClip
+from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, CutLeft, PlaneClip
 from hexmend_app.state.look import COLOUR_MAPS, Isolation, Look
 
 
@@ -46,10 +46,18 @@ class ViewData:
         named = (*isolated, *self.look.dug, *self.dug)
         if named and not 0 <= min(named) <= max(named) < hexes:
             raise ValueError("hexes are isolated or dug which the mesh has not")
+        if self.look.left is not None and self.look.left.most >= hexes:
+            raise ValueError("hexes are left by the cut which the mesh has not")
 
 
 class View(QObject):
     """The look of the 3D view.
+
+    Attributes
+    ----------
+    left : callable
+        Gives what the cut by whole elements has left, a CutLeft, where a cut made anew would leave others; who draws
+        sets it.
 
     Signals
     -------
@@ -64,6 +72,7 @@ class View(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.look = Look()
+        self.left: Callable[[], CutLeft | None] = lambda: None
         self.handles = True  # of the plane or the box, in the view
         self.plane_at = 0  # which of several planes has them
         self.snap = True
@@ -73,6 +82,8 @@ class View(QObject):
 
     def change(self, **fields: object) -> None:
         """Change fields of the look; says nothing where nothing changes."""
+        if "clip" in fields:
+            fields = {"left": None, **fields}  # it is made anew
         look = dataclasses.replace(self.look, **fields)
         if look != self.look:
             self.look = look
@@ -82,7 +93,8 @@ class View(QObject):
 
     def given(self) -> ViewData:
         """What a session keeps."""
-        return ViewData(self.look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings, self.counted)
+        look = dataclasses.replace(self.look, left=self.left())
+        return ViewData(look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings, self.counted)
 
     def take(self, data: ViewData) -> None:
         """Look as a session has kept it."""

@@ -94,6 +94,18 @@ def test_what_options_alone_ask_for_is_saved_as_a_scene_that_draws_the_same(rend
     assert np.array_equal(np.asarray(image), np.asarray(again))
 
 
+def test_a_cut_that_names_hexes_shows_these(render, tmp_path, capsys):
+    def drawn(hexes, name):
+        cut = Cut((Plane((0, 0, 1), 0),), hexes=hexes)
+        write_scene(tmp_path / "scene.toml", Scene(cut=cut, page=Page(pixels=(200, 150))))
+        return np.asarray(render(name=name)[1]).astype(int)
+
+    assert np.abs(drawn("0-8", "p.png") - drawn("0-26", "q.png")).mean() > 1
+    write_scene(tmp_path / "scene.toml", Scene(cut=Cut((Plane(),), hexes="0-27")))
+    assert main(["render", str(tmp_path / "mesh.vtu"), "--scene", str(tmp_path / "scene.toml"), "-o", "p.png"]) == 2
+    assert "[cut] names hex 27: expected one of the mesh, below 27" in capsys.readouterr().err
+
+
 def test_a_movement_is_that_from_the_first_mesh_on(render, tmp_path, capsys):
     write_scene(tmp_path / "scene.toml", Scene(colours=Colours("moved-most", range=Range.FITTED)))
     render("--size", "200x120", meshes=2)

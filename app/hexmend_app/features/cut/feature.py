@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.cut.clip_panel import ClipPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
+from hexmend_app.scene.frame import Frame
 from hexmend_app.state.choices import CutChoices
+from hexmend_app.state.clip import CutLeft
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -22,6 +24,7 @@ class FeatureCut(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
+        view.left = self._left
         self._seen = Seen()
         self.panel = ClipPanel()
         self.panel.clip_changed.connect(view.set_clip)
@@ -144,6 +147,14 @@ class FeatureCut(Feature):
         self.inside.set_look(view.look, view.rings)
         if self.canvas is not None:
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
+
+    def _left(self) -> CutLeft | None:
+        """What the cut has left of the mesh as it is now, where one made now would leave others."""
+        document, look = self.session.document, self._view.look
+        filters = None if self.canvas is None else self.canvas.viewport.filters
+        if filters is None or not document.is_open or not filters.suit(document.now.mesh):
+            return look.left
+        return filters.cut_left(Frame(document.now.mesh, document.now.figures, look=look))
 
     def _propose(self, choices: CutChoices) -> None:
         self._proposed = choices

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from PIL import Image
@@ -111,7 +111,9 @@ class _Views:
         """A mesh under the look of the first, with its movement; of another mesh, what the scene says of that."""
         if same_hexes(first.mesh, subject.mesh):
             return Frame(subject.mesh, subject.figures).beside(first)
-        return Frame(subject.mesh, subject.figures, look=self._layout.scene.look(subject.mesh))
+        scene = self._layout.scene
+        anew = replace(scene, cut=replace(scene.cut, hexes=""))  # what the cut leaves is said of the first alone
+        return Frame(subject.mesh, subject.figures, look=anew.look(subject.mesh))
 
     def _level(self, look: Look) -> None:
         """Let a range of colours that is fitted span what is drawn in all views."""

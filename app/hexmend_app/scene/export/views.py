@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.export.sheet import Sheet, draw_sheet
@@ -29,7 +30,8 @@ def scene_of(
     pose = Pose.of(panes.first.camera)
     stand = Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, panes.eye.up)
     tables = {"page": page or Page(), "panels": _panels(panes, names), "cameras": dict(cameras or {})}
-    return Scene.of(panes.first.frame.look, stand, **tables)
+    frame = panes.first.frame
+    return Scene.of(replace(frame.look, left=panes.first.filters.cut_left(frame)), stand, **tables)
 
 
 def subjects_of(panes: Panes, names: Sequence[str] = ()) -> list[Subject]:
@@ -41,7 +43,7 @@ def subjects_of(panes: Panes, names: Sequence[str] = ()) -> list[Subject]:
 def draw_views(scene: Scene, panes: Panes, names: Sequence[str] = ()) -> Sheet:
     """Draw a scene of what views show: the same elements are left by a cut, and a node's step is drawn."""
     step = panes.first.chosen.node_step
-    return draw_sheet(scene, subjects_of(panes, names), filters=panes.first.filters, node_step=step)
+    return draw_sheet(scene, subjects_of(panes, names), filters=panes.first.filters.copied(), node_step=step)
 
 
 def _panels(panes: Panes, names: Sequence[str]) -> tuple[Panel, ...]:

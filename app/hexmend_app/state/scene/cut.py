@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -9,12 +10,12 @@ import numpy as np
 
 from hexmend.errors import ParameterError
 from hexmend.mesh import Mesh
-from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, PlaneClip
+from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, CutLeft, PlaneClip
 from hexmend_app.state.scene.table import Table, key
 from hexmend_app.state.stand import Vector
 
-#: Planes of a cut.
-_MOST = 12
+#: Planes of a cut, and letters of the ranges of what it has left.
+_MOST, _LONGEST = 12, 2_000_000
 
 
 class CutStyle(StrEnum):
@@ -110,17 +111,28 @@ class Cut(Table):
         Whether hexes on the cut stay whole, or are cut through.
     notch : bool
         Hide only what lies beyond all planes, which cuts a corner out; of a box, its inside.
+    hexes : str
+        What the cut by whole hexes has left, as ranges of their numbers from 0, such as "0-120, 130", whatever lies
+        beyond it now; without it, those whose middle does not.
     """
 
     planes: tuple[Plane, ...] = key((), most=_MOST)
     box: Box | None = key()
     style: CutStyle = key(CutStyle.CRINKLE)
     notch: bool = key(False)
+    hexes: str = key("", most=_LONGEST)
 
     def check(self) -> None:
-        """Planes or a box."""
+        """Planes or a box, and ranges that can be read."""
         if self.planes and self.box is not None:
             raise ParameterError("the cut has planes and a box: expected one of them")
+        if self.hexes:
+            if self.style is not CutStyle.CRINKLE or not (self.planes or self.box):
+                raise ParameterError("hexes are left by a cut by whole hexes alone: expected planes or a box, crinkle")
+            try:
+                CutLeft(_NONE, _ranges(self.hexes))
+            except ValueError as error:
+                raise ParameterError(f"hexes: {error}") from None
 
     def of(self, mesh: Mesh) -> Clip | None:
         """The cut of a mesh; None for none."""
@@ -129,12 +141,52 @@ class Cut(Table):
             return BoxClip(*self.box.of(mesh), whole, self.notch)
         return PlaneClip(tuple(one.of(mesh) for one in self.planes), whole, self.notch) if self.planes else None
 
+    def left(self, mesh: Mesh) -> CutLeft | None:
+        """What the cut of a mesh has left; None where nothing is said of that.
+
+        Raises
+        ------
+        ParameterError
+            Where the mesh has not the hexes that are named.
+        """
+        if not self.hexes:
+            return None
+        left = CutLeft(self.of(mesh), _ranges(self.hexes))
+        if left.most >= mesh.n_hexes:
+            raise ParameterError(f"[cut] names hex {left.most:,}: expected one of the mesh, below {mesh.n_hexes:,}")
+        return left
+
     @classmethod
-    def as_in(cls, clip: Clip | None) -> Cut:
-        """The cut that a look has, in the mesh's unit."""
+    def as_in(cls, clip: Clip | None, left: CutLeft | None = None) -> Cut:
+        """The cut that a look has, in the mesh's unit; what it has left, unless that takes too many letters."""
         if clip is None:
             return cls()
         how = {"style": CutStyle.CRINKLE if clip.crinkle else CutStyle.SMOOTH, "notch": clip.notch}
+        if left is not None and left.clip == clip and len(ranges := _text(left.hexes)) <= _LONGEST:
+            how["hexes"] = ranges
         if isinstance(clip, BoxClip):
             return cls(box=Box(clip.low, clip.high), **how)
         return cls(tuple(Plane(one.normal, point=one.origin) for one in clip.planes), **how)
+
+
+#: A cut that is made up where what is left by it is all that matters.
+_NONE = PlaneClip()
+
+
+def _text(ranges: tuple[tuple[int, int], ...]) -> str:
+    return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in ranges)
+
+
+def _ranges(text: str) -> tuple[tuple[int, int], ...]:
+    """Ranges of numbers.
+
+    >>> _ranges("0-120, 130")
+    ((0, 120), (130, 130))
+    """
+    found = []
+    for part in text.split(","):
+        one = re.fullmatch(r"\s*([0-9]{1,10})(?:-([0-9]{1,10}))?\s*", part)
+        if one is None:
+            raise ValueError(f"{part.strip()[:40]!r} is no range of numbers: expected such as 0-120, 130")
+        found.append((int(one[1]), int(one[2] or one[1])))
+    return tuple(found)

@@ -98,7 +98,7 @@ class Scene(Table):
         if stand is not None:
             tables["camera"] = Camera.at(stand)
         return cls(
-            cut=Cut.as_in(look.clip),
+            cut=Cut.as_in(look.clip, look.left),
             show=Show.as_in(look),
             structure=look.structure,
             movement=look.traces,
@@ -119,6 +119,7 @@ class Scene(Table):
         self.show.check_numbers(mesh.n_hexes)
         return Look(
             clip=self.cut.of(mesh),
+            left=self.cut.left(mesh),
             scale=self.colours.scale,
             edges=self.lines.edges != 0,
             shading=self.page.shading,

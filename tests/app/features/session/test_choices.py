@@ -10,6 +10,7 @@ from hexmend.io.archive import read_archive, write_archive
 from hexmend.io.session import VERSION
 from hexmend_app.state.choices import CHARTS
 from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.state.scene import Camera
 from hexmend_app.widgets.section import Section
 from tests.app.conftest import close, made
 from tests.app.driving import key, named, open_and_wait, tick, walk_to
@@ -170,6 +171,7 @@ def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot,
         del mesh["target"]
     for name in ("choices", "journey", "cameras"):
         del data["window"][name]
+    del data["window"]["view"]["look"]["left"]
     for record in data["window"]["history"]["records"]:
         del record["slot"], record["plotted"]
     write_archive(path, "Hexmend session", 1, data)
@@ -183,6 +185,16 @@ def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot,
     write_archive(path, "Hexmend session", VERSION, data)
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
+
+
+def test_a_session_of_the_second_version_knows_no_cameras(window, qtbot, tmp_path):
+    path = saved(window, tmp_path)
+    _, data = read_archive(path, "Hexmend session", VERSION)
+    del data["window"]["cameras"], data["window"]["view"]["look"]["left"]
+    write_archive(path, "Hexmend session", 2, data)
+    window.session.cameras.keep("of another", Camera("+x"))
+    open_and_wait(qtbot, window, path)
+    assert window.session.cameras.all == {}
 
 
 @pytest.mark.parametrize(("part", "field", "value", "said"), [

@@ -54,7 +54,13 @@ FULL = Scene(
 
 
 @pytest.mark.parametrize(
-    "scene", [Scene(), FULL, Scene(cut=Cut(box=Box(shares=True)), colours=Colours(range=Range.FITTED))]
+    "scene",
+    [
+        Scene(),
+        FULL,
+        Scene(cut=Cut(box=Box(shares=True)), colours=Colours(range=Range.FITTED)),
+        Scene(cut=Cut((Plane(),), hexes="0-7, 9, 20-2000000000")),
+    ],
 )
 def test_what_is_written_is_read_again(scene, tmp_path):
     assert from_toml(to_toml(scene)) == scene
@@ -95,6 +101,14 @@ def test_a_camera_is_one_line(camera):
         ("[cut]\nplanes = [{ normal = [0, 0, 0] }]", "[cut] planes 1: normal = [0, 0, 0] is no direction"),
         ("[cut]\nplanes = [{ position = 0.1, point = [0, 0, 0] }]", "a position and a point"),
         ("[cut]\nplanes = [{}]\nbox = {}", "planes and a box"),
+        ("[cut]\nplanes = [{}]\nhexes = '3-1'", "hexes: elements 3 to 1 come after -1: expected ascending ranges"),
+        ("[cut]\nplanes = [{}]\nhexes = '0-2, 2'", "elements 2 to 2 come after 2"),
+        (
+            "[cut]\nplanes = [{}]\nhexes = '0-2, all'",
+            "hexes: 'all' is no range of numbers: expected such as 0-120, 130",
+        ),
+        ("[cut]\nplanes = [{}]\nhexes = '0'\nstyle = 'smooth'", "a cut by whole hexes alone"),
+        ("[cut]\nhexes = '0'", "a cut by whole hexes alone"),
         ("[cut]\nstyle = 'rough'", "[cut] style = 'rough' is unknown: expected crinkle, smooth"),
         ("[camera]\nfrom = 'up'", "[camera]: from = 'up' is unknown"),
         ("[camera]\nposition = [1, 2, 3]", "an exact stand lacks a part"),

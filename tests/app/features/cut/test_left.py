@@ -1,0 +1,85 @@
+"""A cut by whole hexes that was made before the mesh moved: scenes, pictures and sessions have the same hexes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from hexmend import io
+from hexmend.cli.main import main
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.scene import Cut, Page, write_scene
+from tests.app.driving import open_and_wait
+from tests.core.grids import grid, scrambled
+from tests.patience import PATIENCE
+
+CLIP = PlaneClip.at((1, 0.3, 0), (2.1, 2.0, 2.0))
+
+
+@pytest.fixture
+def moved(window, qtbot, tmp_path):
+    """A mesh that was cut, and then smoothed; the hexes that are left, which a cut made now would not leave."""
+    io.write(tmp_path / "mesh.vtu", scrambled(grid(4), 0.9))
+    open_and_wait(qtbot, window, tmp_path / "mesh.vtu")
+    window.session.view.set_clip(CLIP)
+    window.refresh()
+    kept = window.canvas.viewport.kept()
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=5, tolerance=0)))
+    window.refresh()
+    np.testing.assert_array_equal(window.canvas.viewport.kept(), kept)
+    window.features["save"].mesh(tmp_path / "mesh.vtu")
+    return kept
+
+
+def rendered(tmp_path, scene, *meshes):
+    write_scene(tmp_path / "scene.toml", scene)
+    out = tmp_path / "rendered.png"
+    assert main(["render", *map(str, meshes), "--scene", str(tmp_path / "scene.toml"), "-o", str(out)]) == 0
+    return np.asarray(Image.open(out)).astype(int)
+
+
+def test_the_command_line_draws_the_hexes_that_the_window_shows(window, moved, tmp_path):
+    scene = window.canvas.scene(Page(pixels=(400, 300)))
+    assert window.features["save"].picture(tmp_path / "p.png", (400, 300))
+    seen = np.asarray(Image.open(tmp_path / "p.png")).astype(int)
+    drawn = rendered(tmp_path, scene, tmp_path / "mesh.vtu")
+    assert np.abs(drawn - seen).mean() < 0.2
+    anew = rendered(tmp_path, replace(scene, cut=Cut.as_in(CLIP)), tmp_path / "mesh.vtu")
+    assert np.abs(anew - seen).mean() > 1
+
+
+def test_a_picture_and_a_session_bring_them_back(window, moved, qtbot, tmp_path):
+    assert window.features["save"].picture(tmp_path / "p.png", (200, 150))
+    assert window.features["session"].save(tmp_path / "work.hexmend")
+    for name in ("p.png", "work.hexmend"):
+        open_and_wait(qtbot, window, tmp_path / "mesh.vtu")
+        window.session.view.set_clip(CLIP)
+        window.refresh()
+        assert (window.canvas.viewport.kept() != moved).any()
+        open_and_wait(qtbot, window, tmp_path / name)
+        window.refresh()
+        np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
+    window.session.view.set_clip(CLIP)  # made anew
+    window.refresh()
+    assert (window.canvas.viewport.kept() != moved).any()
+
+
+def test_a_preview_of_another_cut_leaves_the_view_as_it_is(window, moved):
+    scene = window.canvas.scene(Page(pixels=(100, 80)))
+    window.canvas.sheet(replace(scene, cut=Cut.as_in(PlaneClip.at((0, 0, 1), (2.0, 2.0, 2.0)))))
+    window.session.view.change(shrink=0.1)
+    window.refresh()
+    np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
+
+
+def test_a_scene_of_a_mesh_that_has_not_moved_names_no_hexes(window, qtbot):
+    window.session.view.set_clip(CLIP)
+    window.refresh()
+    assert window.canvas.scene(Page()).cut.hexes == ""
