@@ -16,6 +16,7 @@ from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.colours import Colouring, declared_ends
 from hexmend_app.scene.export.layout import Layout
 from hexmend_app.scene.export.subject import Subject
+from hexmend_app.scene.export.tiles import AT_ONCE, Tiles
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.frame import Frame, same_hexes
 from hexmend_app.scene.pane import Pane
@@ -23,9 +24,6 @@ from hexmend_app.scene.stage import Stage
 from hexmend_app.scene.viewport import Viewport
 from hexmend_app.state.look import Look
 from hexmend_app.state.scene import Camera, Panel
-
-#: Pixels of a side, and in all, that are drawn at once.
-_MOST_SIDE, _MOST_PIXELS = 16384, 2**24
 
 #: What is drawn on where the paper is transparent: colours are then those of what is seen, by how much of it there is.
 _NOTHING = "#000000"
@@ -53,7 +51,9 @@ class Rasters:
     apart: list[tuple[str, int | None, tuple[int, int, int]]]
 
 
-def rasters(layout: Layout, *, filters: Filters | None = None, node_step: NodeStep | None = None) -> Rasters:
+def rasters(
+    layout: Layout, *, filters: Filters | None = None, node_step: NodeStep | None = None, at_once: int = AT_ONCE
+) -> Rasters:
     """Draw the panels of a page.
 
     Parameters
@@ -63,20 +63,24 @@ def rasters(layout: Layout, *, filters: Filters | None = None, node_step: NodeSt
         Those of a view of the first mesh, whose elements are drawn.
     node_step : NodeStep, optional
         A node's step that is drawn in the first mesh.
+    at_once : int
+        Pixels that are drawn at once: larger pictures are drawn in tiles.
     """
     scene = layout.scene
     look = scene.look(layout.subjects[0].mesh)
-    fine = _fine(scene.page.supersampling, layout.panel)
-    with Stage(tuple(fine * side for side in layout.panel)) as stage:
-        views = _Views(stage, layout, look, scene.page.pen(scene.lines) * fine, filters)
+    fine = scene.page.supersampling
+    pen = scene.page.pen(scene.lines) * fine
+    tiles = Tiles.of(layout.panel, fine, pen, at_once)
+    with Stage(tiles.drawn) as stage:
+        views = _Views(stage, layout, look, pen, filters)
         views.all[1].chosen.show_node_step(node_step)
         images, axes = [], []
         for panel in layout.panels:
             camera = views.camera(panel)
-            image = views.picture(panel.mesh, camera, fine)
+            image = views.picture(panel.mesh, camera, tiles)
             if panel.wipe is not None:
                 edge = round(panel.wipe.at * image.width)
-                image.paste(views.picture(panel.wipe.mesh, camera, fine).crop((edge, 0, *image.size)), (edge, 0))
+                image.paste(views.picture(panel.wipe.mesh, camera, tiles).crop((edge, 0, *image.size)), (edge, 0))
             images.append(image)
             axes.append(_axes(camera))
         first = views.all[1]
@@ -148,7 +152,7 @@ class _Views:
         mesh = self.all[number].frame.mesh
         return {other for other, view in self.all.items() if same_hexes(mesh, view.frame.mesh)}
 
-    def picture(self, number: int, camera: vtkCamera, fine: int) -> Image.Image:
+    def picture(self, number: int, camera: vtkCamera, tiles: Tiles) -> Image.Image:
         """The picture of one mesh, as large as a panel."""
         view, window = self.all[number], self._stage.window
         for layer in view.layers:
@@ -156,17 +160,26 @@ class _Views:
         view.camera.DeepCopy(camera)
         Eye.of(view).reset_depth()
         view.still()
-        if fine > 1:
+        if tiles.fine > 1:
             window.SetMultiSamples(0)  # edges become smooth as pixels are put together
         view.shade()
-        pixels = self._stage.picture(transparent=self._ground is None)
-        for layer in view.layers:
-            window.RemoveRenderer(layer)
         # Without paper, colours are multiplied by how much of a pixel is covered.
         mode = "RGB" if self._ground is not None else "RGBa"
-        image = Image.frombuffer(mode, pixels.shape[1::-1], pixels.tobytes(), "raw", mode, 0, 1)
-        image = image.reduce(fine) if fine > 1 else image
-        return image.convert("RGBA") if mode == "RGBa" else image.copy()
+        image, whole, around = Image.new(mode, tiles.size), vtkCamera(), tiles.around
+        whole.DeepCopy(view.camera)
+        for tile in tiles:
+            tiles.aim(view.camera, whole, tile)
+            drawn = self._drawn(mode, tiles.fine)
+            image.paste(drawn.crop((around, around, around + tile.width, around + tile.height)), (tile.left, tile.top))
+        for layer in view.layers:
+            window.RemoveRenderer(layer)
+        return image.convert("RGBA") if mode == "RGBa" else image
+
+    def _drawn(self, mode: str, fine: int) -> Image.Image:
+        """What the stage shows, several of its pixels along each side as one."""
+        pixels = self._stage.picture(transparent=self._ground is None)
+        image = Image.frombuffer(mode, pixels.shape[1::-1], pixels, "raw", mode, 0, 1)
+        return image.reduce(fine) if fine > 1 else image
 
 
 def aim(camera: vtkCamera, described: Camera, places: np.ndarray, aspect: float) -> None:
@@ -194,9 +207,3 @@ def _axes(camera: vtkCamera) -> np.ndarray:
     """What X, Y and Z are to who looks, (3, 3): a row for each axis."""
     matrix = camera.GetViewTransformMatrix()
     return np.array([[matrix.GetElement(row, axis) for row in range(3)] for axis in range(3)])
-
-
-def _fine(wanted: int, size: tuple[int, int]) -> int:
-    """How many pixels along each side become one, of what can be drawn at once."""
-    side, area = max(size), size[0] * size[1]
-    return next((n for n in range(wanted, 1, -1) if n * side <= _MOST_SIDE and n * n * area <= _MOST_PIXELS), 1)

@@ -136,7 +136,7 @@ class Page(Table):
     shading : bool
         Draw what light from all around hardly reaches darker.
     supersampling : int
-        Pixels along each side of which one of the mesh's picture is made, where the page is not too large for that.
+        Pixels along each side of which one of the mesh's picture is made.
     """
 
     width: float | None = key(low=5, high=3000, unit="mm")
