@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hexmend_app.cli import runs
@@ -62,11 +63,12 @@ class Figures:
         from hexmend.report import made_folder
         from hexmend_app.report.captions import write_captions
         from hexmend_app.report.case import command_line, run_methods, source_of
-        from hexmend_app.report.figure_set import PARTS, write_figures
+        from hexmend_app.report.figure_set import PARTS, check_pages, write_figures
 
         for part in args.only:
             if part not in PARTS:
                 raise wrong("--only", part, f"one of {', '.join(PARTS)}")
+        check_pages(style, 1 + len(smoothers), args.only)
         mesh, source = source_of(args.mesh)
         check_memory(args, smoothers, mesh, "draw fewer methods (--methods)")
         folder = made_folder(args.output)
@@ -87,18 +89,22 @@ class Figures:
         return 130 if case.interrupted else 0
 
 
-def _style(args: argparse.Namespace) -> Style:
-    from hexmend.report.charts import WIDTHS
-    from hexmend_app.report.figure_set import Style
-
+def _formats(args: argparse.Namespace) -> tuple[str, ...]:
     formats = tuple(args.format.lower().split(",")) if args.format else _FORMATS[:1]
     for name in formats:
         if name not in _FORMATS:
             raise wrong("--format", args.format, f"names among {', '.join(_FORMATS)}, separated by commas")
+    return formats
+
+
+def _style(args: argparse.Namespace) -> Style:
+    from hexmend.report.charts import WIDTHS
+    from hexmend_app.report.figure_set import Style
+
     (width,) = numbers(args.width_mm, 1, "--width-mm") if args.width_mm else (170.0,)
     if not WIDTHS[0] <= width <= WIDTHS[1]:
         raise wrong("--width-mm", args.width_mm, f"a width from {WIDTHS[0]:g} to {WIDTHS[1]:g} mm")
-    return Style(runs.scene(args), width, formats)
+    return Style(runs.scene(args), width, _formats(args))
 
 
 def _thesis(args: argparse.Namespace) -> int:
@@ -117,20 +123,25 @@ def _thesis(args: argparse.Namespace) -> int:
 
     if args.mesh not in _THESIS:
         raise wrong("--thesis", args.mesh, f"a mesh of the gallery: {', '.join(_THESIS)}")
+    formats = _formats(args)
+    for option, value in (("--width-mm", args.width_mm), ("--only", ",".join(args.only)), ("--scene", args.scene)):
+        if value:
+            raise wrong(option, value, "no --thesis beside it, whose figures are as the thesis has them")
     thesis = chosen_tables(load(), [_THESIS[args.mesh]])
     if "max_seconds" in given_limits(args):
         thesis = thesis.limited(given_limits(args)["max_seconds"])
     folder = made_folder(args.output)
     with Progress() as progress:
         study = run_experiments(thesis, quick=args.quick, watch=progress.show)
-    drawn, missing = draw_figures(folder, study.measured)
+    drawn, missing = draw_figures(folder, study.measured, formats)
     if missing:
         raise HexmendError(missing)
-    plotted, _ = write_plots(folder, study.record())
+    plotted, _ = write_plots(folder, study.record(), formats)
     figures = []
     for one in sorted([*drawn, *plotted], key=lambda one: one["number"]):
-        figures.append(Figure(one["number"], f"{one['caption']}.", (folder / one["file"],)))
-        print(f"{one['file']}: {one['caption']}.")
+        files = [Path(one["file"]).with_suffix(f".{suffix}") for suffix in formats]
+        figures.append(Figure(one["number"], f"{one['caption']}.", tuple(folder / file for file in files)))
+        print(f"{', '.join(map(str, files))}: {one['caption']}.")
     again = command_line(["figures", args.mesh, *runs.words(args, ("mesh", "output")), "-o", args.output])
     write_captions(folder, args.mesh, [(one, again) for one in figures])
     print(f"Written to {args.output}, with captions.md and commands.sh.")

@@ -17,7 +17,7 @@ from hexmend.study.mesh_figures import MeshFigure
 from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.export.layout import Layout
 from hexmend_app.scene.export.rasters import aim
-from hexmend_app.scene.export.sheet import draw_sheet
+from hexmend_app.scene.export.sheet import draw_sheet, format_of
 from hexmend_app.scene.export.subject import Subject
 from hexmend_app.scene.graphics import prepare_off_screen
 from hexmend_app.state.clip import PlaneClip
@@ -51,7 +51,7 @@ class _Shown:
 
 
 def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
-    """Draw a figure of the thesis, off screen.
+    """Draw a figure of the thesis, off screen, as the path's suffix says; a PNG has few colours.
 
     Raises
     ------
@@ -70,6 +70,9 @@ def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
     pose = Pose.of(camera)
     stand = Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, figure.up)
     sheet = draw_sheet(Scene.of(shown.look, stand, page=page), [subject])
+    if format_of(path) != "PNG":
+        sheet.write(path)
+        return
     with replacing(path) as temporary:
         _with_palette(sheet.image(), bar).save(temporary, format="PNG")
 

@@ -47,13 +47,14 @@ class Report:
         names, scene = runs.names(args, len(smoothers)), runs.scene(args)
         prepare_off_screen()
         from hexmend_app.report.case import command_line, run_methods, source_of
-        from hexmend_app.report.figure_set import Style
+        from hexmend_app.report.figure_set import Style, check_pages
         from hexmend_app.report.page import chapter, page, write_page
         from hexmend_app.report.paper import check_paper, write_paper
 
         if not alive:
             check_paper()
         style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))
+        check_pages(style, 1 + len(smoothers))
         chapters, interrupted = [], False
         for number, one in enumerate(args.mesh, 1):
             mesh, source = source_of(one)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from math import ceil, sqrt
 from pathlib import Path
 
+from hexmend.errors import ParameterError
 from hexmend.movement import MOVEMENTS
 from hexmend.report import comparison_rows, comparison_table, write_documents
 from hexmend.report.run_figures import write_convergence, write_distributions
@@ -87,6 +88,43 @@ def write_behind(case: Case, folder: Path, style: Style) -> Figure:
     return _sheet(case, folder, style, "behind", scene, "whole, seen from the opposite side")
 
 
+def check_pages(style: Style, versions: int, parts: Sequence[str] = ()) -> None:
+    """Find out before the work whether pictures of so many versions have pages that can be drawn.
+
+    Parameters
+    ----------
+    style : Style
+    versions : int
+        The mesh as it was given, and what methods are to make of it.
+    parts : sequence of str
+        Of `PARTS`; all where none is named.
+
+    Raises
+    ------
+    ParameterError
+        Where a page has too many pixels, or too few.
+    """
+    if not parts or {"surface", "cut"} & set(parts):
+        try:
+            _paged(style, style.scene, [Panel(mesh=number) for number in range(1, versions + 1)])
+        except ParameterError as error:
+            problem = f"{versions} picture{'s' * (versions > 1)} on a page {style.width:g} mm wide: {error}"
+            raise ParameterError(f"{problem}; choose another width, or other dpi in the scene") from None
+
+
+def _paged(style: Style, scene: Scene, panels: Sequence[Panel]) -> Scene:
+    """A scene with its panels on a page of their own, in which they have the shape of the scene's where it stands."""
+    scene, count = stationary(scene), len(panels)
+    columns = count if count <= _IN_A_ROW else ceil(sqrt(count))
+    caption, bar = _AROUND
+    wide, tall = scene.page.size
+    shape = _PANEL if scene.camera.stand is None else tall / wide
+    high = -(-count // columns) * (style.width / columns * shape + caption) + bar
+    page = replace(scene.page, width=style.width, height=high, pixels=None, columns=columns)
+    bar_of = replace(scene.bar, place=Place.BELOW) if scene.bar.place is Place.RIGHT else scene.bar
+    return replace(scene, page=page, panels=tuple(panels), bar=bar_of)
+
+
 def stationary(scene: Scene) -> Scene:
     """A scene without what needs a mesh that has moved, and without panels: those of a set are its meshes."""
     moved = scene.colours.metric in MOVEMENTS
@@ -122,17 +160,9 @@ def _cut(case: Case, folder: Path, style: Style) -> Figure:
 
 def _sheet(case: Case, folder: Path, style: Style, part: str, scene: Scene, how: str) -> Figure:
     """One panel a version, with one camera; where that stands exactly, panels have the shape of the scene's page."""
-    scene, count = stationary(scene), len(case.versions)
-    columns = count if count <= _IN_A_ROW else ceil(sqrt(count))
-    caption, bar = _AROUND
-    wide, tall = scene.page.size
-    shape = _PANEL if scene.camera.stand is None else tall / wide
-    high = -(-count // columns) * (style.width / columns * shape + caption) + bar
-    page = replace(scene.page, width=style.width, height=high, pixels=None, columns=columns)
-    panels = tuple(Panel(mesh=k, caption=one.name) for k, one in enumerate(case.versions, 1))
-    bar_of = replace(scene.bar, place=Place.BELOW) if scene.bar.place is Place.RIGHT else scene.bar
+    panels = [Panel(mesh=k, caption=one.name) for k, one in enumerate(case.versions, 1)]
     subjects = [Subject(one.name, one.mesh, one.figures) for one in case.versions]
-    sheet = draw_sheet(replace(scene, page=page, panels=panels, bar=bar_of), subjects)
+    sheet = draw_sheet(_paged(style, scene, panels), subjects)
     paths = [folder / f"{part}.{suffix}" for suffix in style.formats]
     for path in paths:
         sheet.write(path)

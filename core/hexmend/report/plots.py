@@ -19,11 +19,15 @@ _MARKERS = "osD^vPX"
 #: Inches that a figure is wide, and its height by its width.
 _WIDTH, _HEIGHT = 7.5, 0.6
 
+#: Those that the plots of a study are written as, where nobody says.
+_BOTH = ("svg", "png")
+
 
 def scaling(
     stem: Path,
     ours: Mapping[str, Sequence[tuple[int, float]]],
     thesis: Mapping[str, Sequence[tuple[int, float]]],
+    formats: Sequence[str] = _BOTH,
 ) -> list[Path]:
     """Figure 4.4: seconds per iteration against free nodes.
 
@@ -33,6 +37,8 @@ def scaling(
         Of the files, without suffix.
     ours, thesis : mapping
         (free nodes, seconds) by method; the thesis's are drawn pale and dashed.
+    formats : sequence of str
+        Suffixes without the dot, of one file each.
 
     Raises
     ------
@@ -50,10 +56,12 @@ def scaling(
     axes.set_title("five-side: ours solid, the thesis's program dashed")
     axes.grid(which="major", alpha=0.3)
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    return _saved(figure, stem)
+    return _saved(figure, stem, formats)
 
 
-def distributions(stem: Path, counts: Mapping[str, Sequence[int]], title: str) -> list[Path]:
+def distributions(
+    stem: Path, counts: Mapping[str, Sequence[int]], title: str, formats: Sequence[str] = _BOTH
+) -> list[Path]:
     """Figure 4.9: how q(H) is distributed.
 
     Parameters
@@ -63,6 +71,8 @@ def distributions(stem: Path, counts: Mapping[str, Sequence[int]], title: str) -
     counts : mapping
         Numbers of hexes in bins of equal width from 0 to 1, by what the curve is called.
     title : str
+    formats : sequence of str
+        Suffixes without the dot, of one file each.
 
     Raises
     ------
@@ -76,7 +86,7 @@ def distributions(stem: Path, counts: Mapping[str, Sequence[int]], title: str) -
     axes.set(xlim=(0, 1), xlabel="q(H)", ylabel="hexes", title=title)
     axes.grid(alpha=0.3)
     axes.legend(loc="upper left", frameon=False)
-    return _saved(figure, stem)
+    return _saved(figure, stem, formats)
 
 
 def _figure() -> tuple[Figure, Axes]:
@@ -84,8 +94,8 @@ def _figure() -> tuple[Figure, Axes]:
     return figure, figure.subplots()
 
 
-def _saved(figure: Figure, stem: Path) -> list[Path]:
-    paths = [stem.with_name(f"{stem.name}{suffix}") for suffix in (".svg", ".png")]
+def _saved(figure: Figure, stem: Path, formats: Sequence[str]) -> list[Path]:
+    paths = [stem.with_name(f"{stem.name}.{suffix}") for suffix in formats]
     for path in paths:
         save_figure(figure, path)
     return paths

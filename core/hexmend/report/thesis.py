@@ -147,7 +147,9 @@ def _number(figure: Mapping[str, str]) -> list[int]:
     return [int(part) for part in figure["number"].split(".")]
 
 
-def write_plots(folder: Path, study: Mapping[str, Any]) -> tuple[list[dict[str, str]], list[Path]]:
+def write_plots(
+    folder: Path, study: Mapping[str, Any], formats: Sequence[str] = ("svg", "png")
+) -> tuple[list[dict[str, str]], list[Path]]:
     """Draw figures 4.4 and 4.9, as far as their tables were measured.
 
     Parameters
@@ -155,11 +157,13 @@ def write_plots(folder: Path, study: Mapping[str, Any]) -> tuple[list[dict[str, 
     folder : Path
     study : mapping
         `hexmend.study.thesis.Study.record`.
+    formats : sequence of str
+        Suffixes without the dot, of one file each.
 
     Returns
     -------
     figures : list of dict
-        Number, caption and file of each.
+        Number, caption and file of each, which is the last of its formats.
     paths : list of Path
         All files, of which each figure has one to be shown.
     """
@@ -176,17 +180,17 @@ def write_plots(folder: Path, study: Mapping[str, Any]) -> tuple[list[dict[str, 
                 theirs.setdefault(name, []).append(point)
     if ours:
         stem = "figure-4.4-scaling"
-        paths += plots.scaling(folder / stem, ours, theirs)
+        paths += plots.scaling(folder / stem, ours, theirs, formats)
         caption = (
             "Scaling of smoothing algorithms with number of free nodes in FiveSide geometry: ours and the thesis's"
         )
-        figures.append({"number": "4.4", "caption": caption, "file": f"{stem}.png"})
+        figures.append({"number": "4.4", "caption": caption, "file": f"{stem}.{formats[-1]}"})
     for experiment in study["experiments"]:
         if experiment["table"] == "4.14":
             counts = {name: one["distribution"] for name, one in experiment["columns"].items() if one["distribution"]}
             title = f"{experiment['mesh']}, {experiment['hexes']:,} hexes"
             stem = "figure-4.9-distributions"
-            paths += plots.distributions(folder / stem, counts, title)
+            paths += plots.distributions(folder / stem, counts, title, formats)
             caption = f"Quality distributions for Plane mesh: ours, {experiment['hexes']:,} hexes"
-            figures.append({"number": "4.9", "caption": caption, "file": f"{stem}.png"})
+            figures.append({"number": "4.9", "caption": caption, "file": f"{stem}.{formats[-1]}"})
     return figures, paths

@@ -52,7 +52,7 @@ class MeshFigure:
     up: str = "z"
 
 
-#: Draws a figure of a mesh as PNG.
+#: Draws a figure of a mesh as PNG, PDF or SVG, by the path's suffix.
 Draw = Callable[[MeshFigure, Mesh, Path], object]
 
 #: From where the plane's cross section is seen, in all three figures.
@@ -76,18 +76,22 @@ MESH_FIGURES = (
 )  # fmt: skip
 
 
-def draw_figures(folder: Path, measured: Sequence[Measured]) -> tuple[list[dict[str, Any]], str]:
+def draw_figures(
+    folder: Path, measured: Sequence[Measured], formats: Sequence[str] = ("png",)
+) -> tuple[list[dict[str, Any]], str]:
     """Draw the figures of what was measured.
 
     Parameters
     ----------
     folder : Path
     measured : sequence of Measured
+    formats : sequence of str
+        Suffixes without the dot, of one file each.
 
     Returns
     -------
     figures : list of dict
-        Number, caption and file of each that was drawn, as JSON can hold them.
+        Number, caption and file, which is the last of its formats, of each that was drawn, as JSON can hold them.
     missing : str
         Which could not be drawn, and what to do; empty where there are none.
     """
@@ -96,13 +100,14 @@ def draw_figures(folder: Path, measured: Sequence[Measured]) -> tuple[list[dict[
     for figure, (mesh, summary) in found:
         if draw is None:
             break
-        file = f"figure-{figure.number}-{figure.stem}.png"
+        files = [f"figure-{figure.number}-{figure.stem}.{suffix}" for suffix in formats]
         try:
-            draw(figure, mesh, folder / file)
+            for file in files:
+                draw(figure, mesh, folder / file)
         except HexmendError as error:  # the tables are worth having
             problem = str(error)
             break
-        drawn.append({"number": figure.number, "caption": _caption(figure, summary), "file": file})
+        drawn.append({"number": figure.number, "caption": _caption(figure, summary), "file": files[-1]})
     missing = [figure.number for figure, _ in found[len(drawn) :]]
     names = f"{'figure' if len(missing) == 1 else 'figures'} {', '.join(missing)}"
     return drawn, f"Without {names}, of meshes: {problem}" if missing else ""

@@ -96,10 +96,17 @@ def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_
         (["figures", "-o", "set", "--only", "table,cut"], "--only 'table,cut' cannot be used: expected one of surface"),
         (["figures", "-o", "set", "--thesis"], "expected a mesh of the gallery: plane"),
         (["figures", "-o", "set", "--quick"], "--quick"),
+        (
+            ["figures", "-o", "set", "--width-mm", "1000", "--methods", "none"],
+            "1 picture on a page 1000 mm wide: the page",
+        ),
+        (["figures", "-o", "set", "--width-mm", "1000", "--methods", "mend,laplacian,getme"], "expected 67,108,864 at"),
+        (["report", "-o", "a.html", "--scene", "../fine.toml"], "2 pictures on a page 170 mm wide: the page has"),
     ],
 )
 def test_what_cannot_be_used_is_said_before_the_work(hexmend, mesh_file, tmp_path, monkeypatch, capsys, words, said):
     monkeypatch.chdir(tmp_path)
+    Path("../fine.toml").write_text("[page]\ndpi = 2400", encoding="utf-8")
     command, *others = words
     assert hexmend(command, mesh_file, *others) in (2, 3)
     (line,) = capsys.readouterr().err.splitlines()
