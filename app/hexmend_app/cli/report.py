@@ -56,12 +56,14 @@ class Report:
         style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))
         check_pages(style, 1 + len(smoothers))
         chapters, interrupted = [], False
+        folders: list[str] = []
         for number, one in enumerate(args.mesh, 1):
             mesh, source = source_of(one)
             check_memory(args, smoothers, mesh, "report on fewer methods (--methods)")
             with Progress() as progress:
                 case = run_methods(mesh, source, smoothers, stop, names, progress.show)
-            again = _again(one, case.name, given, runs.method_words(args))
+            folders.append(_unlike(folders, case.name, printable(Path(one).resolve().parent.name)))
+            again = _again(one, folders[-1], given, runs.method_words(args))
             chapters.append(chapter(case, style, again, alive=alive, place=f"mesh-{number}"))
             interrupted = case.interrupted
             if interrupted:
@@ -74,6 +76,21 @@ class Report:
         if interrupted:
             print("Interrupted: the report holds what was done so far.", file=sys.stderr)
         return 130 if interrupted else 0
+
+
+def _unlike(taken: list[str], name: str, folder: str) -> str:
+    """What folders of a mesh are called: by its name or, where that is taken, with its folder's before or a number.
+
+    >>> _unlike([], "part", "a"), _unlike(["part"], "part", "b"), _unlike(["part", "b-part"], "Part", "b")
+    ('part', 'b-part', 'Part-2')
+    """
+    known = {one.lower() for one in taken}  # some file systems do not tell capitals
+    names = (
+        name,
+        *([f"{folder}-{name}"] if folder else []),
+        *(f"{name}-{number}" for number in range(2, len(taken) + 3)),
+    )
+    return next(one for one in names if one.lower() not in known)
 
 
 def _again(path: str, name: str, given: list[str], methods: list[str]) -> list[list[str]]:

@@ -133,6 +133,20 @@ def test_a_real_mesh_fits_into_a_page(hexmend, real_mesh, tmp_path):
     assert path.stat().st_size < 10e6
 
 
+def test_meshes_of_one_name_get_folders_of_their_own(hexmend, mesh_file, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    paths = [Path(name) for name in ("a/part.vtu", "b/part.vtu", "c/b/part.vtu")]
+    for path in paths:
+        path.parent.mkdir(parents=True)
+        path.write_bytes(mesh_file.read_bytes())
+    assert hexmend("report", *paths, "--methods", "laplacian", "--max-iterations", "1", "-o", "report.html") == 0
+    page = Path("report.html").read_text(encoding="utf-8")
+    for path, folder in zip(paths, ("part", "b-part", "part-2"), strict=True):
+        (figures,) = (line for line in page.splitlines() if f"hexmend figures {path} " in line)
+        assert f"-o {folder}-figures" in figures
+        assert f"-o {folder}-results" in page
+
+
 def test_a_file_whose_name_is_no_text_is_reported(hexmend, mesh_file, tmp_path):
     odd = Path(os.fsdecode(os.fsencode(tmp_path / "bad") + b"\xff.vtk"))
     try:
