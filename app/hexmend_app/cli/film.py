@@ -58,6 +58,7 @@ class Film:
         from hexmend_app.scene.export.shots import shots
         from hexmend_app.state.document import State
         from hexmend_app.state.history import History
+        from hexmend_app.state.record import Moment as Shown
 
         format_of(path)  # an unknown suffix is said before the work, not after
         run, history = iterate(mesh, what, stop), History()
@@ -67,7 +68,7 @@ class Film:
         numbers = shown(history, record, most)
         start = Moment(mesh.points, run.start.figures, "before the run")
         movement = Movement(mesh, start, mesh.points, run.start.figures) if args.arrows else None
-        taken = shots(history, record, mesh, numbers)
+        taken = shots(record, numbers, lambda number: history.state(Shown(record, number), mesh))
         frames = pictures(taken, look, size, view=view, movement=movement, chart=args.histogram)
         write_film(path, [*frames], rate)
         print(f"{run.message}\n{path}: {len(numbers)} frames of {size[0]} × {size[1]} pixels")

@@ -14,8 +14,6 @@ from hexmend_app.cli.numbers import numbers, wrong
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from hexmend.mesh import Mesh
-    from hexmend_app.scene.export.subject import Subject
     from hexmend_app.state.scene import Camera, Scene
 
 
@@ -63,20 +61,17 @@ class Render:
         scene.panels_of(len(args.mesh))  # what is wrong is said before the work, not after
         from hexmend_app.scene.graphics import prepare_off_screen
         from hexmend_app.state.scene import write_scene
-        from hexmend_app.state.scene.carried import Pictured, carrying
 
         prepare_off_screen()
-        from hexmend_app.scene.export.sheet import draw_sheet, format_of
+        from hexmend_app.scene.export.sheet import format_of
+        from hexmend_app.scene.export.still import write_picture
 
         format_of(Path(args.output))
         check_writable(args.output)
         if args.save_scene:
             write_scene(args.save_scene, scene)
         meshes = [read(path) for path in args.mesh]
-        sheet = draw_sheet(scene, _subjects(scene, meshes, [Path(path).stem for path in args.mesh]))
-        output = Path(args.output)
-        shown = [Pictured.of(mesh, mesh, Path(path), output) for mesh, path in zip(meshes, args.mesh, strict=True)]
-        sheet.write(output, carrying(scene, shown))
+        sheet = write_picture(args.output, scene, meshes, [Path(path).stem for path in args.mesh], files=args.mesh)
         print(f"{args.output}: {sheet.size[0]} × {sheet.size[1]} pixels")
         return 0
 
@@ -144,22 +139,6 @@ def _captioned(args: argparse.Namespace, scene: Scene) -> tuple[Any, ...]:
     if len(names) != len(panels):
         raise wrong("--captions", args.captions, f"{len(panels)} names separated by commas, one a panel")
     return tuple(replace(panel, caption=name) for panel, name in zip(panels, names, strict=True))
-
-
-def _subjects(scene: Scene, meshes: Sequence[Mesh], names: Sequence[str]) -> list[Subject]:
-    """The meshes, measured; where a movement is shown, as they have moved since the first."""
-    from hexmend.errors import ParameterError
-    from hexmend.movement import MOVEMENTS, Moment, Movement
-    from hexmend_app.scene.export.subject import Subject
-    from hexmend_app.state.look import Arrows
-
-    first, *others = (Subject.of(mesh, name) for mesh, name in zip(meshes, names, strict=True))
-    if scene.colours.metric in MOVEMENTS or scene.movement.arrows is not Arrows.NONE:
-        if not others:
-            raise ParameterError("the scene shows how a mesh has moved: name the mesh before that, and then the mesh")
-        then = Moment(first.mesh.points, first.figures, first.name)
-        first = replace(first, movement=Movement(first.mesh, then, first.mesh.points, first.figures))
-    return [first, *others]
 
 
 command = Render()

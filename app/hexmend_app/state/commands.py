@@ -21,7 +21,7 @@ from hexmend.run.memory import Shortage, available, shortage
 from hexmend.smoothers import Smoother
 from hexmend.tags import renamed_tag, tagged, without_tag
 from hexmend_app.state import session_data
-from hexmend_app.state.deeds import Changed, Moved, Saved, WentBack
+from hexmend_app.state.deeds import Changed, Moved, Saved, WentBack, Wrote
 from hexmend_app.state.document import State
 
 if TYPE_CHECKING:
@@ -82,6 +82,11 @@ class Commands(QObject):
         self.done.emit(Saved(Path(path), self.document.now, session=False))
         self.document.saved(Path(path))
         return left_out(path, self.document.now.mesh)
+
+    def carry_out(self, deed: Wrote) -> None:
+        """Write what a deed writes, and tell of it; raises `HexmendError` where that cannot be done."""
+        deed.perform()
+        self.done.emit(deed)
 
     def run(self, stage: Stage) -> None:
         """Run a method on the mesh as it is now, unless another is being read, or memory will not suffice."""

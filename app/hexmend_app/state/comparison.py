@@ -49,6 +49,21 @@ class ComparisonData:
         if self.results and self.initial is None:
             raise ValueError("there are results of a comparison that began with nothing")
 
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """Of the core's table."""
+        return tuple(one.row for one in self.results)
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the user ended it before the last method was done."""
+        return len(self.results) < self.asked or any(row.outcome == "stopped" for row in self.rows)
+
+    def record(self) -> dict[str, Any]:
+        """The table of what is done, for `hexmend.report`, as `hexmend compare` writes it."""
+        initial = self.initial
+        return compare.Comparison(initial.mesh, initial.summary, self.stop, self.rows, self.interrupted).record()
+
 
 @dataclass(frozen=True)
 class Progress:
@@ -142,9 +157,7 @@ class Comparison(QObject):
     @property
     def interrupted(self) -> bool:
         """Whether the user ended the work before the last method was done."""
-        return not self.busy and (
-            len(self.results) < self._asked or any(one.row.outcome == "stopped" for one in self.results)
-        )
+        return not self.busy and self.given().interrupted
 
     def start(self, smoothers: Sequence[Smoother], stop: Stop) -> None:
         """Run these on the document's mesh as it is now, one after another; what was compared before is forgotten."""
@@ -176,12 +189,6 @@ class Comparison(QObject):
         self.shut_down()
         self.initial, self._stop, self._asked, self.results = data.initial, data.stop, data.asked, data.results
         self.changed.emit()
-
-    def record(self) -> dict[str, Any]:
-        """The table of what is done, for `hexmend.report`, as `hexmend compare` writes it."""
-        rows = tuple(one.row for one in self.results)
-        initial = self.initial
-        return compare.Comparison(initial.mesh, initial.summary, self._stop, rows, self.interrupted).record()
 
     def shut_down(self) -> None:
         """End the work and wait until its thread is gone; nothing is emitted any more."""

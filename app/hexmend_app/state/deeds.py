@@ -1,14 +1,15 @@
-"""What the user has done to the mesh, as data: whoever tells of it, such as a script, listens to `Commands.done`."""
+"""What the user has done to the mesh or written of it, as data: a script, say, hears of it by `Commands.done`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from hexmend.movement import Movement
 from hexmend_app.state.document import State
-from hexmend_app.state.scene import Scene
+from hexmend_app.state.record import Record
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,22 +62,68 @@ class Saved:
 
 
 @dataclass(frozen=True, eq=False)
-class Drawn:
-    """What is seen was written as a picture.
+class Wrote:
+    """A function writes a file, or a folder of them: the same call from a script writes the same.
 
     Parameters
     ----------
-    path : Path
-    now : State
-    scene : Scene
-    alone : bool
-        Whether the picture shows nothing but the mesh as it is.
+    title : str
+    function : callable
+        Of a module that needs no window.
+    values : tuple
+        What it is called with: paths, text, numbers, scenes, recipes, rows of a comparison, runs, and states of the
+        mesh, which stand for their meshes; also in lists and tuples.
+    options : mapping
+        The same by name.
     """
 
+    title: str
+    function: Callable[..., Any]
+    values: tuple[Any, ...]
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def given(self) -> tuple[Any, ...]:
+        """The values as the function takes them."""
+        return _given(self.values)
+
+    def perform(self) -> None:
+        """Write it; raises what the function does."""
+        self.function(*self.given, **{name: _given(one) for name, one in self.options.items()})
+
+
+@dataclass(frozen=True, eq=False)
+class Iterations:
+    """A run of which somebody wants to know where the nodes were at some iterations; to functions, the run."""
+
+    record: Record
+    numbers: Sequence[int]
+
+
+@dataclass(frozen=True, eq=False)
+class Tabled:
+    """The comparison of methods was written as a table, with other names for methods and another title, or its own."""
+
     path: Path
-    now: State
-    scene: Scene
-    alone: bool
+    names: Mapping[str, str] | None = None
+    title: str | None = None
 
 
-Deed = Changed | Moved | WentBack | Saved | Drawn
+def moved_since(movement: Movement | None, opened: State) -> dict[str, Any]:
+    """What functions that draw take of a movement that is shown, and of the mesh as it was opened."""
+    if movement is None:
+        return {}
+    since = opened.mesh.with_points(movement.before.points)
+    return {"opened": opened, "since": since, "since_name": movement.before.name}
+
+
+def _given(value: Any) -> Any:
+    """What a function takes for a value of a deed."""
+    if isinstance(value, list | tuple):
+        return type(value)(map(_given, value))
+    if isinstance(value, Iterations):
+        return value.record
+    return value.mesh if isinstance(value, State) else value
+
+
+Deed = Changed | Moved | WentBack | Saved | Wrote | Tabled

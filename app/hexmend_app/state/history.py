@@ -28,11 +28,11 @@ class History:
 
     Parameters
     ----------
-    limit : int
+    limit : float
         Bytes that positions may take.
     """
 
-    def __init__(self, limit: int = LIMIT):
+    def __init__(self, limit: float = LIMIT):
         self.records: list[Record] = []
         self._limit = limit
         self._bytes = 0
@@ -75,11 +75,11 @@ class History:
         self._moments[start] = Moment(record, 0)
         return record
 
-    def add(self, record: Record, iteration: Iteration) -> None:
-        """Keep an iteration; called by the thread that made it."""
+    def add(self, record: Record, iteration: Iteration, places: bool = True) -> None:
+        """Keep an iteration, its positions too unless `places` is false; called by the thread that made it."""
         numbers = {name: value for name, value in iteration.notes.items() if isinstance(value, (int, float, str))}
         row = numbers | iteration.row()
-        offsets = record.compact(iteration.points) if iteration.number else None
+        offsets = record.compact(iteration.points) if iteration.number and places else None
         with self._lock:
             if offsets is not None:
                 record._offsets[iteration.number] = offsets

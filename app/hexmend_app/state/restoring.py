@@ -47,6 +47,8 @@ class Beside:
     lack : Lack or None
     error : HexmendError or None
         Where it cannot be read.
+    path : Path or None
+        Of its file; None where it is not shown.
     """
 
     name: str
@@ -54,6 +56,7 @@ class Beside:
     state: State | None = None
     lack: Lack | None = None
     error: HexmendError | None = None
+    path: Path | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +139,7 @@ def restored(wanting: Wanting, path: Path, state: State, reads: Callable[[Path],
         if len(others) == MOST:
             others.append(Beside(name, PurePosixPath(pictured.file).name, lack=Lack.ROOM))
         elif pictured.file and pictured.file == carried.meshes[first - 1].file:
-            others.append(_beside(name, pictured, path.name, state, state))
+            others.append(_beside(name, pictured, path, state, state))
         else:
             others.append(_read(name, pictured, picture, state, reads))
     return Restored(picture, carried, path, state, look, digest(state.mesh), tuple(others))
@@ -166,18 +169,18 @@ def _read(name: str, pictured: Pictured, picture: Path, first: State, reads: Cal
         state = State.of(read(paths[0]))
     except HexmendError as error:
         return Beside(name, paths[0].name, lack=Lack.READING, error=error)
-    return _beside(name, pictured, paths[0].name, state, first)
+    return _beside(name, pictured, paths[0], state, first)
 
 
-def _beside(name: str, pictured: Pictured, file: str, state: State, first: State) -> Beside:
+def _beside(name: str, pictured: Pictured, path: Path, state: State, first: State) -> Beside:
     """What of a mesh can stand beside the first."""
     known = digest(state.mesh)
     if known == pictured.opened != pictured.shown:
-        return Beside(name, file, lack=Lack.RUN)
+        return Beside(name, path.name, lack=Lack.RUN)
     if not _same(state.mesh, first.mesh):
-        return Beside(name, file, lack=Lack.HEXES)
+        return Beside(name, path.name, lack=Lack.HEXES)
     shared = replace(state, mesh=first.mesh.with_points(state.mesh.points))
-    return Beside(name, file, shared, None if known == pictured.shown else Lack.PLACES)
+    return Beside(name, path.name, shared, None if known == pictured.shown else Lack.PLACES, path=path)
 
 
 def _same(one: Mesh, other: Mesh) -> bool:

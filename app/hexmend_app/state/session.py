@@ -14,7 +14,7 @@ from hexmend_app.state.choices import Choices
 from hexmend_app.state.classer import Classer
 from hexmend_app.state.commands import Commands
 from hexmend_app.state.comparison import Comparison
-from hexmend_app.state.document import Document
+from hexmend_app.state.document import Document, State
 from hexmend_app.state.examiner import Examiner
 from hexmend_app.state.explainer import Explainer
 from hexmend_app.state.eye import Eye
@@ -32,6 +32,8 @@ from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from hexmend_app.state.restoring import Restored
     from hexmend_app.state.session_data import SessionData
 
@@ -113,6 +115,17 @@ class Session(QObject):
         path = self.document.path
         kept = path is not None and path.suffix.lower() == SUFFIX
         return self.document.modified or (kept and self.cameras.modified)
+
+    def state_at(self, points: np.ndarray | None) -> State | None:
+        """A state whose nodes are there, of all that can be come back to or is seen; None where there is none."""
+        document, history, comparison = self.document, self.history, self.comparison
+        if not document.is_open:
+            return None
+        known = [document.now, *(one.state for one in document.given().changes)]
+        known += [state for record in history.records for state in (record.start, record.end)]
+        known += [comparison.initial, *(one.state for one in comparison.results)]
+        known += [one.state for one in self.views.all]
+        return next((one for one in known if one is not None and one.mesh.points is points), None)
 
     def given(self) -> SessionData:
         """All that a session's file keeps; a mesh is open, no run goes on, and no sweep is under way."""

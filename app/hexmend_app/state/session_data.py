@@ -126,13 +126,14 @@ def _stored(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:
 
 
 def numbered(data: SessionData) -> dict[State, int]:
-    """Which of the meshes of its file the states of a document and of its runs are."""
+    """Which of the meshes of its file the states of a document, of its runs and of its comparison are."""
     numbers: dict[Mesh, int] = {}
     _plain(numbers).data(data, SessionData)
     states = [data.document.now, *(change.state for change in data.document.changes)]
     for record in data.history.records:
-        states += [record.start] if record.end is None else [record.start, record.end]
-    return {state: numbers[state.mesh] for state in states}
+        states += [record.start, record.end]
+    states += [data.comparison.initial, *(one.state for one in data.views.shown)]
+    return {state: numbers[state.mesh] for state in states if state is not None}
 
 
 def _plain(numbers: dict[Mesh, int]) -> Plain:

@@ -15,6 +15,7 @@ from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
 from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_of
 from hexmend_app.state.comparison import Compared
+from hexmend_app.state.deeds import Tabled
 from hexmend_app.state.document import State
 from hexmend_app.widgets.export_dialog import TableDialog
 from hexmend_app.widgets.wording import counted
@@ -173,7 +174,7 @@ class FeatureCompare(Feature):
 
     def dialog(self) -> TableDialog:
         """The dialog that asks: names are as they were last."""
-        record = self._comparison.record()
+        record = self._comparison.given().record()
         names = ["initial", *(row["method"] for row in record["rows"])]
         proposed = f"{self.host.stem}-comparison.csv"
         arguments = ("the table", proposed, _KINDS, SUFFIXES, self._style, table_of(record).title, names)
@@ -184,8 +185,11 @@ class FeatureCompare(Feature):
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; whether it was."""
         names, title = (None, None) if style is None else (style.names, style.title)
-        return self.host.said(
+        written = self.host.said(
             "The table was not saved",
-            lambda: write_comparison(Path(path), self._comparison.record(), names, title),
+            lambda: write_comparison(Path(path), self._comparison.given().record(), names, title),
             f"Table of {counted(len(self._comparison.results), 'method')} saved to {path}",
         )
+        if written:
+            self.session.commands.done.emit(Tabled(Path(path), names, title))
+        return written

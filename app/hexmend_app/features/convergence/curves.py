@@ -8,7 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
+from hexmend_app.scene.palette import BLUE, KEPT, Role
 from hexmend_app.state.history import Record
+
+#: Colours of runs, by slot; after the last, the first again.
+RUN_COLOURS = (BLUE, *KEPT)
 
 _STORED = tuple(one.key for chart in CHARTS.values() for one in chart.quantities if one.figure is not STEP_SECONDS)
 
@@ -98,6 +102,11 @@ class Curve:
     def nearest(self, x: float, by_time: bool) -> int:
         """Number of the iteration that is nearest to a place on the axis."""
         return int(np.abs(self.x(by_time) - x).argmin())
+
+
+def colour_of(curve: Curve) -> Role:
+    """The colour of a run."""
+    return RUN_COLOURS[curve.slot % len(RUN_COLOURS)]
 
 
 def beginning(record: Record) -> tuple[float, float]:

@@ -12,6 +12,7 @@ from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.convergence.curves import Columns, Curve, beginning
 from hexmend_app.features.convergence.file import SUFFIXES, figure, write_convergence
 from hexmend_app.features.convergence.panel import ConvergencePanel
+from hexmend_app.state.deeds import Wrote
 from hexmend_app.state.history import Record
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.export_dialog import ChartDialog
@@ -115,7 +116,8 @@ class FeatureConvergence(Feature):
 
     def dialog(self) -> ChartDialog:
         """The dialog that asks: sizes and names are as they were last."""
-        drawn = figure(self.panel, self._document.name)
+        deed = self._told(Path())
+        drawn = figure(*deed.given[1:], **deed.options)
         names = dict.fromkeys(curve.label for chart in drawn.charts for curve in chart.curves)
         proposed = f"{self.host.stem}-convergence.svg"
         arguments = ("the charts", proposed, _KINDS, SUFFIXES, self._style, drawn.title, list(names))
@@ -125,6 +127,17 @@ class FeatureConvergence(Feature):
         """Write the charts as a figure, or the figures of all runs as CSV, by the suffix; whether it was done."""
         return self.host.said(
             "The charts were not saved",
-            lambda: write_convergence(Path(path), self.panel, self._document.name, style),
+            lambda: self.session.commands.carry_out(self._told(Path(path), style)),
             f"Convergence saved to {path}",
         )
+
+    def _told(self, path: Path, style: ChartStyle | None = None) -> Wrote:
+        """The call that writes them."""
+        set_to = self.panel.head.choices()
+        options = {"by_time": set_to.by_time, "log": set_to.logarithmic, "from_zero": set_to.from_zero}
+        if self._timeline.record is not None:
+            options["current"] = self._timeline.record
+        if style is not None:
+            options["style"] = style
+        values = path, self._document.name, self._history.records, set_to.shown
+        return Wrote("convergence", write_convergence, values, options)

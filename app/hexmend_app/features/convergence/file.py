@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,17 +11,47 @@ from hexmend.io.suffixes import suffix_for
 from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend.report.documents import write_csv
-from hexmend_app.features.convergence.curves import Curve
-from hexmend_app.features.convergence.line import colour_of
-from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.features.convergence.plot import ConvergencePlot
+from hexmend_app.features.convergence.charts import CHARTS, FIRST, Chart
+from hexmend_app.features.convergence.curves import Columns, Curve, beginning, colour_of
+from hexmend_app.state.record import Record
 
 #: Kinds of file.
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
 
 
-def write_convergence(path: Path, panel: ConvergencePanel, title: str, style: ChartStyle | None = None) -> None:
-    """Write the charts as they are drawn, as SVG, PDF or PNG, or all figures of all runs as CSV, by the path's suffix.
+def write_convergence(
+    path: str | Path,
+    title: str,
+    runs: Sequence[Record],
+    charts: Sequence[str] = FIRST,
+    *,
+    by_time: bool = False,
+    log: bool = True,
+    from_zero: bool = False,
+    current: Record | None = None,
+    style: ChartStyle | None = None,
+) -> None:
+    """Write how runs went: charts as SVG, PDF or PNG, or all figures of all runs as CSV, by the path's suffix.
+
+    Parameters
+    ----------
+    path : path-like
+    title : str
+        Above the figure.
+    runs : sequence of Record
+        The oldest first.
+    charts : sequence of str
+        Names of `hexmend_app.features.convergence.charts.CHARTS`.
+    by_time : bool
+        Against seconds, not iterations.
+    log : bool
+        Axes of what says more so go by powers of ten.
+    from_zero : bool
+        Branches begin at 0, not where they left their run.
+    current : Record, optional
+        The run that is drawn strongly.
+    style : ChartStyle, optional
+        Sizes and names.
 
     Raises
     ------
@@ -29,40 +59,63 @@ def write_convergence(path: Path, panel: ConvergencePanel, title: str, style: Ch
         For another suffix, or where the file cannot be written; the one that was there stays.
     """
     style = ChartStyle() if style is None else style
-    if suffix_for(path, "a chart", SUFFIXES) == ".csv":
-        write_csv(path, [row for curve in panel.curves for row in rows(curve, style.names)])
+    if suffix_for(Path(path), "a chart", SUFFIXES) == ".csv":
+        write_csv(Path(path), [row for run in runs for row in _rows(run, style.names)])
     else:
-        write_chart(path, figure(panel, title).draw, style)
+        drawn = figure(title, runs, charts, by_time=by_time, log=log, from_zero=from_zero, current=current)
+        write_chart(Path(path), drawn.draw, style)
 
 
-def figure(panel: ConvergencePanel, title: str) -> Convergence:
-    """The charts as they are drawn, on white paper."""
-    label = "seconds in the method" if panel.by_time else "iteration"
-    return Convergence([_drawn(plot, panel) for plot in panel.drawn], title, label, not panel.by_time)
+def figure(
+    title: str,
+    runs: Sequence[Record],
+    charts: Sequence[str] = FIRST,
+    *,
+    by_time: bool = False,
+    log: bool = True,
+    from_zero: bool = False,
+    current: Record | None = None,
+) -> Convergence:
+    """The charts, on white paper; see `write_convergence`."""
+    curves = [_curve(run, from_zero, run is current) for run in runs if run.plotted and run.rows]
+    drawn = [_drawn(CHARTS[key], curves, by_time, log) for key in charts]
+    return Convergence(drawn, title, "seconds in the method" if by_time else "iteration", not by_time)
 
 
-def rows(curve: Curve, names: Mapping[str, str] | None = None) -> list[dict]:
-    """A row an iteration: the run, what it branched from, and every figure that there is.
+def _curve(run: Record, from_zero: bool, current: bool) -> Curve:
+    columns = Columns(run)
+    columns.grow()
+    return Curve(
+        columns,
+        run.slot,
+        (0.0, 0.0) if from_zero else beginning(run),
+        shown=True,
+        current=current,
+        going=False,
+        kept=run.numbers,
+    )
 
-    `names` are what runs are called, by what they call themselves.
-    """
-    record, names = curve.record, names or {}
-    name = names.get(record.name) or record.name
-    parent = "" if record.parent is None else names.get(record.parent.name) or record.parent.name
-    each = curve.columns.of("step_seconds")
+
+def _rows(run: Record, names: Mapping[str, str]) -> list[dict]:
+    """A row an iteration: the run, what it branched from, and every figure that there is; `names` are others' names."""
+    columns = Columns(run)
+    columns.grow()
+    name = names.get(run.name) or run.name
+    parent = "" if run.parent is None else names.get(run.parent.name) or run.parent.name
+    each = columns.of("step_seconds")
     return [
         {"run": name, "branch_of": parent, **row, "step_seconds": seconds if at else None}
-        for at, (row, seconds) in enumerate(zip(record.rows, each.tolist(), strict=False))
+        for at, (row, seconds) in enumerate(zip(run.rows, each.tolist(), strict=False))
     ]
 
 
-def _drawn(plot: ConvergencePlot, panel: ConvergencePanel) -> DrawnChart:
-    curves = []
-    for curve in panel.curves:
-        for at, quantity in enumerate(plot.chart.quantities if curve.shown else ()):
-            part = quantity.title if len(plot.chart.quantities) > 1 else ""
-            x, y = curve.x(panel.by_time), curve.columns.of(quantity.key)
+def _drawn(chart: Chart, curves: Sequence[Curve], by_time: bool, log: bool) -> DrawnChart:
+    drawn = []
+    for curve in curves:
+        for at, quantity in enumerate(chart.quantities):
+            part = quantity.title if len(chart.quantities) > 1 else ""
+            x, y = curve.x(by_time), curve.columns.of(quantity.key)
             if np.isfinite(y).any():
-                name, colour = curve.record.name, colour_of(curve).of(dark=False)
-                curves.append(DrawnCurve(name, colour, x.tolist(), y.tolist(), bool(at), curve.current, part))
-    return DrawnChart(plot.chart.title, curves, plot.is_log, plot.chart.quantities[0].whole)
+                name, colour = curve.record.name, colour_of(curve).light
+                drawn.append(DrawnCurve(name, colour, x.tolist(), y.tolist(), bool(at), curve.current, part))
+    return DrawnChart(chart.title, drawn, log and chart.quantities[0].log, chart.quantities[0].whole)

@@ -9,23 +9,11 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 
-from hexmend_app.features.convergence.curves import Curve
-from hexmend_app.scene.palette import KEPT, Role
-from hexmend_app.widgets.style import BLUE
-
-#: Colours of runs, by slot; after the last, the first again.
-RUN_COLOURS = (BLUE, *KEPT)
-
 #: Points of which a curve is drawn at most: a thick line of a thousand takes longer to paint than all else.
 MOST = 400
 
 #: Points up to which each is marked, so that a run of one step is seen.
 _FEW = 40
-
-
-def colour_of(curve: Curve) -> Role:
-    """The colour of a run."""
-    return RUN_COLOURS[curve.slot % len(RUN_COLOURS)]
 
 
 class _Points(pg.ScatterPlotItem):

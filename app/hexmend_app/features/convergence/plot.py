@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.axis import UNIT, Scale, plain, powers
 from hexmend_app.features.convergence.charts import Chart, Quantity
-from hexmend_app.features.convergence.curves import Curve, thinned
-from hexmend_app.features.convergence.line import MOST, RunLine, colour_of
+from hexmend_app.features.convergence.curves import Curve, colour_of, thinned
+from hexmend_app.features.convergence.line import MOST, RunLine
 from hexmend_app.features.convergence.words import titled, why_blank
 from hexmend_app.scene.palette import TEXT
 from hexmend_app.state.history import Record

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.curves import Curve
-from hexmend_app.features.convergence.line import colour_of
+from hexmend_app.features.convergence.curves import Curve, colour_of
 from hexmend_app.scene.palette import HOVER
 from hexmend_app.state.history import Record
 from hexmend_app.widgets.legend import Swatch

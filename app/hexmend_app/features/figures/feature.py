@@ -4,19 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
+from hexmend_app.state.deeds import Wrote
 from hexmend_app.state.scene import Page
 from hexmend_app.widgets.pieces import Pieces
 from hexmend_app.widgets.questions import ask_figures
-
-if TYPE_CHECKING:
-    from hexmend_app.report.figure_set import Figure
-
-#: Kinds of file that every figure is written as.
-_FORMATS = ("png", "pdf", "svg")
 
 
 class FeatureFigures(Feature):
@@ -27,7 +21,7 @@ class FeatureFigures(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._folder = Path()
-        self._again: list[str] = []
+        self._deed: Wrote | None = None
         self._drawing = Pieces(host.busy, "figures", "Give the rest up; what is written stays.", self)
         self._drawing.finished.connect(self._on_drawn)
         self._drawing.failed.connect(self._on_failed)
@@ -76,45 +70,27 @@ class FeatureFigures(Feature):
         self._drawing.cancel()
 
     def _begin(self, folder: Path) -> None:
-        from hexmend.io.recipes import write_recipe
-        from hexmend.report import made_folder
-        from hexmend.report.charts import check_matplotlib
-        from hexmend_app.features.figures.session_case import case_of, recipes_of
-        from hexmend_app.report.figure_set import Style, stationary, write_figures
-        from hexmend_app.state.scene import write_scene
+        from hexmend_app.features.figures.drawing import draw, prepare, write_set
+        from hexmend_app.features.figures.shown import recipes_of, shown_in
+        from hexmend_app.report.figure_set import stationary
 
-        check_matplotlib()
-        made_folder(folder)
+        document = self.session.document
         page = Page(pixels=(self.canvas.width(), self.canvas.height()))
         scene = stationary(self.canvas.scene(page, self.session.cameras.all))
-        write_scene(folder / "scene.toml", scene)
-        recipes = recipes_of(self.session)
-        for name, recipe in recipes.items():
-            write_recipe(folder / name, recipe)
-        path = self.session.document.path
-        methods = ",".join(str(folder / name) for name in recipes) or "none"
-        self._again = ["figures", str(path) if path is not None else "MESH", "--methods", methods]
-        self._again += ["--scene", str(folder / "scene.toml"), "--format", ",".join(_FORMATS), "-o", str(folder)]
-        case = case_of(self.session)
+        recipes, shown = recipes_of(self.session), shown_in(self.session)
+        prepare(folder, scene, recipes)
+        values = folder, self.host.stem, document.now.mesh.name, scene, shown, recipes
+        file = () if document.path is None else (str(document.path),)
         self._folder = folder
-        self._drawing.begin(write_figures(case, folder, Style(scene, formats=_FORMATS)), _said)
+        self._deed = Wrote("figure set", write_set, (*values, *file))
+        self._drawing.begin(draw(*self._deed.given), _said)
 
     def _on_failed(self, error: Exception) -> None:
         self.host.messages.show_error("The figures were not made", f"One of them could not be drawn: {error}")
 
-    def _on_drawn(self, drawn: list[Figure]) -> None:
-        self.host.said(
-            "The captions were not written",
-            lambda: self._write_captions(drawn),
-            f"Figure set saved to {self._folder}",
-        )
-
-    def _write_captions(self, drawn: list[Figure]) -> None:
-        from hexmend_app.report.captions import write_captions
-        from hexmend_app.report.case import command_line
-
-        figures = [(one, command_line([*self._again, "--only", one.part])) for one in drawn]
-        write_captions(self._folder, self.host.stem, figures)
+    def _on_drawn(self) -> None:
+        self.host.messages.show_info(f"Figure set saved to {self._folder}")
+        self.session.commands.done.emit(self._deed)
 
 
 def _said(drawn: int) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,9 @@ from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
 from hexmend_app.scene.export.shots import chosen, shots
-from hexmend_app.state.history import Record
+from hexmend_app.state.deeds import Iterations, Wrote, moved_since
+from hexmend_app.state.record import Moment, Record
+from hexmend_app.state.scene import Page
 from hexmend_app.widgets.pieces import Pieces
 from hexmend_app.widgets.questions import ask_film
 
@@ -29,6 +32,7 @@ class FeatureFilm(Feature):
         self._choice: FilmChoice | None = None  # what the user wanted last
         self._rate = 0
         self._record: Record | None = None
+        self._deed: Wrote | None = None
         self._drawing = Pieces(host.busy, "film", "Give the film up; no file is written.", self)
         self._drawing.finished.connect(self._write)
         self._drawing.failed.connect(self._on_failed)
@@ -74,6 +78,7 @@ class FeatureFilm(Feature):
     def film(self, path: Path, choice: FilmChoice) -> None:
         """Make a film of the run that is gone through; it is written when its last frame is drawn."""
         from hexmend_app.scene.export.film import format_of, pictures
+        from hexmend_app.scene.export.run_film import write_run_film
 
         self.cancel()
         record, history = self.session.timeline.record, self.session.history
@@ -85,10 +90,15 @@ class FeatureFilm(Feature):
         numbers = chosen(history, record, choice.frames)
         view = self.canvas.viewport
         size = choice.size((self.canvas.width(), self.canvas.height()))
-        taken = shots(history, record, self.session.document.now.mesh, numbers)
+        now, start = self.session.document.now, self.session.document.start
+        taken = shots(record, numbers, lambda number: history.state(Moment(record, number), now.mesh))
+        options = {"size": size, "rate": choice.rate, "histogram": choice.histogram}
+        options |= moved_since(view.frame.movement, start)
+        scene = replace(self.canvas.scene(Page(pixels=size)), panels=())
+        self._deed = Wrote("film", write_run_film, (path, scene, Iterations(record, numbers), now, numbers), options)
         self._path, self._record, self._rate = path, record, choice.rate
         frames = pictures(
-            taken, view.frame.look, size, camera=view.camera, movement=view.frame.movement, chart=choice.histogram
+            taken, scene.look(now.mesh), size, camera=view.camera, movement=view.frame.movement, chart=choice.histogram
         )
         self._drawing.begin(frames, lambda drawn: _said(drawn, len(numbers), path))
 
@@ -108,11 +118,13 @@ class FeatureFilm(Feature):
     def _write(self, frames: list[Image.Image]) -> None:
         from hexmend_app.scene.export.film import write_film
 
-        self.host.said(
+        written = self.host.said(
             "The film was not saved",
             lambda: write_film(self._path, frames, self._rate),
             f"Film of {len(frames)} frames saved to {self._path}",
         )
+        if written:
+            self.session.commands.done.emit(self._deed)
 
 
 def _said(drawn: int, count: int, path: Path) -> str:

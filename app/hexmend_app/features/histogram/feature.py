@@ -13,6 +13,8 @@ from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.histogram.file import SUFFIXES, figure, write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
+from hexmend_app.scene.palette import BLUE, GREY, KEPT
+from hexmend_app.state.deeds import Wrote
 from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept
 from hexmend_app.state.kinds import of_kind
@@ -140,7 +142,8 @@ class FeatureHistogram(Feature):
 
     def dialog(self) -> ChartDialog:
         """The dialog that asks: sizes and names are as they were last."""
-        drawn = figure(self.panel, self._document.name)
+        deed = self._told(Path())
+        drawn = figure(*deed.given[1:], **deed.options)
         names = dict.fromkeys(one.label for one in drawn.outlines)
         proposed = f"{self.host.stem}-histogram.svg"
         arguments = ("the histogram", proposed, _KINDS, SUFFIXES, self._style, drawn.title, list(names))
@@ -150,6 +153,19 @@ class FeatureHistogram(Feature):
         """Write the histogram as figure, or its counts as CSV, by the suffix; whether it was."""
         return self.host.said(
             "The histogram was not saved",
-            lambda: write_histogram(Path(path), self.panel, self._document.name, style),
+            lambda: self.session.commands.carry_out(self._told(Path(path), style)),
             f"Histogram saved to {path}",
         )
+
+    def _told(self, path: Path, style: ChartStyle | None = None) -> Wrote:
+        """The call that writes it."""
+        panel, document = self.panel, self._document
+        drawn = [("at the start", GREY.light, True, document.start), ("now", BLUE.light, True, document.now)]
+        for one in self._kept.all:
+            state = self.session.state_at(one.points)
+            mesh = document.now.mesh.with_points(one.points) if state is None else state
+            drawn.append((one.name, KEPT[one.slot].light, False, mesh))
+        options = {"bins": panel.head.bins.value(), "log": panel.log, "cumulative": panel.cumulative}
+        if style is not None:
+            options["style"] = style
+        return Wrote("histogram", write_histogram, (path, document.name, self.metric, drawn), options)

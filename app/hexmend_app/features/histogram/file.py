@@ -4,23 +4,64 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
 from hexmend.io.suffixes import suffix_for
+from hexmend.mesh import Mesh
+from hexmend.quality import measure
 from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.documents import write_text
 from hexmend.report.histogram import Histogram, Outline
-from hexmend_app.features.histogram.bins import Distribution
-from hexmend_app.features.histogram.panel import QualityHistogram
+from hexmend_app.features.histogram.axis import Axis
+from hexmend_app.features.histogram.bins import BINS, Distribution, distribute
+from hexmend_app.state.measured import values
 
 #: Kinds of file.
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
 
 
-def write_histogram(path: Path, panel: QualityHistogram, title: str, style: ChartStyle | None = None) -> None:
-    """Write a histogram as it is drawn, as SVG, PDF or PNG, or its counts as CSV, by the path's suffix.
+@dataclass(frozen=True, eq=False)
+class _Line:
+    """A distribution as it is written."""
+
+    name: str
+    colour: str
+    filled: bool
+    part: Distribution
+
+
+def write_histogram(
+    path: str | Path,
+    title: str,
+    metric: str,
+    drawn: Sequence[tuple[str, str, bool, Mesh]],
+    *,
+    bins: int = BINS,
+    log: bool = False,
+    cumulative: bool = False,
+    style: ChartStyle | None = None,
+) -> None:
+    """Write how hexes are distributed, as SVG, PDF or PNG, or the counts as CSV, by the path's suffix.
+
+    Parameters
+    ----------
+    path : path-like
+    title : str
+        Above the figure.
+    metric : str
+        A name of `hexmend.quality.METRICS`.
+    drawn : sequence of (name, colour, filled, Mesh)
+        What is drawn, at least one, in the order of the legend; the axis suits the first. Colours are #rrggbb.
+    bins : int
+    log : bool
+        Heights by powers of ten.
+    cumulative : bool
+        Shares of hexes up to a value.
+    style : ChartStyle, optional
+        Sizes and names.
 
     Raises
     ------
@@ -28,24 +69,33 @@ def write_histogram(path: Path, panel: QualityHistogram, title: str, style: Char
         For another suffix, or where the file cannot be written; the one that was there stays.
     """
     style = ChartStyle() if style is None else style
-    if suffix_for(path, "a histogram", SUFFIXES) == ".csv":
-        write_text(path, text(panel, style.names))
+    if suffix_for(Path(path), "a histogram", SUFFIXES) == ".csv":
+        write_text(Path(path), _text(_counted(metric, drawn, bins, cumulative), cumulative, style.names))
     else:
-        write_chart(path, figure(panel, title).draw, style)
+        shown = figure(title, metric, drawn, bins=bins, log=log, cumulative=cumulative)
+        write_chart(Path(path), shown.draw, style)
 
 
-def figure(panel: QualityHistogram, title: str) -> Histogram:
-    """The histogram as it is drawn, on white paper."""
-    axis, cumulative = panel.axis, panel.cumulative
-    outlines = []
-    for one in panel.series():
-        part = _as_drawn(one.part, cumulative)
+def figure(
+    title: str,
+    metric: str,
+    drawn: Sequence[tuple[str, str, bool, Mesh]],
+    *,
+    bins: int = BINS,
+    log: bool = False,
+    cumulative: bool = False,
+) -> Histogram:
+    """The histogram, on white paper; see `write_histogram`."""
+    lines = _counted(metric, drawn, bins, cumulative)
+    axis, outlines = lines[0].part.axis, []
+    for one in lines:
+        part = one.part
         scale = 100 / max(part.total, 1) if cumulative else 1
         bars = ((axis.inverted, part.inverted), (axis.below, part.below), (axis.above, part.above))
         outlines.append(
             Outline(
                 one.name,
-                one.colour.of(dark=False),
+                one.colour,
                 [float(count * scale) for count in part.counts],
                 [(*place, count * scale) for place, count in bars if place is not None and count],
                 one.filled and not cumulative,
@@ -53,30 +103,32 @@ def figure(panel: QualityHistogram, title: str) -> Histogram:
             )
         )
     label = "% of hexes up to x, inverted first" if cumulative else "hexes"
-    return Histogram(outlines, title, axis.title, label, axis.ticks(), axis.extent, panel.log)
+    return Histogram(outlines, title, axis.title, label, axis.ticks(), axis.extent, log)
 
 
-def text(histogram: QualityHistogram, names: Mapping[str, str] | None = None) -> str:
-    """The counts, or the shares in percent, as CSV: a line a bin, the inverted elements first.
+def _counted(metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int, cumulative: bool) -> list[_Line]:
+    """The distributions, on the axis that suits the first."""
+    axis, lines = None, []
+    for name, colour, filled, mesh in drawn:
+        figures = measure(mesh.points, mesh.hexes)
+        known = values(metric, mesh.points, mesh.hexes, figures)
+        axis = axis or Axis.fitted(metric, known, figures.inverted)
+        part = distribute(known, figures.inverted, axis, bins)
+        lines.append(_Line(name, colour, filled, part.cumulated() if cumulative else part))
+    return lines
 
-    `names` are what distributions are called, by what they call themselves.
-    """
-    names = names or {}
-    drawn, axis, cumulative = histogram.series(), histogram.axis, histogram.cumulative
-    parts = [_as_drawn(one.part, cumulative) for one in drawn]
+
+def _text(lines: Sequence[_Line], cumulative: bool, names: Mapping[str, str]) -> str:
+    """The counts, or the shares in percent, as CSV: a line a bin, inverted elements first; `names` as in a style."""
+    parts, axis = [one.part for one in lines], lines[0].part.axis
     mark = "% of hexes up to: " if cumulative else ""
     rows: list[list] = [
-        [
-            f"{axis.metric} from",
-            f"{axis.metric} to",
-            *(mark + (names.get(one.name) or one.name) for one in drawn),
-        ],
+        [f"{axis.metric} from", f"{axis.metric} to", *(mark + (names.get(one.name) or one.name) for one in lines)],
         ["inverted", "inverted", *(part.inverted for part in parts)],
     ]
     if axis.below is not None:
         rows.append(["-inf", f"{axis.low:.7g}", *(part.below for part in parts)])
-    edges = [f"{edge:.7g}" for edge in parts[0].edges] if parts else []
-    for at, ends in enumerate(pairwise(edges)):
+    for at, ends in enumerate(pairwise(f"{edge:.7g}" for edge in parts[0].edges)):
         rows.append([*ends, *(int(part.counts[at]) for part in parts)])
     if axis.above is not None:
         rows.append([f"{axis.high:.7g}", "inf", *(part.above for part in parts)])
@@ -86,7 +138,3 @@ def text(histogram: QualityHistogram, names: Mapping[str, str] | None = None) ->
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(rows)
     return out.getvalue()
-
-
-def _as_drawn(part: Distribution, cumulative: bool) -> Distribution:
-    return part.cumulated() if cumulative else part

@@ -13,6 +13,7 @@ from hexmend_app.features.inspect.element_panel import ElementPanel
 from hexmend_app.features.inspect.file import write_worst
 from hexmend_app.features.inspect.worst_list import WorstList
 from hexmend_app.state.classer import WHISKER
+from hexmend_app.state.deeds import Wrote
 from hexmend_app.widgets.questions import ask_list
 from hexmend_app.widgets.wording import counted
 
@@ -217,8 +218,9 @@ class FeatureInspect(Feature):
 
     def save(self, path: str | Path) -> bool:
         """Write the list of the worst hexes as CSV; whether it was."""
+        deed = Wrote("worst hexes", write_worst, (Path(path), self._document.now, self.worst_list.metric))
         return self.host.said(
             "The list was not saved",
-            lambda: write_worst(Path(path), self.worst_list),
+            lambda: self.session.commands.carry_out(deed),
             f"{counted(len(self.worst_list.elements), 'hex')} saved to {path}",
         )

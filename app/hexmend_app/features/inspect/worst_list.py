@@ -17,17 +17,14 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality, locked, worst
+from hexmend.quality import METRICS, ElementQuality
+from hexmend_app.features.inspect.worst import Worst
 from hexmend_app.features.inspect.worst_model import ELEMENT, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.choices import WorstChoices
-from hexmend_app.state.measured import values
 from hexmend_app.widgets.element_table import shape_table
 from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.style import explain, icon, note
 from hexmend_app.widgets.wording import counted
-
-#: Elements in the list at most: nobody reads more, and they are found anew at every iteration.
-MOST = 1000
 
 
 class WorstList(QWidget):
@@ -111,7 +108,7 @@ class WorstList(QWidget):
 
     def choices(self) -> WorstChoices:
         """What is set."""
-        return WorstChoices(self._metric.currentData(), self.isolates)
+        return WorstChoices(self.metric, self.isolates)
 
     def set_choices(self, choices: WorstChoices) -> None:
         """Set all of it."""
@@ -156,10 +153,10 @@ class WorstList(QWidget):
         """Choose the one before."""
         self._walk(-1)
 
-    def text(self) -> str:
-        """The list as CSV: element, metric, scaled Jacobian, state."""
-        self._bring_up_to_date()
-        return self._model.text(self._metric.currentData())
+    @property
+    def metric(self) -> str:
+        """What the list is ordered by."""
+        return self._metric.currentData()
 
     def _bring_up_to_date(self) -> None:
         if self._stale:
@@ -181,19 +178,14 @@ class WorstList(QWidget):
         if mesh is None:
             self._text.setText("No mesh is open.")
             return
-        metric = METRICS[self._metric.currentData()]
-        known = values(metric.name, mesh.points, mesh.hexes, figures)
-        chosen = worst(known, figures, min(MOST, known.size), metric.better or 1)
-        inverted = figures.inverted[chosen]
-        held = locked(mesh.points, mesh.hexes[chosen], mesh.fixed, inverted)
-        states = ["locked" if h else "inverted" if i else "" for i, h in zip(inverted, held, strict=True)]
+        metric = METRICS[self.metric]
+        found = Worst.of(mesh, figures, metric.name)
         self._model.title = metric.title
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
-        self._model.fill(chosen, known[chosen], figures.scaled_jacobian[chosen], states)
-        all_of_them = chosen.size == known.size
-        shown = "" if all_of_them else f"The {chosen.size:,} worst of "
+        self._model.fill(found.elements, found.values, found.jacobians, found.states)
+        shown = "" if found.elements.size == mesh.n_hexes else f"The {found.elements.size:,} worst of "
         order = "" if metric.name == "scaled-jacobian" else "; equal ones by scaled Jacobian"
-        self._text.setText(f"{shown}{counted(known.size, 'hex')}, {figures.n_inverted:,} inverted{order}")
+        self._text.setText(f"{shown}{counted(mesh.n_hexes, 'hex')}, {figures.n_inverted:,} inverted{order}")
         self._mark()
 
     def _mark(self) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from typing import Any
 
 import numpy as np
@@ -51,16 +49,6 @@ class WorstModel(QAbstractTableModel):
             self.dataChanged.emit(self.index(0, 0), self.index(max(len(elements) - 1, 0), len(_TITLES) - 1))
         else:
             self.endResetModel()
-
-    def text(self, metric: str) -> str:
-        """The rows as CSV, the figure's column under the name of a metric."""
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(["hex", metric, "scaled-jacobian", "state"])
-        writer.writerows(
-            zip(self.elements.tolist(), self.values.tolist(), self.jacobians.tolist(), self.states, strict=True)
-        )
-        return out.getvalue()
 
     def rowCount(self, parent: QModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else len(self.elements)

@@ -12,6 +12,7 @@ from hexmend.recipe import Recipe, Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
+from hexmend_app.state.deeds import Wrote
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.questions import ask_recipe, ask_recipe_target
 from hexmend_app.widgets.wording import name_in_words, short_number
@@ -145,7 +146,7 @@ class FeatureRecipe(Feature):
     def save(self, path: str | Path) -> None:
         """Write the recipe."""
         try:
-            write_recipe(path, self._chain.recipe)
+            self.session.commands.carry_out(Wrote("recipe", write_recipe, (Path(path), self._chain.recipe)))
         except HexmendError as error:
             self.host.messages.show_error("The recipe was not saved", str(error))
         else:

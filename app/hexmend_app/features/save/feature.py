@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from hexmend.io.session import SUFFIX
-from hexmend.movement import MOVEMENTS
 from hexmend.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
-from hexmend_app.state.deeds import Drawn
-from hexmend_app.state.look import Arrows
+from hexmend_app.state.deeds import Wrote, moved_since
+from hexmend_app.state.document import State
 from hexmend_app.state.run import Phase
-from hexmend_app.state.scene import Page, Scene
+from hexmend_app.state.scene import Page, Scene, write_scene
 from hexmend_app.state.scene.carried import Pictured, carrying
 from hexmend_app.widgets.questions import Answer, ask_session, ask_target, ask_unsaved
 
@@ -108,24 +108,23 @@ class FeatureSave(Feature):
             lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
             scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
-        return PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.window)
+        dialog = PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.window)
+        dialog.scene_kept.connect(lambda *kept: self.session.commands.done.emit(Wrote("scene", write_scene, kept)))
+        return dialog
 
     def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
         """Write the view as a picture of `size` pixels; whether it was."""
         page = Page(pixels=size, background="transparent" if transparent else "white")
         return self.write_picture(Path(path), self.canvas.scene(page, self.session.cameras.all))
 
-    def _carried(self, path: Path, scene: Scene) -> dict[str, str]:
-        """What a picture carries: the scene, which meshes it shows, and what ran on the first of them."""
+    def _recipe(self) -> Recipe | None:
+        """What ran on the mesh that is shown."""
         session = self.session
-        document, work = session.document, session.smoothing.work
-        shown = [document.now.mesh, *(one.state.mesh for one in session.views.all)]
-        opened = document.start.mesh
-        recipe = None
-        if work is not None and document.now is not document.start:
-            begun = session.order.begun
-            recipe = work if isinstance(work, Recipe) else Recipe.of(begun if begun is not None else work)
-        return carrying(scene, [Pictured.of(opened, mesh, document.path, path) for mesh in shown], recipe)
+        work = session.smoothing.work
+        if work is None or session.document.now is session.document.start:
+            return None
+        begun = session.order.begun
+        return work if isinstance(work, Recipe) else Recipe.of(begun if begun is not None else work)
 
     def write_picture(self, path: Path, scene: Scene) -> bool:
         """Write a scene of what is seen; whether it was."""
@@ -136,7 +135,31 @@ class FeatureSave(Feature):
             f"Picture of {width} × {height} pixels saved to {path}",
         )
         if written:
-            still = scene.movement.arrows is Arrows.NONE and scene.colours.metric not in MOVEMENTS
-            alone = still and not self.session.views.all
-            self.session.commands.done.emit(Drawn(path, self.session.document.now, scene, alone))
+            self.session.commands.done.emit(self._told(path, scene))
         return written
+
+    def _carried(self, path: Path, scene: Scene) -> dict[str, str]:
+        """What a picture carries: the scene, which meshes it shows, and what ran on the first of them."""
+        document = self.session.document
+        opened = document.start.mesh
+        meshes = [Pictured.of(opened, one.mesh, document.path, path) for one in self._shown]
+        return carrying(scene, meshes, self._recipe())
+
+    @property
+    def _shown(self) -> list[State]:
+        """What the views show, that of the mesh as it is now first."""
+        return [self.session.document.now, *(one.state for one in self.session.views.all)]
+
+    def _told(self, path: Path, scene: Scene) -> Wrote:
+        """The call that draws the same."""
+        from hexmend_app.scene.export.still import write_picture
+
+        document, recipe = self.session.document, self._recipe()
+        options: dict[str, Any] = {"opened": document.start}
+        if document.path is not None:
+            options["files"] = [document.path] * len(self._shown)
+        if recipe is not None:
+            options["recipe"] = recipe
+        options |= moved_since(self.canvas.viewport.frame.movement, document.start)
+        names = self.canvas.names if self.session.views.all else [""]
+        return Wrote("picture", write_picture, (path, scene, self._shown, names), options)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QSize, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -58,6 +58,11 @@ _OF_SEVERAL = ("captions", "figures", "columns")
 class PictureDialog(QDialog):
     """Edits a scene, with a preview, and the path that it goes to.
 
+    Signals
+    -------
+    scene_kept(Path, Scene)
+        The scene was written to a file of its own.
+
     Parameters
     ----------
     scene : Scene
@@ -71,6 +76,8 @@ class PictureDialog(QDialog):
     views : sequence of str
         What the captions of several views call them.
     """
+
+    scene_kept = Signal(object, object)
 
     def __init__(
         self,
@@ -226,9 +233,12 @@ class PictureDialog(QDialog):
     def keep(self, path: str) -> None:
         """Write the scene to a file, or say why not."""
         try:
-            write_scene(path, self.scene())
+            scene = self.scene()
+            write_scene(path, scene)
         except (FileError, ParameterError) as error:
             self._refuse(str(error))
+        else:
+            self.scene_kept.emit(Path(path), scene)
 
     def _offer_cameras(self) -> None:
         """As the view, those of the scene by name, and the directions."""

@@ -6,11 +6,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtWidgets import QApplication
+from superqt.utils import QSignalThrottler
 
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.script.script import Script
 from hexmend_app.features.script.script_panel import ScriptPanel
+from hexmend_app.state.run import Phase
+from hexmend_app.state.scene import Page, Scene
 from hexmend_app.widgets.questions import ask_script
+
+#: Milliseconds between two looks while a run goes on.
+_PERIOD = 300
 
 
 class FeatureScript(Feature):
@@ -22,7 +28,11 @@ class FeatureScript(Feature):
         super().__init__(host)
         self._seen = Seen()
         self.script = Script(self.session, self)
+        self.script.scene = self._scene
         self.panel = ScriptPanel()
+        self._soon = QSignalThrottler(parent=self.panel)
+        self._soon.setTimeout(_PERIOD)
+        self._soon.triggered.connect(self._show)
         self.panel.anew_requested.connect(self.script.begin_anew)
         self.script.changed.connect(host.refresh_soon)
         self.panel.copy_requested.connect(self.copy)
@@ -39,7 +49,7 @@ class FeatureScript(Feature):
                 icon="script-text-outline",
                 help="Save what was done in this window as a Python file that does it again.",
                 handle=self.ask,
-                enabled=lambda: bool(self.script.entries),
+                enabled=lambda: self.session.document.is_open or bool(self.script.entries),
                 needs_mesh=False,
             ),
         )
@@ -58,9 +68,26 @@ class FeatureScript(Feature):
         )
 
     def refresh(self) -> None:
-        """Show what has been done since, where somebody looks."""
-        if self.panel.isVisible() and self._seen.another("script", self.script.text):
-            self.panel.show_text(self.script.text)
+        """Show what has been done since and what is seen, where somebody looks: while a run goes on, now and then."""
+        if not self.panel.isVisible():
+            return
+        if self.session.smoothing.phase is Phase.RUNNING:
+            self._soon.throttle()
+        else:
+            self._soon.cancel()
+            self._show()
+
+    def _show(self) -> None:
+        text = self.script.text
+        if self._seen.another("script", text):
+            self.panel.show_text(text)
+
+    def _scene(self) -> Scene | None:
+        """What is seen; None before anything is drawn."""
+        canvas = self.canvas
+        if canvas is None or canvas.viewport.frame is None:
+            return None
+        return canvas.scene(Page(), self.session.cameras.all)
 
     def copy(self) -> None:
         """Copy the script."""

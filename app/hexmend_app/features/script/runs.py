@@ -41,6 +41,11 @@ class Told:
         stopped = end.iterations if end.outcome is Outcome.STOPPED else None
         return cls(work, stop, tuple(changes), end.stages, stopped)._counted()
 
+    @property
+    def arguments(self) -> list[str]:
+        """What it does, and its limits, as source."""
+        return [with_limits(self.work, self.stop)]
+
     def smoothed(self, mesh: str, name: str) -> str:
         """The source that runs it on the mesh of one name and gives the result another."""
         if self.changes:

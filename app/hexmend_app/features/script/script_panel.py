@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import takewhile
+
 from PySide6.QtCore import Signal
-from PySide6.QtGui import QFontDatabase
+from PySide6.QtGui import QFontDatabase, QTextCursor
 from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
+from hexmend_app.features.script.seen import SEEN
 from hexmend_app.widgets.style import BLUE, LINE, dress, explain, icon, note
 
-_WORDS = "What is done here as Python that does it again, to the bit."
+_WORDS = "What is done here as Python that does it again, to the bit, and what is seen."
 
 
 class ScriptPanel(QWidget):
@@ -27,7 +30,9 @@ class ScriptPanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
+        self._shown, self._at = "", 0
         self._text = QPlainTextEdit(readOnly=True)
+        self._text.setUndoRedoEnabled(False)
         self._text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self._text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self._text.setAccessibleName("Script")
@@ -56,13 +61,36 @@ class ScriptPanel(QWidget):
         column.addWidget(self._text, 1)
 
     def show_text(self, text: str) -> None:
-        """Show this, and its end unless somebody reads further up."""
+        """Show this, with the newest entry and what is seen in sight unless somebody reads elsewhere.
+
+        What stays as it was stays selected too.
+        """
         bar, aside = self._text.verticalScrollBar(), self._text.horizontalScrollBar()
         at, across = bar.value(), aside.value()
-        at_the_end = at >= bar.maximum()
-        self._text.setPlainText(text)
-        bar.setValue(bar.maximum() if at_the_end else at)
+        follows = at in (self._at, bar.maximum())
+        same = _alike(text, self._shown)
+        place = self._text.document().characterCount() - 1 - _units(self._shown[same:])
+        cursor = QTextCursor(self._text.document())
+        cursor.setPosition(place)
+        cursor.movePosition(QTextCursor.MoveOperation.End, QTextCursor.MoveMode.KeepAnchor)
+        cursor.insertText(text[same:])
+        self._shown = text
+        if follows:
+            rows = self._text.viewport().height() // self._text.fontMetrics().lineSpacing()
+            self._at = at = max(0, min(text.count("\n", 0, text.rfind(SEEN)) - rows // 3, bar.maximum()))
+        bar.setValue(at)
         aside.setValue(across)
+
+
+def _alike(one: str, other: str) -> int:
+    """How many letters of two texts are the same at their beginning, in whole lines."""
+    lines = zip(one.splitlines(keepends=True), other.splitlines(keepends=True), strict=False)
+    return sum(len(line) for line, _ in takewhile(lambda both: both[0] == both[1], lines))
+
+
+def _units(text: str) -> int:
+    """Places that a text takes in a document of Qt: a letter beyond the first 65,536 takes two."""
+    return len(text.encode("utf-16-le", "surrogatepass")) // 2
 
 
 def _sheet() -> str:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.mesh import Mesh
 from hexmend_app.state.document import State
-from hexmend_app.state.history import History, Moment, Record
+from hexmend_app.state.history import History, Record
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,13 +33,13 @@ def chosen(history: History, record: Record, frames: int) -> list[int]:
     return kept[np.unique(places.round().astype(int))].tolist()
 
 
-def shots(history: History, record: Record, mesh: Mesh, numbers: list[int]) -> Iterator[Shot]:
-    """The frames, made one by one as they are asked for."""
+def shots(record: Record, numbers: Sequence[int], state: Callable[[int], State]) -> Iterator[Shot]:
+    """The frames, made one by one as they are asked for; `state` is that of an iteration by its number."""
     for number in numbers:
-        state = history.state(Moment(record, number), mesh)
-        inverted = state.summary.inverted
+        at = state(number)
+        inverted = at.summary.inverted
         yield Shot(
-            f"{record.title}, iteration {number} of {record.newest}: q min {state.summary.q_min:.4f}, "
+            f"{record.title}, iteration {number} of {record.newest}: q min {at.summary.q_min:.4f}, "
             f"{f'{inverted:,}' if inverted else 'none'} inverted",
-            state,
+            at,
         )

@@ -21,9 +21,12 @@ LARGEST = 4_000_000
 _HEAD = "# hexmend scene\n"
 
 
-def to_toml(scene: Scene) -> str:
-    """The scene as TOML text that names every value, so that it means the same when defaults change."""
-    lines = [_HEAD + f"format = {scene.format}"]
+def to_toml(scene: Scene, whole: bool = True) -> str:
+    """The scene as TOML text that names every value, so that it means the same when defaults change.
+
+    Without `whole`, what is as in any scene is left out, for people to read.
+    """
+    lines, usual = [_HEAD + f"format = {scene.format}"], Scene()
     for one in keys(Scene):
         value = getattr(scene, one.field)
         if one.name == "format":
@@ -34,7 +37,7 @@ def to_toml(scene: Scene) -> str:
         elif one.name == "panels":
             for panel in value:
                 lines += ["", "[[panels]]", *_rows(panel)]
-        elif rows := _rows(value):
+        elif rows := _rows(value, None if whole else getattr(usual, one.field)):
             lines += ["", f"[{one.name}]", *rows]
     return "\n".join(lines) + "\n"
 
@@ -95,8 +98,10 @@ def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
     write_toml(path, "a scene", to_toml(scene))
 
 
-def _rows(table: Any) -> list[str]:
-    return [f"{_key(name)} = {_value(value)}" for name, value in plain(table).items()]
+def _rows(table: Any, usual: Any = None) -> list[str]:
+    """A line a key, but for those that are as usual."""
+    known = {} if usual is None else plain(usual)
+    return [f"{_key(k)} = {_value(v)}" for k, v in plain(table).items() if k not in known or known[k] != v]
 
 
 def _key(name: str) -> str:

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QPushButton
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.cli import figure_set
-from hexmend_app.features.figures.session_case import case_of
+from hexmend_app.features.figures.shown import shown_in
 from hexmend_app.state.scene import read_scene
 from tests.app.driving import LEFT
 from tests.app.features.timeline.test_feature import stepped
@@ -32,7 +32,7 @@ def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtb
     comparison = window.session.comparison
     comparison.start([METHODS["laplacian"](), METHODS["getme"]()], Stop(max_iterations=3))
     qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
-    names = [version.name for version in case_of(window.session).versions]
+    names = [name for name, *_ in shown_in(window.session)]
     assert names == ["initial", "Local steepest descent", "Laplacian", "GETMe, simultaneous"]
     window.session.view.colour_by("q-change")
     window.refresh()

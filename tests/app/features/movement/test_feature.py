@@ -16,6 +16,7 @@ from hexmend_app.scene.export.film import pictures
 from hexmend_app.scene.export.shots import shots
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, RangeMode, Since
+from hexmend_app.state.record import Moment
 from tests.app.driving import open_and_wait, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
@@ -212,7 +213,7 @@ def test_a_film_compares_each_picture_with_the_one_before(window, record, panel)
     history, mesh = window.session.history, window.session.document.now.mesh
     press(panel.colours, "q-change")
     press(panel.since, "iteration")
-    taken = list(shots(history, record, mesh, [0, 2, 5]))
+    taken = list(shots(record, [0, 2, 5], lambda number: history.state(Moment(record, number), mesh)))
     look, movement = window.session.view.look, window.canvas.viewport.frame.movement
     frames = [np.asarray(one) for one in pictures(taken, look, (400, 300), movement=movement)]
     assert len(frames) == 3

@@ -68,6 +68,13 @@ def test_what_is_written_is_read_again(scene, tmp_path):
     assert read_scene(tmp_path / "scene.toml") == scene
 
 
+@pytest.mark.parametrize("scene", [Scene(), FULL])
+def test_what_is_as_in_any_scene_can_be_left_out(scene):
+    short = to_toml(scene, whole=False)
+    assert len(short) < len(to_toml(scene))
+    assert from_toml(short) == scene
+
+
 def test_every_key_has_a_default():
     assert from_toml("") == Scene()
     assert from_toml("[page]\nwidth = 85") == Scene(page=Page(width=85))

@@ -8,31 +8,33 @@ from dataclasses import replace
 from hexmend.parameters import from_values
 from hexmend.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from hexmend.study.row import Row
-from hexmend_app.report.case import INITIAL, Case, Version
+from hexmend_app.report.case import INITIAL
 from hexmend_app.state.document import State
-from hexmend_app.state.history import Moment, Record
 from hexmend_app.state.session import Session
 
 #: Meshes beside one another in a figure at most.
 _MOST = 12
 
 
-def case_of(session: Session) -> Case:
-    """The case; of what is the same mesh, the first alone."""
+def shown_in(session: Session) -> list[tuple]:
+    """What is shown, as deeds take it: states stand for their meshes; of what is the same mesh, the first alone."""
     document = session.document
-    found = [_version(INITIAL, document.start), _now(session)]
+    found = [(document.start, (INITIAL, document.start)), (document.now, _now(session))]
     for one in session.comparison.results:
         if one.state is not None:
             title = METHODS[one.row.method].title if one.row.method in METHODS else one.row.method
-            found.append(_version(title, one.state, one.row))
-    versions: list[Version] = []
-    for version in found:
-        if all(version.mesh.points is not one.mesh.points for one in versions):
-            versions.append(version)
-    names = {version.name for version in versions}
-    named = [_renamed(version, k, names) for k, version in enumerate(versions)]
-    return Case(document.now.mesh.name, None, tuple(named[:_MOST]))
+            found.append((one.state, (title, one.row)))
+    shown: list[tuple[State, tuple]] = []
+    for state, told in found:
+        if all(state.mesh.points is not other.mesh.points for other, _ in shown):
+            shown.append((state, told))
+    names: set[str] = set()
+    versions = []
+    for place, (_, (name, *what)) in enumerate(shown[:_MOST]):
+        own = f"{name} ({place})" if name in names else name  # a method may have been run and compared
+        names.add(own)
+        versions.append((own, *what))
+    return versions
 
 
 def recipes_of(session: Session) -> dict[str, Recipe]:
@@ -77,32 +79,10 @@ def _run(session: Session) -> Recipe | None:
     return Recipe.of(replace(stage, stop=stop), title=work.title)
 
 
-def _now(session: Session) -> Version:
+def _now(session: Session) -> tuple:
     """The mesh as it is, with the run that it is the result or an iteration of."""
     state = session.document.now
     moment = session.history.moment_of(state)
     if moment is None or not moment.number:
-        return _version("now", state)
-    record = moment.record
-    rows = record.rows[: moment.number + 1]
-    version = _version(record.name, state, _row(record, moment, state))
-    return Version(version.name, version.mesh, version.figures, version.summary, version.row, rows, record.advice)
-
-
-def _row(record: Record, moment: Moment, state: State) -> Row:
-    seconds = float(record.rows[moment.number]["seconds"])
-    ended = "" if moment.number == record.result else "stopped"
-    return Row(record.title, {}, ended, record.message, state.mesh, state.summary, moment.number, seconds)
-
-
-def _version(name: str, state: State, row: Row | None = None) -> Version:
-    return Version(name, state.mesh, state.figures, state.summary, row)
-
-
-def _renamed(version: Version, place: int, names: set[str]) -> Version:
-    """A version whose name no other has: a method may have been run and compared."""
-    if version.name not in names:
-        version = Version(f"{version.name} ({place})", version.mesh, version.figures, version.summary, version.row,
-                          version.history, version.advice)  # fmt: skip
-    names.discard(version.name)
-    return version
+        return "now", state
+    return moment.record.name, moment.record, moment.number, state

@@ -1,0 +1,71 @@
+"""A film of a run that is known, off screen: for scripts that draw again what a window has drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from vtkmodules.vtkRenderingCore import vtkCamera
+
+from hexmend.mesh import Mesh
+from hexmend_app.scene.export.film import format_of, pictures, write_film
+from hexmend_app.scene.export.rasters import aim
+from hexmend_app.scene.export.shots import shots
+from hexmend_app.scene.export.still import movement_since
+from hexmend_app.scene.graphics import prepare_off_screen
+from hexmend_app.state.document import State
+from hexmend_app.state.record import Record
+from hexmend_app.state.scene import Scene
+
+
+def write_run_film(
+    path: str | Path,
+    scene: Scene,
+    run: Record,
+    mesh: Mesh,
+    numbers: Sequence[int],
+    *,
+    size: tuple[int, int],
+    rate: float,
+    histogram: bool = False,
+    opened: Mesh | None = None,
+    since: Mesh | None = None,
+    since_name: str = "",
+) -> None:
+    """Draw iterations of a run one after another and write them as one file.
+
+    Parameters
+    ----------
+    path : path-like
+        Its suffix is one of `hexmend_app.scene.export.film.FORMATS`.
+    scene : Scene
+        Its camera, cut, filters and colours.
+    run : Record
+        It knows where the nodes were at these iterations.
+    mesh : Mesh
+        What its iterations carry beside their places.
+    numbers : sequence of int
+        Of the iterations.
+    size : (width, height)
+        In pixels.
+    rate : float
+        Frames a second.
+    histogram : bool
+        Whether the distribution stands beside.
+    opened, since, since_name
+        As for `hexmend_app.scene.export.still.write_picture`, where the scene shows a movement.
+
+    Raises
+    ------
+    HexmendError
+        Where nothing can be drawn here, or the file cannot be written.
+    """
+    path = Path(path)
+    format_of(path)
+    prepare_off_screen()
+    movement = None if since is None else movement_since(since, since_name, mesh, opened or mesh)
+    camera = vtkCamera()
+    aim(camera, scene.camera, mesh.points, size[0] / size[1])
+    taken = shots(run, numbers, lambda number: State.of(mesh.with_points(run.points(number))))
+    frames = pictures(taken, scene.look(mesh), size, camera=camera, movement=movement, chart=histogram)
+    write_film(path, [*frames], rate)

@@ -1,0 +1,102 @@
+"""A picture of meshes under a scene, off screen: for commands, and for scripts that draw again what a window drew."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from hexmend.errors import ParameterError
+from hexmend.mesh import Mesh
+from hexmend.movement import MOVEMENTS, Moment, Movement
+from hexmend.quality import measure
+from hexmend.recipe import Recipe
+from hexmend_app.scene.export.sheet import Sheet, draw_sheet
+from hexmend_app.scene.export.subject import Subject
+from hexmend_app.scene.graphics import prepare_off_screen
+from hexmend_app.state.look import Arrows
+from hexmend_app.state.scene import Scene
+from hexmend_app.state.scene.carried import Pictured, carrying
+
+
+def write_picture(
+    path: str | Path,
+    scene: Scene,
+    meshes: Sequence[Mesh],
+    names: Sequence[str] = (),
+    *,
+    files: Sequence[str | Path] = (),
+    opened: Mesh | None = None,
+    since: Mesh | None = None,
+    since_name: str = "",
+    recipe: Recipe | None = None,
+) -> Sheet:
+    """Draw a scene and write it, without a window and without an X server.
+
+    Parameters
+    ----------
+    path : path-like
+        Its suffix is one of `hexmend_app.scene.export.sheet.FORMATS`; a PNG carries the scene.
+    scene : Scene
+    meshes : sequence of Mesh
+        At least one; the scene's panels name them by number from 1.
+    names : sequence of str
+        What captions call them; by default their own names.
+    files : sequence of path-like
+        That they came from; what is carried names them.
+    opened : Mesh, optional
+        The first mesh as it was opened, whose boundary and whose edge lengths the scene may want.
+    since : Mesh, optional
+        The first mesh as it was when the movement began that the scene shows; by default, of several, the first itself.
+    since_name : str
+        What is said behind "since".
+    recipe : Recipe, optional
+        What ran on the mesh since it was opened, to be carried too.
+
+    Raises
+    ------
+    HexmendError
+        Where nothing can be drawn here, the scene does not suit the meshes, or the file cannot be written.
+    """
+    prepare_off_screen()
+    path, first = Path(path), meshes[0]
+    named = zip(names or [one.name for one in meshes], meshes, strict=True)
+    subjects = [Subject(name, mesh, measure(mesh.points, mesh.hexes)) for name, mesh in named]
+    subjects[0] = replace(
+        subjects[0],
+        movement=_movement(scene, subjects, opened or first, since, since_name),
+        original=None if opened is None or not scene.structure.original else opened.points,
+    )
+    sheet = draw_sheet(scene, subjects)
+    known = files or [""] * len(meshes)
+    shown = [
+        Pictured.of(opened or mesh, mesh, Path(file) if file else None, path)
+        for mesh, file in zip(meshes, known, strict=True)
+    ]
+    sheet.write(path, carrying(scene, shown, recipe))
+    return sheet
+
+
+def moving(scene: Scene) -> bool:
+    """Whether a scene shows how a mesh has moved."""
+    return scene.colours.metric in MOVEMENTS or scene.movement.arrows is not Arrows.NONE
+
+
+def movement_since(since: Mesh, name: str, mesh: Mesh, opened: Mesh) -> Movement:
+    """The movement of a mesh, in edge lengths of the mesh as it was opened."""
+    then = Moment(since.points, measure(since.points, since.hexes), name)
+    return Movement(opened, then, mesh.points, measure(mesh.points, mesh.hexes))
+
+
+def _movement(
+    scene: Scene, subjects: Sequence[Subject], opened: Mesh, since: Mesh | None, name: str
+) -> Movement | None:
+    """That of the first mesh, where the scene shows one."""
+    if not moving(scene):
+        return None
+    first = subjects[0]
+    if since is not None:
+        return movement_since(since, name, first.mesh, opened)
+    if len(subjects) == 1:
+        raise ParameterError("the scene shows how a mesh has moved: name the mesh before that, and then the mesh")
+    return Movement(opened, Moment(first.mesh.points, first.figures, first.name), first.mesh.points, first.figures)

@@ -1,0 +1,261 @@
+"""Every file that the window writes is written again by the script, the same."""
+
+import csv
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image, ImageSequence
+
+from hexmend.recipe import Recipe, Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.features.film.film_dialog import FilmChoice
+from hexmend_app.state.history import Moment
+from hexmend_app.state.look import Arrows, Since, Traces
+from hexmend_app.state.run import Phase
+from tests.app.driving import choose, open_and_wait, phase
+from tests.patience import PATIENCE
+
+SHORT = Stop(max_iterations=4, tolerance=0)
+
+#: Columns that are other figures each time.
+CLOCKS = ("seconds", "setup_seconds", "message")
+
+
+@pytest.fixture(autouse=True)
+def script(window):
+    """What other tests have done in the window they share is not in the script."""
+    script = window.features["script"].script
+    script.begin_anew()
+    return script
+
+
+def run(window, qtbot, method="local-sd", stop=SHORT, **values):
+    choose(window, method, stop, **values)
+    window.session.commands.run(Stage(METHODS[method](**values), stop))
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    window.refresh()
+
+
+def compared(window, qtbot, *methods):
+    comparison = window.session.comparison
+    comparison.start([METHODS[name]() for name in methods], SHORT)
+    qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
+    window.refresh()
+
+
+def at(window, number):
+    """Show an iteration of the newest run."""
+    timeline = window.session.timeline
+    timeline.go(timeline.record, number)
+    window.refresh()
+
+
+def again(script, folder, *paths):
+    """What some files hold, and what they hold once the script has written them anew."""
+    before = [content(path) for path in paths]
+    for path in paths:
+        path.unlink()
+    program = folder / "script.py"
+    script.write(program)
+    env = os.environ | {"PYTHONWARNINGS": "error"}
+    done = subprocess.run([sys.executable, program], capture_output=True, text=True, env=env, cwd=folder)
+    assert done.returncode == 0, f"{done.stderr}\n{script.text}"
+    assert done.stdout == ""
+    return list(zip(before, map(content, paths), strict=True))
+
+
+def content(path: Path):
+    """The bytes of a file; rows of a table without times."""
+    if path.suffix != ".csv":
+        return path.read_bytes()
+    rows = list(csv.DictReader(path.read_text().splitlines()))
+    return [{key: value for key, value in row.items() if not key.startswith(CLOCKS) and key != "step_seconds"}
+            for row in rows]  # fmt: skip
+
+
+def frames(data, folder):
+    """The pictures that a file's bytes hold, (frames, h, w, 3)."""
+    path = folder / "frames"
+    path.write_bytes(data)
+    with Image.open(path) as image:
+        return np.array([np.asarray(one.convert("RGB")) for one in ImageSequence.Iterator(image)], int)
+
+
+def assert_same_pictures(both, folder):
+    before, after = (frames(one, folder) for one in both)
+    assert before.shape == after.shape
+    assert before.std() > 5
+    assert abs(before - after).mean() < 0.1
+
+
+def test_a_histogram_with_what_was_kept(window, qtbot, script, tmp_path):
+    run(window, qtbot)
+    panel, feature = window.features["histogram"].panel, window.features["histogram"]
+    at(window, 2)
+    panel.keep_requested.emit()
+    at(window, 4)
+    window.session.view.colour_by("scaled-jacobian")
+    panel.head.bins.setValue(23)
+    window.refresh()
+    paths = [tmp_path / f"quality{suffix}" for suffix in (".csv", ".png", ".svg")]
+    assert all(map(feature.save, paths))
+    assert len(content(paths[0])) == 1 + 23
+    assert list(content(paths[0])[0])[2:] == ["at the start", "now", "Local steepest descent 2"]
+    for before, after in again(script, tmp_path, *paths):
+        assert before == after
+
+
+def test_charts_of_a_run_and_its_branch(window, qtbot, script, tmp_path):
+    run(window, qtbot)
+    at(window, 2)
+    window.session.commands.branch(Stage(METHODS["laplacian"](), SHORT))
+    qtbot.waitUntil(lambda: not window.session.smoothing.busy, timeout=PATIENCE)
+    window.show_panel("convergence")
+    window.refresh()
+    paths = [tmp_path / f"runs{suffix}" for suffix in (".csv", ".png")]
+    assert all(map(window.features["convergence"].save, paths))
+    (rows, rows_again), (figure, figure_again) = again(script, tmp_path, *paths)
+    assert rows == rows_again
+    assert {row["branch_of"] for row in rows} == {"", "Local steepest descent 2"}
+    assert figure == figure_again
+
+
+def test_the_worst_hexes_a_recipe_and_a_scene(window, script, tmp_path):
+    window.session.commands.pin(np.arange(30), True)
+    window.session.chain.take(Recipe.of(Stage(METHODS["laplacian"](), SHORT), Stage(METHODS["mend"]())))
+    window.refresh()
+    paths = [tmp_path / name for name in ("worst.csv", "recipe.toml", "scene.toml")]
+    assert window.features["inspect"].save(paths[0])
+    window.features["recipe"].save(paths[1])
+    dialog = window.features["save"].picture_dialog()
+    dialog.keep(str(paths[2]))
+    dialog.close()
+    for before, after in again(script, tmp_path, *paths):
+        assert before == after
+
+
+def test_a_table_of_methods_and_what_was_taken_of_it(window, qtbot, script, tmp_path):
+    compared(window, qtbot, "laplacian", "getme")
+    window.session.commands.take("GETMe", window.session.comparison.of("getme").state)
+    window.session.commands.save(tmp_path / "out.vtu")
+    assert window.features["compare"].save(tmp_path / "table.csv")
+    (mesh, mesh_again), (rows, rows_again) = again(script, tmp_path, tmp_path / "out.vtu", tmp_path / "table.csv")
+    assert mesh == mesh_again
+    assert rows == rows_again
+    assert [row["method"] for row in rows] == ["initial", "laplacian", "getme"]
+    assert script.text.count("hx.compare(") == 1
+
+
+def test_a_comparison_that_was_ended_ends_where_it_did(window, qtbot, script, tmp_path):
+    comparison = window.session.comparison
+    comparison.start([METHODS["laplacian"](), METHODS["local-sd"](), METHODS["getme"]()], Stop(10**6, 0.0))
+    qtbot.waitUntil(lambda: comparison.progress.iteration > 2, timeout=PATIENCE)
+    comparison.cancel()
+    qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
+    assert window.features["compare"].save(tmp_path / "table.csv")
+    ((rows, rows_again),) = again(script, tmp_path, tmp_path / "table.csv")
+    assert [row["q_mean"] for row in rows] == [row["q_mean"] for row in rows_again]
+    assert len(rows) == 2
+
+
+@pytest.mark.parametrize("view", ["plain", "beside", "wipe", "movement", "cut"])
+def test_a_picture_of_all_that_is_shown(window, qtbot, script, tmp_path, view):
+    session = window.session
+    if view == "cut":
+        window.action("cut").trigger()
+        window.refresh()
+    run(window, qtbot)
+    if view in ("beside", "wipe"):
+        session.views.show("as it was", session.document.start)
+        at(window, 2)
+        session.views.show("between", session.document.now)
+        session.views.set_wiping(view == "wipe")
+    if view == "movement":
+        session.view.colour_by("moved-most")
+        session.view.change(traces=Traces(Since.RUN, Arrows.ALL, 2.0))
+    at(window, 4)
+    path = tmp_path / "view.png"
+    assert window.features["save"].picture(path, (400, 300))
+    (both,) = again(script, tmp_path, path)
+    assert_same_pictures(both, tmp_path)
+
+
+def test_the_meshes_of_a_picture_that_was_opened(window, qtbot, script, tmp_path):
+    session = window.session
+    session.commands.save(tmp_path / "before.vtu")
+    run(window, qtbot)
+    session.commands.save(tmp_path / "after.vtu")
+    words = ["render", "before.vtu", "after.vtu", "-o", "both.png"]
+    subprocess.run([sys.executable, "-m", "hexmend", *words], check=True, cwd=tmp_path)
+    open_and_wait(qtbot, window, tmp_path / "both.png")
+    script.begin_anew()
+    window.refresh()
+    assert len(session.views.all) == 1
+    path = tmp_path / "again.png"
+    assert window.features["save"].picture(path, (400, 300))
+    (both,) = again(script, tmp_path, path)
+    assert_same_pictures(both, tmp_path)
+    assert "save it under this name first" not in script.text
+
+
+@pytest.mark.parametrize("suffix", [".gif", ".png"])
+def test_a_film_of_what_moves(window, qtbot, script, tmp_path, suffix):
+    run(window, qtbot)
+    window.session.view.colour_by("q-change")
+    window.session.view.change(traces=Traces(Since.ITERATION, Arrows.ALL, 2.0))
+    window.canvas.look_along("+x")
+    window.refresh()
+    path, feature = tmp_path / f"run{suffix}", window.features["film"]
+    feature.film(path, FilmChoice(width=320, rate=5, frames=3, histogram=True))
+    qtbot.waitUntil(lambda: not feature.going_on, timeout=PATIENCE)
+    (both,) = again(script, tmp_path, path)
+    assert_same_pictures(both, tmp_path)
+    assert len(frames(both[0], tmp_path)) == 3
+
+
+def test_a_figure_set(window, qtbot, script, tmp_path):
+    run(window, qtbot)
+    compared(window, qtbot, "laplacian")
+    feature, folder = window.features["figures"], tmp_path / "set"
+    feature.write(folder)
+    qtbot.waitUntil(lambda: not feature.going_on, timeout=PATIENCE)
+    names = "surface.png", "cut.png", "distributions.svg", "convergence.svg", "table.csv", "captions.md", "commands.sh"
+    surface, cut, *others = again(script, tmp_path, *(folder / name for name in names))
+    for both in (surface, cut):
+        assert_same_pictures(both, tmp_path)
+    for before, after in others:
+        assert before == after
+
+
+def test_what_a_session_has_kept_is_read_from_it(window, qtbot, script, tmp_path):
+    session = window.session
+    run(window, qtbot)
+    at(window, 2)
+    window.features["histogram"].panel.keep_requested.emit()
+    compared(window, qtbot, "laplacian")
+    kept = tmp_path / "kept.hexmend"
+    session.commands.save(kept)
+    open_and_wait(qtbot, window, kept)
+    script.begin_anew()
+    (record,) = session.history.records
+    session.timeline.go(record, 3)
+    window.refresh()
+    assert session.history.moment_of(session.document.now) == Moment(record, 3)
+    session.commands.save(tmp_path / "third.vtu")
+    paths = [tmp_path / name for name in ("third.vtu", "quality.csv", "runs.csv", "table.csv", "run.gif")]
+    assert window.features["histogram"].save(paths[1])
+    assert window.features["convergence"].save(paths[2])
+    assert window.features["compare"].save(paths[3])
+    film = window.features["film"]
+    film.film(paths[4], FilmChoice(width=320, frames=3))
+    qtbot.waitUntil(lambda: not film.going_on, timeout=PATIENCE)
+    *others, pictures = again(script, tmp_path, *paths)
+    for before, after in others:
+        assert before == after
+    assert_same_pictures(pictures, tmp_path)
+    assert "save it under this name first" not in script.text
