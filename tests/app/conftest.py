@@ -25,6 +25,13 @@ from tests.guards import windows_close
 SHARED: list[Window] = []
 
 
+@pytest.hookimpl(tryfirst=True)  # before pytest-qt has events handled, of which the last fine frame is one
+def pytest_runtest_teardown():
+    """Draw nothing of the shared window any more that nobody will look at."""
+    for window in SHARED:
+        window.setUpdatesEnabled(False)
+
+
 @pytest.fixture(scope="session")
 def qapp(qapp):
     """The application in the program's own look, with garbage collected as there."""
