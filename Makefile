@@ -27,11 +27,11 @@ run: $(VENV)/.app $(VENV)/.kernels
 	@scripts/run $(BIN) "$(MESH)"
 
 # What glibc is given back goes back to the system, and threads share two heaps: a process that opens window after window
-# keeps less.
+# keeps less. Hundreds of processes find compiled what one has: else each takes half as long again to begin.
 test: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
 	@scripts/debian-packages chromium
-	@MALLOC_ARENA_MAX=2 MALLOC_TRIM_THRESHOLD_=131072 $(BIN)/python -m pytest -n 2 --dist worksteal
+	@PYTHONDONTWRITEBYTECODE= MALLOC_ARENA_MAX=2 MALLOC_TRIM_THRESHOLD_=131072 $(BIN)/python -m pytest -n 2 --dist worksteal
 
 lint: $(VENV)/.test
 	@$(BIN)/ruff check

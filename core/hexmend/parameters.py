@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import functools
 import math
 import typing
 from collections.abc import Iterable, Mapping
@@ -137,7 +138,11 @@ def parameter(
 
 def declared(kind: type | Any) -> tuple[Parameter, ...]:
     """The parameters that a `Parametrised` class (or an instance of it) declares, in order."""
-    cls = kind if isinstance(kind, type) else type(kind)
+    return _declared(kind if isinstance(kind, type) else type(kind))
+
+
+@functools.cache  # each value that is made is checked by them
+def _declared(cls: type) -> tuple[Parameter, ...]:
     types = typing.get_type_hints(cls)
     return tuple(
         Parameter(name=field.name, type=types[field.name], default=field.default, **field.metadata["parameter"])

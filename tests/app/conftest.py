@@ -18,11 +18,18 @@ from hexmend_app.shell.window import Window
 from hexmend_app.state.task import running
 from hexmend_app.widgets.style import apply_style
 from tests.app.driving import open_and_wait
-from tests.app.resetting import SIZE, Resetting, lay_out, settle
+from tests.app.resetting import SIZE, Resetting, lay_out, settle, unseen
 from tests.guards import windows_close
 
 #: The window that tests share, once there is one.
 SHARED: list[Window] = []
+
+
+@pytest.hookimpl(tryfirst=True)  # before pytest-qt has events handled, of which the last fine frame is one
+def pytest_runtest_teardown():
+    """Draw nothing of the shared window any more that nobody will look at."""
+    for window in SHARED:
+        window.setUpdatesEnabled(False)
 
 
 @pytest.fixture(scope="session")
@@ -159,8 +166,10 @@ def made(qtbot, path):
     window.furnish()
     window.build_canvas()
     open_and_wait(qtbot, window, path)
-    lay_out(window, window.docks.state())
-    settle(qtbot, window)
+    with unseen(window):
+        lay_out(window, window.docks.state())
+        settle(qtbot, window)
+    QApplication.processEvents()
     return window
 
 

@@ -13,6 +13,7 @@ from PySide6.QtCore import QObject, QSettings
 from PySide6.QtWidgets import QApplication, QComboBox, QScrollBar, QTabBar, QWidget
 
 from hexmend_app.shell.window import Window
+from tests.app.resetting import unseen
 
 #: Properties of widgets and actions that show what was done to them.
 _PROPERTIES = (
@@ -46,15 +47,16 @@ def everything(window: QWidget) -> Counter[str]:
     lines[f"settings: {sorted(QSettings().allKeys())}"] += 1
     layout = window.docks.state()
     lines[f"layout: {layout}"] += 1
-    for panel in window.docks.ids():
-        window.show_panel(panel)
-        window.refresh()
-        while window.session.classer.busy:  # what a panel asks for when it is seen
+    with unseen(window):  # what is looked at are properties
+        for panel in window.docks.ids():
+            window.show_panel(panel)
+            window.refresh()
+            while window.session.classer.busy:  # what a panel asks for when it is seen
+                QApplication.processEvents()
+            window.refresh()
             QApplication.processEvents()
-        window.refresh()
-        QApplication.processEvents()
-        _widgets(window.docks, panel, lines)
-    window.docks.restore(layout)
+            _widgets(window.docks, panel, lines)
+        window.docks.restore(layout)
     return lines
 
 

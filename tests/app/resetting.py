@@ -70,7 +70,8 @@ class Resetting:
         with unseen(self.window):
             self._reset_session()
             self._open_anew(qtbot)
-        settle(qtbot, self.window)
+            settle(qtbot, self.window)
+        QApplication.processEvents()
 
     def _reset_session(self):
         """What is set goes back, whatever the mesh."""

@@ -62,7 +62,7 @@ def limited(megabytes, *words):
 @pytest.mark.parametrize("name", METHODS)
 def test_a_run_takes_about_what_its_method_declares(name):
     values = {"solver_iterations": 5} if name.startswith("global-") and name != "global-sd" else {}
-    row = taken(name, 30_000, 3, **values)
+    row = taken(name, 30_000, 1, **values)
     assert row["mb"] < 1.5 * row["needed_mb"]
     assert row["needed_mb"] < 4 * row["mb"] + 2 * FIXED / MEBIBYTE
 

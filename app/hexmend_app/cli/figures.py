@@ -19,6 +19,7 @@ from hexmend_app.scene.export.layout import Layout
 from hexmend_app.scene.export.rasters import aim
 from hexmend_app.scene.export.sheet import draw_sheet, format_of
 from hexmend_app.scene.export.subject import Subject
+from hexmend_app.scene.export.tally import tally
 from hexmend_app.scene.graphics import prepare_off_screen
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Isolation, Look, Structure
@@ -81,7 +82,7 @@ def _with_palette(image: Image.Image, bar: int) -> Image.Image:
     """The picture in 256 colours, which make it a third as large; small areas, and the bar so high, count for more."""
     pixels = np.asarray(image)
     seen = np.concatenate([pixels.reshape(-1, 3), np.tile(pixels[image.height - bar :].reshape(-1, 3), (_BAR, 1))])
-    colours, counts = np.unique(seen, axis=0, return_counts=True)
+    colours, counts = tally(seen)
     palette = Image.fromarray(np.repeat(colours, np.sqrt(counts).astype(int), axis=0)[None]).quantize(256, kmeans=3)
     return image.quantize(palette=palette, dither=Image.Dither.NONE)
 

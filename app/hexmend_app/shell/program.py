@@ -54,6 +54,7 @@ def open_window(mesh: str | None = None) -> int:
     report_start(window)
     report_unexpected_errors(window)
     window.furnished.connect(lambda: window.features["session"].guard())
+    window.furnished.connect(app.findChild(Garbage).spare)
     # A signal may come while something is painted: the window is closed after that.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
     alive = QTimer()  # lets Python see a Ctrl-C

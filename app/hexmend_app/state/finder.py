@@ -55,8 +55,10 @@ class Finder(QObject):
             self._soon.start()
 
     def search(self) -> None:
-        """Begin now; it happens by itself soon after a mesh was opened."""
+        """Begin now, or when that of the mesh before is found; it happens by itself soon after a mesh was opened."""
         self._soon.stop()
+        if self._task is not None:
+            return
         self._mesh = mesh = self._document.start.mesh
         self._task = Task(f"reading {mesh.name}: its structure", lambda _: structure(mesh))
         self._task.ended.connect(self._finish)

@@ -32,6 +32,13 @@ class Garbage(QObject):
         self._timer.timeout.connect(self.look)
         self._timer.start()
 
+    def spare(self) -> None:
+        """Look no more at what there is by now, garbage or not: modules and a window stay as long as the program.
+
+        A tenth of a second is what a look at all of them takes, and the window stands still meanwhile.
+        """
+        gc.freeze()
+
     def look(self) -> None:
         """Collect the oldest generation that has passed its threshold, and the younger ones with it."""
         for generation in (2, 1, 0):

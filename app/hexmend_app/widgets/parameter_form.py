@@ -106,6 +106,10 @@ class ParameterForm(QWidget):
 
     def set_declarations(self, declarations: Iterable[Parameter]) -> None:
         """Show other parameters, at their defaults; not from a signal of an editor that this replaces."""
+        declarations = list(declarations)
+        if declarations and declarations == [row.declaration for row in self.rows.values()]:  # to make rows takes time
+            self.set_values({declaration.name: declaration.default for declaration in declarations})
+            return
         while (item := self._grid.takeAt(0)) is not None:
             # At once: deleted later, rows stay for as long as the loop does not return to where they were made.
             shiboken6.delete(item.widget())

@@ -74,8 +74,9 @@ def apply_style(app: QApplication, dark: bool) -> None:
     """Give the program the Fusion look in the light theme or the dark one, and have all widgets change with it."""
     if app.property("dark") is dark:
         return
+    if app.property("dark") is None:  # once: it has every widget polished anew, which takes longer than all colours
+        app.setStyle("Fusion")
     app.setProperty("dark", dark)
-    app.setStyle("Fusion")
     palette = QPalette(QColor(BUTTON.of(dark)), QColor(PANEL.of(dark)))
     for role, colour in _PALETTE:
         palette.setColor(role, QColor(colour.of(dark)))

@@ -51,7 +51,7 @@ def test_any_name_of_a_file_will_do(hexmend, mesh_file, tmp_path, monkeypatch, n
     Path(name).write_bytes(mesh_file.read_bytes())
     words = ["--methods", "none", "-o"]
     assert hexmend("report", f"./{name}", *words, "report.html") == 0
-    assert hexmend("figures", f"./{name}", *words, "set") == 0
+    assert hexmend("figures", f"./{name}", "--width-mm", "60", *words, "set") == 0
     assert "<b>" not in Path("report.html").read_text(encoding="utf-8")
     assert Path("set/captions.md").exists()
 
@@ -156,7 +156,7 @@ def test_a_file_whose_name_is_no_text_is_reported(hexmend, mesh_file, tmp_path):
     page, folder = tmp_path / "report.html", tmp_path / "set"
     assert hexmend("report", odd, "--methods", "laplacian", "-o", page) == 0
     assert "bad?" in page.read_text(encoding="utf-8")
-    assert hexmend("figures", odd, "--methods", "none", "-o", folder) == 0
+    assert hexmend("figures", odd, "--methods", "none", "--width-mm", "60", "-o", folder) == 0
     assert os.fsencode(odd) in (folder / "commands.sh").read_bytes()
 
 

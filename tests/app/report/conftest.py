@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 
@@ -68,16 +69,16 @@ class Opened:
 
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory) -> Iterator[Callable[..., Opened]]:
-    """Makes pages; options are those of a context, and `arguments` of the browser."""
-    with chromium(tmp_path_factory.mktemp("browser")) as launch:
+    """Makes pages, each in a context of its own; options are those of that, and `arguments` of the browser."""
+    with chromium(tmp_path_factory.mktemp("browser")) as launch, ExitStack() as programs:
+
+        @cache
+        def program(*arguments: str):
+            return programs.enter_context(launch(*arguments))
 
         @contextmanager
         def opened(arguments: tuple[str, ...] = SOFTWARE, **options) -> Iterator[Opened]:
-            program = launch(*arguments)
-            try:
-                context = program.new_context(viewport={"width": 1000, "height": 640}, **options)
+            with program(*arguments).new_context(viewport={"width": 800, "height": 560}, **options) as context:
                 yield Opened(context.new_page())
-            finally:
-                program.close()
 
         yield opened

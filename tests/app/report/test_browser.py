@@ -11,6 +11,7 @@ from PIL import Image
 from hexmend.quality import METRICS, measure, worst
 from hexmend_app.report.figure_set import Style
 from hexmend_app.report.page import chapter, page, write_page
+from hexmend_app.scene.export.tally import tally
 from hexmend_app.state.scene import Page, Scene
 
 STYLE = Style(Scene(page=Page(dpi=72)))
@@ -45,7 +46,7 @@ def fresh(report):
 
 def colours(picture):
     """How many there are, in steps that the eye tells apart."""
-    return len(np.unique(pixels(picture) // 16, axis=0))
+    return len(tally(pixels(picture) // 16)[0])
 
 
 def share(picture, red, green, blue, near=40):

@@ -55,6 +55,16 @@ def test_old_garbage_goes_too(garbage):
     assert went
 
 
+def test_what_is_spared_is_looked_at_no_more_and_what_comes_after_is(garbage):
+    went, before = [], Circle([])
+    gc.collect()  # or garbage would be spared too
+    garbage.spare()
+    assert not any(one is before for one in gc.get_objects())
+    Circle(went)
+    gc.collect()
+    assert went
+
+
 def test_little_is_left_alone(garbage):
     went = []
     gc.collect()

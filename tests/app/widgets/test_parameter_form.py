@@ -209,13 +209,27 @@ def test_other_declarations_replace_the_rows(form):
     assert not any(button.isVisible() for button in form.findChildren(QToolButton))
 
 
+def test_the_same_declarations_again_are_shown_by_the_same_rows_at_their_defaults(form, changes):
+    old = form.editor("delta")
+    form.set_values({"delta": 2.0})
+    type_into(form.editor("max_cuts"), "many")
+    assert form.problems()
+    changes.clear()
+    form.set_declarations(declared(AllKinds))
+    assert form.editor("delta") is old
+    assert AllKinds(**form.values()) == AllKinds()
+    assert form.problems() == {}
+    assert changes == []
+
+
 def test_rows_that_are_replaced_are_gone_at_once(form):
     def widgets():
         return len(form.findChildren(QWidget))
 
     first = widgets()
     old = weakref.ref(form.editor("delta"))
-    for _ in range(240):
+    for _ in range(20):
+        form.set_declarations(declared(AllKinds)[1:])
         form.set_declarations(declared(AllKinds))
         assert widgets() == first
     gc.collect()

@@ -17,6 +17,7 @@ from hexmend_app.scene.export.chart import histogram
 from hexmend_app.scene.export.frames import INK, colour_bar, letters, paper, pen_of, strip_height
 from hexmend_app.scene.export.movie import check_installed, write_movie
 from hexmend_app.scene.export.shots import Shot
+from hexmend_app.scene.export.tally import tally
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.stage import Stage
@@ -186,12 +187,11 @@ def _by_palette(frame: Image.Image, table: Sequence[tuple[int, ...]]) -> Image.I
 
 def _colours(parts: Sequence[np.ndarray], most: int) -> list[tuple[int, ...]]:
     """The colours, `most` at most, that stand for those of some pictures (h, w, 3) best."""
-    pixels = np.concatenate([part.reshape(-1, 3) for part in parts])
-    colours, counts = np.unique(pixels, axis=0, return_counts=True)
+    colours, counts = tally(np.concatenate([part.reshape(-1, 3) for part in parts]))
     # By the root of how often they are seen: or the ground would leave no colours to the mesh.
     weighted = np.repeat(colours, np.ceil(np.sqrt(counts)).astype(int), axis=0)
     chosen = Image.fromarray(weighted[None]).quantize(most, method=Image.Quantize.MEDIANCUT).convert("RGB")
-    return sorted({tuple(map(int, one)) for one in np.unique(np.asarray(chosen).reshape(-1, 3), axis=0)})
+    return [tuple(one) for one in tally(np.asarray(chosen))[0].tolist()]
 
 
 def _along(line: np.ndarray) -> list[tuple[int, ...]]:

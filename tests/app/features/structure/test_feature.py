@@ -1,12 +1,10 @@
-"""The structure of a mesh in the window: found beside it, counted in the panel, shown by mouse and keys."""
+"""The structure of a mesh in the window, shown by mouse and keys."""
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit
 
@@ -15,165 +13,17 @@ from hexmend.cells import Cells
 from hexmend.mesh import Mesh
 from hexmend.structure import structure
 from hexmend.surface import Kind
-from hexmend_app.features.structure.structure_panel import StructurePanel
-from hexmend_app.scene.layers.structure import KINDS, LOCKED, PINNED, SHARP, VALENCES
+from hexmend_app.scene.layers.structure import KINDS, LOCKED, PINNED, VALENCES
 from hexmend_app.shell.palette import CommandPalette
-from hexmend_app.shell.program import application
 from hexmend_app.state.classer import PIN
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Look, Structure
-from hexmend_app.state.task import running
-from tests.app.driving import LEFT, choose, click, key, open_and_wait, tick, turn
-from tests.app.driving import pixels as drawn
+from tests.app.driving import choose, click, open_and_wait, tick, turn
+from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, slid
 from tests.core.test_structure import tetrahedron
 from tests.patience import PATIENCE
-
-KEYS = {
-    "irregular": "S",
-    "boundary": "B",
-    "sharp": "H",
-    "fixed": "X",
-    "free": "M",
-    "locked": "L",
-    "kinds": "J",
-    "others": "G",
-    "original": "O",
-}
-
-
-@pytest.fixture
-def panel(qtbot):
-    application()
-    panel = StructurePanel()
-    qtbot.addWidget(panel)
-    panel.resize(330, panel.sizeHint().height())
-    panel.show()
-    qtbot.waitExposed(panel)
-    return panel
-
-
-@pytest.fixture
-def five(window, qtbot, tmp_path):
-    """The window with a mesh of five blocks in it."""
-    io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500))
-    open_and_know(qtbot, window, tmp_path / "five.vtu")
-    window.session.view.change(shading=False)  # shades come when the view has rested, whenever that is
-    window.refresh()
-    return window
-
-
-def open_and_know(qtbot, window, path):
-    """Open a mesh, and wait until its structure is found: not that of the mesh before."""
-    open_and_wait(qtbot, window, path)
-    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
-    window.refresh()
-
-
-def press_key(window, name):
-    """Press the key of a layer."""
-    key(window, getattr(Qt.Key, f"Key_{KEYS[name]}"))
-
-
-def press(box):
-    QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
-
-
-def texts(panel, name):
-    """What stands beside a layer."""
-    turn()  # what stood there before goes
-    return [label.text() for label in panel.layers[name].entries.findChildren(QLabel)]
-
-
-def pixels(window):
-    """A fast frame: a fine one has other edges."""
-    window.refresh()
-    window.canvas.viewport.moving()
-    return drawn(window)
-
-
-def count(image, colour):
-    return int((image == np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)).all(axis=2).sum())
-
-
-# The panel
-
-
-def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
-    assert texts(panel, "irregular") == []
-    panel.set_found(None)
-    panel.set_classes(None)
-    panel.set_nodes(8, 1, 3, 2)
-    assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked", "kinds", "original"]
-    assert texts(panel, "irregular") == ["counting…"]
-    assert "Being counted" in panel.layers["sharp"].box.toolTip()
-    assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
-    assert texts(panel, "locked") == ["of 2 hexes"]
-
-
-def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
-    panel.set_classes(None, ValueError("no boundary"))
-    assert texts(panel, "kinds") == ["could not be worked out"]
-    assert not panel.offered()["kinds"]
-    assert "This could not be worked out: no boundary." in panel.layers["kinds"].box.toolTip()
-    panel.set_classes(None)
-    assert texts(panel, "kinds") == ["counting…"]
-    assert panel.offered()["kinds"]
-
-
-def test_edges_are_counted_by_valence(panel):
-    panel.set_found(structure(tetrahedron()))
-    assert texts(panel, "irregular") == ["4 of 3", "1 node"]
-    assert "120° at three" in panel.layers["irregular"].box.toolTip()
-    mesh = grid(8)
-    p = mesh.points / 4 - 1
-    size = np.maximum(np.linalg.norm(p, axis=1, keepdims=True), 1e-9)
-    panel.set_found(structure(Mesh(p * np.abs(p).max(axis=1, keepdims=True) / size, mesh.hexes)))
-    assert texts(panel, "boundary") == [f"{12 * 8} of 1"]
-
-
-def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
-    valence = np.repeat([3, 5, 6, 7], [14461, 10776, 1048, 313])
-    panel.set_found(dataclasses.replace(structure(tetrahedron()), interior_valence=valence))
-    panel.set_nodes(9156, 120, 28317, 44)
-    panel.resize(280, 400)
-    turn()
-    for label in panel.findChildren(QLabel):
-        if label.isVisible():
-            assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
-
-
-def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off(panel):
-    panel.set_found(structure(grid(2)))
-    panel.set_nodes(26, 0, 1, 0)
-    assert panel.offered() == {
-        "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
-        "kinds": False, "others": False, "original": True,
-    }  # fmt: skip
-    assert texts(panel, "irregular") == ["none"]
-    assert "four hexes share every edge" in panel.layers["irregular"].box.toolTip()
-    heard = []
-    panel.structure_changed.connect(heard.append)
-    press(panel.layers["irregular"].box)
-    assert heard == []
-    panel.set_structure(Structure(irregular=True))
-    press(panel.layers["irregular"].box)
-    assert heard == [Structure()]
-    assert not panel.offered()["irregular"]
-
-
-def test_a_click_chooses_one_layer_more(panel):
-    panel.set_found(structure(grid(2)))
-    heard = []
-    panel.structure_changed.connect(heard.append)
-    panel.set_structure(Structure(locked=True))
-    press(panel.layers["sharp"].box)
-    press(panel.layers["sharp"].box)
-    assert heard == [Structure(sharp=True, locked=True), Structure(locked=True)]
-
-
-# The window
 
 
 @pytest.mark.parametrize("name", ["irregular", "sharp", "fixed", "free"])
@@ -260,22 +110,6 @@ def test_irregular_edges_are_found_by_name_and_seen(five, qtbot):
     assert count(pixels(five), VALENCES[5]) > 100
 
 
-def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five, qtbot, tmp_path):
-    press_key(five, "sharp")
-    press_key(five, "irregular")
-    io.write(tmp_path / "cube.vtu", grid(3))
-    open_and_wait(qtbot, five, tmp_path / "cube.vtu")
-    assert five.session.finder.structure is None
-    assert not five.canvas.viewport.frame.look.structure.edges  # the view does not wait for them
-    qtbot.waitUntil(lambda: five.session.finder.structure is not None, timeout=PATIENCE)
-    five.refresh()
-    assert five.canvas.viewport.frame.look.structure == Structure(irregular=True, sharp=True)
-    assert texts(five.features["structure"].panel, "sharp") == ["36"]
-    assert five.features["structure"].panel.layers["irregular"].box.isEnabled()  # to be switched off
-    assert count(pixels(five), SHARP) > 300
-    assert count(pixels(five), VALENCES[5]) == 0
-
-
 def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
     open_and_know(qtbot, window, tmp_path / "five.vtu")
@@ -356,35 +190,6 @@ def test_nothing_is_cut_off(five, qtbot, size):
             if label.isVisible():
                 assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
     assert panel.mapTo(five, panel.rect().bottomRight()).x() < size[0]
-
-
-def begin_searching(window):
-    """Not waited for: a small mesh's search may be over between two looks at it."""
-    window.session.finder.search()
-    assert window.session.finder.busy
-
-
-@pytest.mark.parametrize("searching", [False, True])
-def test_closing_before_it_is_found_leaves_no_thread(fresh_window, qtbot, mesh_file, searching):
-    window = fresh_window
-    if window.session.finder.structure is None:
-        qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE).wait()
-    window.session.document.replace(window.session.document.start, mesh_file)
-    if searching:
-        begin_searching(window)
-    window.close()
-    qtbot.waitUntil(lambda: running() == (), timeout=PATIENCE)
-    turn()
-    assert window.session.finder.structure is None
-
-
-def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(window, qtbot):
-    first, last = State.of(gallery.make("five-side", size=30_000)), State.of(grid(2))
-    window.session.document.replace(first, None)
-    begin_searching(window)
-    window.session.document.replace(last, None)
-    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
-    assert len(window.session.finder.structure.sharp) == 24
 
 
 def test_other_cells_are_shown_and_told_of(window, qtbot, tmp_path):

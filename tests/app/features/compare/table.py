@@ -1,0 +1,69 @@
+"""The table of the comparison, as a hand uses it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QPushButton, QTableView, QWidget
+
+from hexmend.report.comparison import LINES
+from hexmend.run import Stop
+from hexmend_app.canvas.captions import CaptionRow
+from hexmend_app.features.compare.comparison_table import METHOD
+from tests.app.driving import LEFT, choose, named
+
+COLUMN = {figure.key: at for at, figure in enumerate(LINES, 2)}
+
+
+SHORT, ENDLESS = Stop(max_iterations=4), Stop(max_iterations=100_000, tolerance=0.0)
+
+
+def table_of(window):
+    window.refresh()
+    return named(window.features["compare"].panel, QTableView, "Comparison of methods")
+
+
+def model(window):
+    return table_of(window).model()
+
+
+def row(window, name):
+    return [one.name for one in model(window).entries].index(name)
+
+
+def tick(window, name, column):
+    """Click on the check of a row."""
+    table = table_of(window)
+    index = model(window).index(row(window, name), column)
+    table.scrollTo(index)
+    rect = table.visualRect(index)
+    QTest.mouseClick(table.viewport(), LEFT, pos=QPoint(rect.left() + 10, rect.center().y()))
+    window.refresh()
+
+
+def button(window, name):
+    window.refresh()
+    return named(window.features["compare"].panel, QPushButton, name)
+
+
+def choose_methods(window, *names):
+    for name in sorted(model(window).ticks ^ set(names)):
+        tick(window, name, METHOD)
+    assert model(window).ticks == set(names)
+
+
+def prepared(window, qtbot):
+    """The window with the panel in front and short runs asked for."""
+    window.show_panel("compare")
+    choose(window, "mend", SHORT)
+    qtbot.waitUntil(window.features["compare"].panel.isVisible)
+    return window
+
+
+def captions(window):
+    """What the views are called that have captions, row by row."""
+    window.refresh()
+    QApplication.processEvents()  # layouts show what was put into them a moment later
+    own = Qt.FindChildOption.FindDirectChildrenOnly
+    parts = [part for row in window.findChildren(CaptionRow) for part in row.findChildren(QWidget, options=own)]
+    return [part.accessibleName().partition(":")[0] for part in parts if part.isVisibleTo(window)]

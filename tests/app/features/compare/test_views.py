@@ -1,0 +1,195 @@
+"""Results of a comparison in views side by side, with mouse and keys."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PIL import Image
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QToolButton
+
+from hexmend_app.features.compare.comparison_table import VIEW, title_of
+from hexmend_app.state.clip import PlaneClip
+from hexmend_app.state.document import State
+from hexmend_app.state.look import ColourScale, RangeMode
+from tests.app.driving import LEFT, click, drag, key, pixels, press, seen_at
+from tests.app.features.compare.table import button, captions, model, row, tick
+from tests.patience import PATIENCE
+
+
+def test_results_are_shown_beside_the_mesh_with_their_names_in_the_histogram(compared):
+    for count, name in enumerate(("getme", "laplacian", "local-sd"), 2):
+        tick(compared, name, VIEW)
+        assert len(compared.canvas.panes.all) == count
+    assert captions(compared) == ["now", title_of("getme"), title_of("laplacian"), title_of("local-sd")]
+    assert [one.name for one in compared.session.kept.all] == [
+        title_of("getme"),
+        title_of("laplacian"),
+        title_of("local-sd"),
+    ]
+    series = compared.features["histogram"].panel.series()
+    assert [one.name for one in series][2:] == [title_of("getme"), title_of("laplacian"), title_of("local-sd")]
+    initial = model(compared).index(0, VIEW)
+    assert not model(compared).flags(initial) & Qt.ItemFlag.ItemIsEnabled  # there is no room
+    tick(compared, "initial", VIEW)
+    assert len(compared.canvas.panes.all) == 4
+    for view, name in zip(compared.canvas.panes.all[1:], ("getme", "laplacian", "local-sd"), strict=True):
+        state = compared.session.comparison.of(name).state
+        np.testing.assert_array_equal(view.frame.mesh.points, state.mesh.points)
+
+
+def test_a_view_is_closed_by_its_button_and_the_rest_by_a_key(compared):
+    for name in ("getme", "laplacian", "local-sd"):
+        tick(compared, name, VIEW)
+    crosses = [
+        b
+        for b in compared.findChildren(QToolButton)
+        if b.accessibleName() == f"Close the view of {title_of('laplacian')}"
+    ]
+    press(next(cross for cross in crosses if cross.isVisible()))
+    assert captions(compared) == ["now", title_of("getme"), title_of("local-sd")]
+    assert not model(compared).entries[row(compared, "laplacian")].shown
+    assert [one.name for one in compared.session.kept.all] == [title_of("getme"), title_of("local-sd")]
+    key(compared, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
+    assert captions(compared) == []
+    assert compared.session.kept.all == ()
+
+
+def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
+    first, second = (compared.session.comparison.of(name).state for name in ("getme", "laplacian"))
+    compared.session.views.show("iteration 7", first)
+    compared.refresh()
+    assert captions(compared) == ["now", "iteration 7"]
+    compared.session.views.show("iteration 7", second)
+    compared.refresh()
+    assert captions(compared) == ["now", "iteration 7"]
+    assert compared.canvas.panes.all[1].frame.mesh.points is second.mesh.points
+    assert [one.points for one in compared.session.kept.all] == [second.mesh.points]
+
+
+def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(compared, qtbot):
+    mesh = compared.session.document.now.mesh
+    compared.session.views.show("mine", State.of(mesh.with_points(mesh.points)))
+    tick(compared, "getme", VIEW)
+    tick(compared, "initial", VIEW)
+    assert captions(compared) == ["now", "mine", title_of("getme"), "initial"]
+    press(button(compared, "Run the comparison"))
+    assert captions(compared) == ["now", "mine"]
+    qtbot.waitUntil(lambda: not compared.session.comparison.busy, timeout=PATIENCE)
+    assert not any(one.shown for one in model(compared).entries)
+
+
+def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(compared, qtbot):
+    tick(compared, "getme", VIEW)
+    canvas, view = compared.canvas, compared.canvas.interactor
+    canvas.draw_still()
+    before = pixels(compared)
+    half = before.shape[1] // 2
+    right = QPoint(view.width() * 3 // 4, view.height() // 2)
+    drag(view, right, right + QPoint(60, 20))
+    canvas.draw_still()
+    after = pixels(compared)
+    for part in (after[:, :half] - before[:, :half], after[:, half:] - before[:, half:]):
+        assert (np.abs(part).max(axis=2) > 40).mean() > 0.02
+    assert compared.session.selection.hex is None
+    QTest.mouseClick(view, LEFT, pos=right)
+    compared.refresh()
+    chosen = compared.session.selection.hex
+    assert chosen is not None
+    for one in canvas.panes.all:
+        assert one.chosen.hex == chosen
+        np.testing.assert_allclose(
+            one.chosen.highlight.box.points, one.frame.mesh.points[one.frame.mesh.hexes[chosen]], rtol=1e-6
+        )
+    tick(compared, "laplacian", VIEW)
+    assert canvas.panes.all[2].chosen.hex == chosen
+
+
+def test_cut_and_colours_are_those_of_all_views(compared):
+    tick(compared, "getme", VIEW)
+    tick(compared, "laplacian", VIEW)
+    key(compared, Qt.Key.Key_C)
+    compared.session.view.change(scale=ColourScale(mode=RangeMode.FITTED))
+    compared.refresh()
+    first, *others = compared.canvas.panes.all
+    assert 0 < first.shown < first.frame.mesh.n_hexes
+    for view in others:
+        np.testing.assert_array_equal(view.kept(), first.kept())
+        assert (view.colouring.low, view.colouring.high) == (first.colouring.low, first.colouring.high)
+    states = [compared.session.document.now, *(one.state for one in compared.session.views.all)]
+    q = [one.figures.q[~one.figures.inverted] for one in states]
+    assert (first.colouring.low, first.colouring.high) == (min(map(np.min, q)), max(map(np.max, q)))
+    bar = compared.canvas.colour_bar
+    assert bar.range == (first.colouring.low, first.colouring.high)
+
+
+def test_the_plane_comes_back_in_the_view_of_the_mesh_wherever_the_mouse_was(compared, qtbot):
+    tick(compared, "getme", VIEW)
+    view = compared.canvas.interactor
+    for _ in range(2):
+        key(compared, Qt.Key.Key_C)
+    compared.session.view.set_handles(False)
+    QTest.mouseMove(view, QPoint(view.width() * 3 // 4, view.height() // 2))
+    QApplication.processEvents()
+    key(compared, Qt.Key.Key_C)
+    without = pixels(compared)
+    compared.session.view.set_handles(True)
+    changed = np.abs(pixels(compared) - without).max(axis=2) > 5
+    half = changed.shape[1] // 2
+    left, right = changed[:, :half].mean(), changed[:, half:].mean()
+    assert left > 0.01  # the plane is a faint one
+    assert right < left / 4  # edges may be drawn a little otherwise, for there is something else in depth
+
+
+@pytest.mark.parametrize("arranged", ["side by side", "wipe", "wipe, the mesh at the right"])
+def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared, qtbot, arranged):
+    tick(compared, "getme", VIEW)
+    if arranged != "side by side":
+        compared.session.views.set_wiping(True)
+        compared.session.views.move_wipe(0.9 if arranged == "wipe" else 0.1)
+    if arranged == "wipe, the mesh at the right":
+        compared.session.views.choose_wiped(1, 0)
+    centre = compared.session.document.now.mesh.points.mean(axis=0)
+    compared.session.view.set_clip(PlaneClip.at((0, 0, 1), tuple(centre)))
+    compared.refresh()
+    QApplication.processEvents()  # the wipe's choices take room from the view
+    pixels(compared)
+    x, y, z = compared.session.view.look.clip.planes[0].origin
+    place = seen_at(compared, (x + 4, y - 4, z))  # on the plane, beside its arrow
+    before = compared.canvas.panes.all[1].shown
+    drag(compared.canvas.interactor, place, place + QPoint(0, -30))
+    assert compared.session.view.look.clip.planes[0].origin[2] > z
+    compared.refresh()
+    first, second = compared.canvas.panes.all
+    assert second.shown == first.shown != before
+
+
+def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):
+    tick(compared, "getme", VIEW)
+    with qtbot.waitSignal(compared.session.smoothing.ended, timeout=PATIENCE):
+        click(compared, "Run")
+    compared.refresh()
+    first, second = compared.canvas.panes.all
+    np.testing.assert_array_equal(first.frame.mesh.points, compared.session.document.now.mesh.points)
+    np.testing.assert_array_equal(second.frame.mesh.points, compared.session.comparison.of("getme").state.mesh.points)
+    caption = compared.canvas.frame.captions[0]
+    assert (caption.q_min, caption.inverted) == (
+        compared.session.document.now.summary.q_min, compared.session.document.now.summary.inverted
+    )  # fmt: skip
+
+
+def test_a_picture_holds_all_views_with_their_captions(compared, tmp_path):
+    for name in ("getme", "laplacian"):
+        tick(compared, name, VIEW)
+    assert compared.features["save"].picture(tmp_path / "three.png", (900, 420))
+    three = np.asarray(Image.open(tmp_path / "three.png").convert("RGB")).astype(int)
+    assert three.shape == (420, 900, 3)
+    for k in range(3):
+        part = three[:, 300 * k : 300 * (k + 1)]
+        assert ((part.max(axis=2) - part.min(axis=2)) > 60).mean() > 0.1
+        assert (part[:24].max(axis=2) < 90).sum() > 50  # letters
+    key(compared, Qt.Key.Key_W)
+    assert compared.features["save"].picture(tmp_path / "wiped.png", (900, 420))
+    wiped = np.asarray(Image.open(tmp_path / "wiped.png").convert("RGB")).astype(int)
+    assert (wiped[40:360, 449:452].max(axis=2) < 60).all(axis=0).any()  # the edge

@@ -1,0 +1,98 @@
+"""How high the bars of the histogram are, on either scale."""
+
+import numpy as np
+import pytest
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QToolButton
+
+from tests.app.driving import LEFT, turn
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_the_largest_count_is_in_sight_on_both_scales(histogram, scale):
+    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
+    for count in (10, 900, 50):
+        q = np.concatenate([np.full(count, 0.5), [0.1]])
+        histogram.set_initial(q, np.zeros(len(q), bool))
+        histogram.set_current(q, np.zeros(len(q), bool))
+        low, high = histogram.plot.plot.viewRange()[1]
+        height = float(histogram.plot.heights.of(histogram.series()[0].part, count))
+        assert low < height < high
+        assert (height - low) / (high - low) > 0.35
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_the_axis_is_that_of_the_bins_and_a_taller_bar_is_broken(histogram, scale):
+    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
+    q = np.full(3000, 0.5)
+    tangled, mended = np.arange(3000) >= 100, np.arange(3000) >= 2990
+    histogram.set_initial(q, tangled)
+    histogram.set_current(q, tangled)
+    plot = histogram.plot
+    top = 10**plot.heights.top if scale == "log" else plot.heights.top
+    assert 100 <= top <= 150
+    now, start = (plot.numbers[key][0] for key in ("now", "start"))
+    assert now.toPlainText() == "2,900"
+    assert now.isVisible()
+    assert not start.isVisible()  # the same number twice
+    bar = plot.outlines["now"].bar.path()
+    assert len(bar.toSubpathPolygons()) == 2  # with a gap between them
+    assert plot.heights.top < bar.boundingRect().bottom() < plot.plot.viewRange()[1][1]
+    lower, upper = (piece.boundingRect() for piece in bar.toSubpathPolygons())
+    assert lower.top() == plot.heights.floor
+    assert lower.bottom() < upper.bottom()
+    histogram.set_current(np.append(q, q[:500]), np.append(tangled, tangled[100:600]))
+    assert (now.toPlainText(), start.toPlainText()) == ("3,400", "2,900")
+    assert start.isVisible()
+    middles = [number.mapRectToScene(number.boundingRect()).center() for number in (start, now)]
+    assert all(map(plot.view.sceneBoundingRect().contains, middles))
+    assert middles[0].y() < middles[1].y() - 8
+    histogram.set_current(q, mended)
+    assert now.toPlainText() == "10"
+    if scale == "linear":
+        assert not start.isVisible()  # the axis reaches up to it again
+    assert len(plot.outlines["now"].bar.path().toSubpathPolygons()) == 1
+
+
+def test_the_scale_changes_whatever_the_counts_were(histogram):
+    q = np.full(5000, 0.5)
+    histogram.set_initial(q, np.zeros(5000, bool))
+    for scale in ("log", "linear", "log"):
+        QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
+        assert histogram.plot.heights.log == (scale == "log")
+    assert histogram.plot.heights.top == pytest.approx(np.log10(5000))
+
+
+def test_with_all_elements_inverted_there_is_an_axis_all_the_same(histogram):
+    histogram.set_initial(np.zeros(50), np.ones(50, bool))
+    histogram.set_current(np.zeros(50), np.ones(50, bool))
+    assert histogram.plot.heights.top == 1
+    assert histogram.plot.numbers["now"][0].toPlainText() == "50"
+
+
+def cumulative_button(histogram):
+    histogram.resize(700, 360)
+    turn()
+    (button,) = (b for b in histogram.findChildren(QToolButton) if b.text() == "Cumulative")
+    return button
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_cumulative_shares_begin_with_the_inverted_and_end_at_all(histogram, data, scale):
+    q, inverted = data
+    QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
+    QTest.mouseClick(cumulative_button(histogram), LEFT)
+    histogram.set_current(*data)
+    share = 100 * (inverted.sum() + np.count_nonzero(~inverted & (q < 0.52))) / 2000
+    text = histogram.describe_at(0.511)
+    assert text.startswith("inverted, or q(H) up to 0.52\n")
+    assert f"now: {share:.4g} %, " in text
+    assert "now: 100 %, 2,000 hexes" in histogram.describe_at(0.99)
+    curve = histogram.plot.outlines["now"].curve.yData
+    assert curve[-1] == (2.0 if scale == "log" else 100)
+    assert np.diff(curve).min() >= 0
+    assert histogram.plot.numbers["now"][0].toPlainText() == f"{inverted.mean() * 100:.3g} %"
+    low, high = histogram.plot.plot.viewRange()[1]
+    assert low <= curve[0] < curve[-1] < high
+    QTest.mouseClick(cumulative_button(histogram), LEFT)
+    assert histogram.plot.outlines["now"].curve.yData.max() < (3 if scale == "log" else 200)

@@ -1,0 +1,57 @@
+"""The layers of the structure, as a hand and an eye use them."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel
+
+from tests.app.driving import LEFT, key, open_and_wait, turn
+from tests.app.driving import pixels as drawn
+from tests.patience import PATIENCE
+
+KEYS = {
+    "irregular": "S",
+    "boundary": "B",
+    "sharp": "H",
+    "fixed": "X",
+    "free": "M",
+    "locked": "L",
+    "kinds": "J",
+    "others": "G",
+    "original": "O",
+}
+
+
+def open_and_know(qtbot, window, path):
+    """Open a mesh, and wait until its structure is found: not that of the mesh before."""
+    open_and_wait(qtbot, window, path)
+    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
+    window.refresh()
+
+
+def press_key(window, name):
+    """Press the key of a layer."""
+    key(window, getattr(Qt.Key, f"Key_{KEYS[name]}"))
+
+
+def press(box):
+    QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
+
+
+def texts(panel, name):
+    """What stands beside a layer."""
+    turn()  # what stood there before goes
+    return [label.text() for label in panel.layers[name].entries.findChildren(QLabel)]
+
+
+def pixels(window):
+    """A fast frame: a fine one has other edges."""
+    window.refresh()
+    window.canvas.viewport.moving()
+    return drawn(window)
+
+
+def count(image, colour):
+    return int((image == np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)).all(axis=2).sum())

@@ -1,0 +1,103 @@
+"""What of the structure the panel counts and offers."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QLabel
+
+from hexmend.mesh import Mesh
+from hexmend.structure import structure
+from hexmend_app.features.structure.structure_panel import StructurePanel
+from hexmend_app.shell.program import application
+from hexmend_app.state.look import Structure
+from tests.app.driving import turn
+from tests.app.features.structure.layers import press, texts
+from tests.core.grids import grid
+from tests.core.test_structure import tetrahedron
+
+
+@pytest.fixture
+def panel(qtbot):
+    application()
+    panel = StructurePanel()
+    qtbot.addWidget(panel)
+    panel.resize(330, panel.sizeHint().height())
+    panel.show()
+    qtbot.waitExposed(panel)
+    return panel
+
+
+def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
+    assert texts(panel, "irregular") == []
+    panel.set_found(None)
+    panel.set_classes(None)
+    panel.set_nodes(8, 1, 3, 2)
+    assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked", "kinds", "original"]
+    assert texts(panel, "irregular") == ["counting…"]
+    assert "Being counted" in panel.layers["sharp"].box.toolTip()
+    assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
+    assert texts(panel, "locked") == ["of 2 hexes"]
+
+
+def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
+    panel.set_classes(None, ValueError("no boundary"))
+    assert texts(panel, "kinds") == ["could not be worked out"]
+    assert not panel.offered()["kinds"]
+    assert "This could not be worked out: no boundary." in panel.layers["kinds"].box.toolTip()
+    panel.set_classes(None)
+    assert texts(panel, "kinds") == ["counting…"]
+    assert panel.offered()["kinds"]
+
+
+def test_edges_are_counted_by_valence(panel):
+    panel.set_found(structure(tetrahedron()))
+    assert texts(panel, "irregular") == ["4 of 3", "1 node"]
+    assert "120° at three" in panel.layers["irregular"].box.toolTip()
+    mesh = grid(8)
+    p = mesh.points / 4 - 1
+    size = np.maximum(np.linalg.norm(p, axis=1, keepdims=True), 1e-9)
+    panel.set_found(structure(Mesh(p * np.abs(p).max(axis=1, keepdims=True) / size, mesh.hexes)))
+    assert texts(panel, "boundary") == [f"{12 * 8} of 1"]
+
+
+def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
+    valence = np.repeat([3, 5, 6, 7], [14461, 10776, 1048, 313])
+    panel.set_found(dataclasses.replace(structure(tetrahedron()), interior_valence=valence))
+    panel.set_nodes(9156, 120, 28317, 44)
+    panel.resize(280, 400)
+    turn()
+    for label in panel.findChildren(QLabel):
+        if label.isVisible():
+            assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
+
+
+def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off(panel):
+    panel.set_found(structure(grid(2)))
+    panel.set_nodes(26, 0, 1, 0)
+    assert panel.offered() == {
+        "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
+        "kinds": False, "others": False, "original": True,
+    }  # fmt: skip
+    assert texts(panel, "irregular") == ["none"]
+    assert "four hexes share every edge" in panel.layers["irregular"].box.toolTip()
+    heard = []
+    panel.structure_changed.connect(heard.append)
+    press(panel.layers["irregular"].box)
+    assert heard == []
+    panel.set_structure(Structure(irregular=True))
+    press(panel.layers["irregular"].box)
+    assert heard == [Structure()]
+    assert not panel.offered()["irregular"]
+
+
+def test_a_click_chooses_one_layer_more(panel):
+    panel.set_found(structure(grid(2)))
+    heard = []
+    panel.structure_changed.connect(heard.append)
+    panel.set_structure(Structure(locked=True))
+    press(panel.layers["sharp"].box)
+    press(panel.layers["sharp"].box)
+    assert heard == [Structure(sharp=True, locked=True), Structure(locked=True)]

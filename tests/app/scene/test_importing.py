@@ -1,0 +1,12 @@
+"""What draws does not bring what plots."""
+
+import subprocess
+import sys
+
+
+def test_a_process_that_draws_loads_no_plots():
+    program = "import sys, hexmend_app.scene.export.sheet; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    loaded = set(done.stdout.split())
+    assert "pyvista" in loaded
+    assert loaded.isdisjoint({"pyvista.plotting", "matplotlib.pyplot"})
