@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from hexmend.gallery import make
 from hexmend.study import peers
 from hexmend.study.peers import PEERS
 from hexmend.study.peers.programs import GMSH, TMOP
@@ -34,6 +35,10 @@ def program(tmp_path, monkeypatch):
     return install
 
 
+def scaled(mesh, factor):
+    return mesh.with_points(mesh.points * factor)
+
+
 def rows():
     figures = PEERS.measure()
     return {row["program"]: row for row in figures["rows"]}, PEERS.lines(figures)
@@ -60,6 +65,19 @@ def test_others_are_measured_by_what_they_leave(program):
         assert others[key] == pytest.approx(ours[key], abs=1e-9)
     assert others["seconds"] > 0
     assert not any("moved the boundary" in line for line in lines)
+
+
+def test_the_unit_of_length_is_the_mean_edge(program, monkeypatch):
+    """hexsmoothing's method depends on the unit; what it leaves beside the mesh does not stay."""
+    monkeypatch.setattr(peers, "make", lambda *args, **kwargs: scaled(make(*args, **kwargs), 1e-3))
+    program(
+        "import hexmend as hx\nfrom pathlib import Path\nmesh = hx.read(sys.argv[1])\n"
+        "assert abs(mesh.mean_edge_length - 1) < 1e-9, mesh.mean_edge_length\n"
+        "assert Path.cwd() == Path(sys.argv[1]).parent.resolve(), Path.cwd()\nhx.write(sys.argv[2], mesh)"
+    )
+    found, _ = rows()
+    assert found["hexsmoothing"]["q_mean"] == pytest.approx(found["before"]["q_mean"], abs=1e-9)
+    assert found["hexsmoothing"]["boundary_moved"] < 1e-9
 
 
 def test_who_moves_the_boundary_is_told(program):

@@ -67,16 +67,23 @@ class PythonPeer:
 
 
 def _hexsmoothing(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, float]:
-    """The whole process is timed; of the formats that it reads, Medit's is the one that keeps every digit."""
+    """The whole process is timed; of the formats that it reads, Medit's is the one that keeps every digit.
+
+    `innerSmoother` compares corners with those of a cube of edge 1 and regularises by fixed fractions of it, so that
+    what it leaves depends on the unit of length: it has the mesh with a mean edge of 1.
+    """
     own = os.environ.get("HEXMEND_HEXSMOOTHING")
     program = shutil.which(own) if own else next(filter(None, map(shutil.which, _HEXSMOOTHING)), None)
     if program is None:
         raise Absent(f"there is no {own or ' or '.join(_HEXSMOOTHING)}: HEXMEND_HEXSMOOTHING names the program")
     given, left = folder / "given.mesh", folder / "left.mesh"
-    write(given, mesh)
+    edge = mesh.mean_edge_length
+    write(given, mesh.with_points(mesh.points / edge))
     began = perf_counter()
-    _run([program, str(given), str(left)], seconds)
-    return read(left).points, perf_counter() - began
+    # In its folder: `parallelMixedSmoothing` leaves files of its own where it is run.
+    _run([os.path.abspath(program), str(given), str(left)], seconds, folder)
+    taken = perf_counter() - began
+    return read(left).points * edge, taken
 
 
 def _hexmend(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, float]:
@@ -84,8 +91,8 @@ def _hexmend(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, floa
     return result.mesh.points, result.seconds + result.setup_seconds
 
 
-def _run(command: list[str], seconds: float) -> None:
-    done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)
+def _run(command: list[str], seconds: float, folder: Path | None = None) -> None:
+    done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False, cwd=folder)
     if done.returncode:
         said = done.stderr.strip().splitlines() or [f"it ended with status {done.returncode}"]
         raise HexmendError(said[-1])
