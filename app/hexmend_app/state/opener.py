@@ -9,7 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.errors import FileError, HexmendError
+from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend_app.state import session_data
 from hexmend_app.state.document import Document, State
@@ -39,10 +39,9 @@ class Progress:
 
 def _read_picture(wanting: Wanting, path: Path, task: Task) -> Restored:
     """Read the mesh that a picture shows, and look at it as the picture does; then the others that it shows."""
-    state = _read(path, task)
-    if not isinstance(state, State):
-        raise FileError(path, "is no mesh: expected the one that the picture shows", "Name a mesh file.")
-    return restored(wanting, path, state, lambda other: task.tell(Progress(Doing.READING, other)))
+    opened = _read(path, task)
+    states = [opened] if isinstance(opened, State) else opened.states()
+    return restored(wanting, path, states, lambda other: task.tell(Progress(Doing.READING, other)))
 
 
 def _open(path: Path, wanting: Wanting | None, task: Task) -> State | SessionData | Restored | Wanting:

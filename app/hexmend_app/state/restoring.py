@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path, PurePosixPath
@@ -109,7 +109,7 @@ class Wanting:
     carried: Carried
 
 
-def restored(wanting: Wanting, path: Path, state: State, reads: Callable[[Path], object]) -> Restored:
+def restored(wanting: Wanting, path: Path, states: Iterable[State], reads: Callable[[Path], object]) -> Restored:
     """What a picture shows of a mesh, and the others that it shows.
 
     Parameters
@@ -117,7 +117,8 @@ def restored(wanting: Wanting, path: Path, state: State, reads: Callable[[Path],
     wanting : Wanting
     path : Path
         Of the mesh.
-    state : State
+    states : iterable of State
+        What the file holds of it: one, or, of a session, many, of which the first is taken where none is the picture's.
     reads : callable
         Told of every other file that is read.
 
@@ -127,6 +128,8 @@ def restored(wanting: Wanting, path: Path, state: State, reads: Callable[[Path],
         Where the picture cannot be one of the mesh.
     """
     picture, carried = wanting.picture, wanting.carried
+    known = _known(states)
+    state = known.get(carried.first.shown) or next(iter(known.values()))
     try:
         look = carried.scene.look(state.mesh)
     except ParameterError as error:
@@ -139,10 +142,18 @@ def restored(wanting: Wanting, path: Path, state: State, reads: Callable[[Path],
         if len(others) == MOST:
             others.append(Beside(name, PurePosixPath(pictured.file).name, lack=Lack.ROOM))
         elif pictured.file and pictured.file == carried.meshes[first - 1].file:
-            others.append(_beside(name, pictured, path, state, state))
+            others.append(_beside(name, pictured, path, known.get(pictured.shown, state), state))
         else:
             others.append(_read(name, pictured, picture, state, reads))
     return Restored(picture, carried, path, state, look, digest(state.mesh), tuple(others))
+
+
+def _known(states: Iterable[State]) -> dict[str, State]:
+    """States by the digests of their meshes; of equal ones the first."""
+    known: dict[str, State] = {}
+    for state in {id(one): one for one in states}.values():
+        known.setdefault(digest(state.mesh), state)
+    return known
 
 
 def _named(carried: Carried) -> dict[int, str]:

@@ -73,6 +73,12 @@ class SessionData:
         if not 0 <= (self.timeline.record or 0) < max(len(self.history.records), self.timeline.record is None):
             raise ValueError(f"there is no run {self.timeline.record}")
 
+    def states(self) -> Iterator[State]:
+        """Every state of the mesh that is kept whole: what is shown first, then what was opened."""
+        yield self.document.now
+        yield from (one.state for one in self.document.changes)
+        yield from self._compared()
+
     def _compared(self) -> Iterator[State]:
         """What is to be of the mesh that is shown, besides itself."""
         yield from (one.state for one in self.views.shown)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hexmend.io.session import SUFFIX
 from hexmend_app.state.opener import Doing, Progress
 from hexmend_app.state.restoring import Beside, Lack, Restored, Wanting
 from hexmend_app.state.views import MOST
@@ -35,6 +36,8 @@ def of_picture(restored: Restored) -> tuple[str, ...]:
             f"after “{carried.recipe.title}”, which is in the Recipe panel" if carried.recipe is not None else "changed"
         )
         seen = f"{name} is looked at as in {picture}, which shows it {ran}."
+    if restored.path.suffix.lower() == SUFFIX:
+        seen += f" Its runs are not: open {name} itself for them."
     text = seen + _beside(restored)
     return (text,) if restored.alike else (f"This is not all that {picture} shows", text)
 

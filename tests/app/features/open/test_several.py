@@ -86,6 +86,26 @@ def test_what_no_file_gives_is_said(window, qtbot, files, tmp_path):
     assert "“a result” is not shown: it is an iteration, or a result, of a run on one.vtu, which the file alone" in text
 
 
+def test_of_a_session_results_come_back_too(window, qtbot, files, tmp_path):
+    open_and_wait(qtbot, window, files["one"])
+    session = window.session
+    run(window, qtbot)
+    session.views.show("a result", session.document.now)
+    run(window, qtbot)
+    now, beside = session.document.now.mesh.points, session.views.all[0].state.mesh.points
+    assert window.features["save"].mesh(tmp_path / "work.hexmend")
+    assert window.features["save"].picture(tmp_path / "p.png", (300, 150))
+    open_and_wait(qtbot, window, files["two"])
+    open_and_wait(qtbot, window, tmp_path / "p.png")
+    np.testing.assert_array_equal(session.document.now.mesh.points, now)
+    (view,) = session.views.all
+    np.testing.assert_array_equal(view.state.mesh.points, beside)
+    kind, text, _ = message(window)
+    assert kind == "info"
+    assert "looked at as in p.png. Its runs are not: open work.hexmend itself for them." in text
+    assert "“a result” stands beside it." in text
+
+
 def gone(path):
     path.unlink()
 
