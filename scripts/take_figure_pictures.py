@@ -47,6 +47,7 @@ def main(folder: Path) -> None:
     dialog = window.features["save"].picture_dialog()
     dialog.size_form.preset.setCurrentIndex(2)
     dialog.size_form.preset.activated.emit(2)
+    dialog.target.line.setText("bunny.png")
     photograph(dialog, folder / "figures-dialog.png")
     run(window)
     chart = window.features["histogram"].dialog()

@@ -69,5 +69,5 @@ class TargetRow(QWidget):
     def _browse(self) -> None:
         path, kind = QFileDialog.getSaveFileName(self, self._title, self.line.text(), self._kinds)
         if path:
-            self._replaced = named(path, kind or self._kinds)
-            self.line.setText(self._replaced)
+            self._replaced = path  # with a suffix that it has not it is another file
+            self.line.setText(named(path, kind or self._kinds))

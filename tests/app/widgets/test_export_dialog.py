@@ -67,11 +67,12 @@ def test_a_file_that_is_there_is_asked_about_once(dialog, qtbot, tmp_path, monke
     dialog.accept()
     assert dialog.isVisible()
     assert len(asked) == 1
-    kind = "SVG figure (*.svg)"
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "a"), kind))
-    next(one for one in dialog.target.children() if getattr(one, "text", str)() == "Browse…").click()
-    dialog.accept()
-    assert len(asked) == 1  # the desktop's dialog had asked
+    browse = next(one for one in dialog.target.children() if getattr(one, "text", str)() == "Browse…")
+    for name in ("a", "a.svg"):
+        monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_, n=name: (str(tmp_path / n), "SVG (*.svg)"))
+        browse.click()
+        dialog.accept()
+        assert len(asked) == 2  # of a.svg itself the desktop's dialog had asked
     assert dialog.target.path() == tmp_path / "a.svg"
     assert not dialog.isVisible()
 

@@ -96,7 +96,7 @@ class FeatureSave(Feature):
         if dialog.exec():
             self._last = dialog.scene()
             self.session.cameras.take_in(self._last.cameras)
-            self.write_picture(dialog.path(), self._last)
+            self.write_picture(dialog.target.path(), self._last)
 
     def picture_dialog(self) -> PictureDialog:
         """The dialog that edits the scene of what is seen: page, lines, bar and axes are as they were last."""

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -29,9 +28,10 @@ from hexmend_app.state.scene import Camera, Panel, Scene, Table, read_scene, wri
 from hexmend_app.state.scene.camera import DIRECTIONS
 from hexmend_app.state.scene.kept_cameras import joined
 from hexmend_app.widgets.key_form import KeyForm
-from hexmend_app.widgets.questions import ask_replacing, ask_scene, ask_scene_target, folder, named, remember_folder
+from hexmend_app.widgets.questions import ask_scene, ask_scene_target
 from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.style import WORSE, explain, note
+from hexmend_app.widgets.target_row import TargetRow
 
 if TYPE_CHECKING:
     from hexmend_app.scene.export.sheet import Sheet
@@ -91,10 +91,8 @@ class PictureDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle("Save picture")
         self._seen = self._base = scene
-        self._replaced = ""  # the file that may be replaced, as a dialog of the desktop has asked
-        self.file = QLineEdit(str(folder() / name))
-        explain(self.file, "File", "Where the picture goes: .png, .tif, .pdf or .svg.")
-        self.file.textChanged.connect(lambda: self._refuse(""))
+        self.target = TargetRow("Save picture", name, _KINDS, "Where the picture goes: .png, .tif, .pdf or .svg.")
+        self.target.edited.connect(lambda: self._refuse(""))
         self._problem = note("", WORSE)
         self._problem.setAccessibleName("What is wrong")
         self.preview = Preview(draw)
@@ -150,16 +148,11 @@ class PictureDialog(QDialog):
         area = scrolled(settings)
         area.setMinimumWidth(settings.sizeHint().width() + 28)
         both.addWidget(area)
-        browse, load, keep = QPushButton("Browse…"), QPushButton("Load scene…"), QPushButton("Save scene…")
+        load, keep = QPushButton("Load scene…"), QPushButton("Save scene…")
         explain(load, "Load scene…", "Take all of this from a scene file.")
         explain(keep, "Save scene…", "Write all of this as a file, for hexmend render --scene.")
-        browse.clicked.connect(self._browse)
         load.clicked.connect(self._ask_scene)
         keep.clicked.connect(self._ask_target)
-        where = QHBoxLayout()
-        where.addWidget(QLabel("File"))
-        where.addWidget(self.file, 1)
-        where.addWidget(browse)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
         buttons.addButton(load, QDialogButtonBox.ButtonRole.ResetRole)
         buttons.addButton(keep, QDialogButtonBox.ButtonRole.ResetRole)
@@ -167,15 +160,11 @@ class PictureDialog(QDialog):
         buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
         layout.addLayout(both, 1)
-        layout.addLayout(where)
+        layout.addWidget(self.target)
         layout.addWidget(self._problem)
         layout.addWidget(buttons)
         room = self.screen().availableSize() * _SHARE
         self.resize(room.expandedTo(QSize(1000, 640)))
-
-    def path(self) -> Path:
-        """Where the picture goes; a name without a suffix gets one."""
-        return Path(named(str(Path(self.file.text()).expanduser()), _KINDS))
 
     def scene(self) -> Scene:
         """The scene as it is chosen.
@@ -210,17 +199,16 @@ class PictureDialog(QDialog):
         """Close where a picture can be written to the path, and remember its folder; or say why not."""
         from hexmend_app.scene.export.sheet import format_of
 
-        if not self.file.text().strip():
+        if self.target.empty:
             self._refuse("Name the file that the picture goes to.")
             return
         try:
-            format_of(self.path())
+            format_of(self.target.path())
             self.scene()
         except (FileError, ParameterError) as error:
             self._refuse(str(error))
             return
-        if str(self.path()) == self._replaced or ask_replacing(self, str(self.path())):
-            remember_folder(self.path())
+        if self.target.settled():
             super().accept()
 
     def load(self, path: str) -> None:
@@ -279,12 +267,6 @@ class PictureDialog(QDialog):
     def _refuse(self, problem: str) -> None:
         self._problem.setText(problem)
         self._problem.setVisible(bool(problem))
-
-    def _browse(self) -> None:
-        path, kind = QFileDialog.getSaveFileName(self, "Save picture", self.file.text(), _KINDS)
-        if path:
-            self._replaced = path
-            self.file.setText(named(path, kind or _KINDS))
 
     def _ask_scene(self) -> None:
         if path := ask_scene(self):

@@ -74,7 +74,7 @@ def test_the_next_picture_is_like_the_last(window, qtbot, tmp_path, monkeypatch)
     save = window.features["save"]
     dialog = save.picture_dialog()
     qtbot.addWidget(dialog)
-    dialog.file.setText(str(tmp_path / "p.pdf"))
+    dialog.target.line.setText(str(tmp_path / "p.pdf"))
     dialog.size_form.preset.setCurrentIndex(1)
     dialog.size_form.preset.activated.emit(1)
     monkeypatch.setattr(type(dialog), "exec", lambda self: True)

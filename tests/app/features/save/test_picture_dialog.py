@@ -81,14 +81,14 @@ def test_a_suffix_that_cannot_be_written_is_refused_with_what_can(dialog, tmp_pa
     assert said(dialog) == []
     save(dialog)
     assert dialog.result()
-    assert dialog.path() == tmp_path / "p.png"
+    assert dialog.target.path() == tmp_path / "p.png"
 
 
 def test_a_name_without_a_suffix_gets_one(dialog, tmp_path):
     write(dialog, tmp_path / "p")
     save(dialog)
     assert dialog.result()
-    assert dialog.path() == tmp_path / "p.png"
+    assert dialog.target.path() == tmp_path / "p.png"
 
 
 def test_no_name_is_no_file(dialog):
@@ -113,7 +113,7 @@ def test_it_begins_in_the_folder_of_the_other_dialogs_and_they_go_on_in_its(dial
     save(dialog)
     assert folder() == tmp_path / "pictures"
     remember_folder(tmp_path / "mesh.vtu")
-    assert made(qtbot).path() == tmp_path / "bridge.png"
+    assert made(qtbot).target.path() == tmp_path / "bridge.png"
 
 
 def test_what_is_not_touched_stays_as_it_is(qtbot):

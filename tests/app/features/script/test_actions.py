@@ -79,7 +79,9 @@ def others(window, qtbot, tmp_path, monkeypatch):
     monkeypatch.setattr("hexmend_app.features.figures.feature.ask_figures", lambda *asked: str(tmp_path / "set"))
     monkeypatch.setattr("hexmend_app.features.camera.feature.ask_camera_name", lambda *asked: "mine")
     monkeypatch.setattr(FilmDialog, "exec", lambda dialog: True)
-    monkeypatch.setattr(PictureDialog, "exec", lambda dialog: dialog.file.setText(str(tmp_path / "view.png")) or True)
+    monkeypatch.setattr(
+        PictureDialog, "exec", lambda dialog: dialog.target.line.setText(str(tmp_path / "view.png")) or True
+    )
 
     def chosen(h):
         session.view.end_isolation()
