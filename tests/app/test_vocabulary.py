@@ -15,7 +15,7 @@ FILES = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.p
 BANNED = re.compile(r"\b(elements?|clip(s|ped|ping)?)\b", re.IGNORECASE)
 
 #: Names for programs, which nobody reads: arguments of calls by which something is found, and options of the command.
-KEYS = {"another"}
+KEYS = {"another", "get"}
 OPTION = re.compile(r"--[a-z-]+")
 
 

@@ -160,7 +160,7 @@ class CutLeft:
         before = -1
         for first, last in self.hexes:
             if not before < first <= last:
-                raise ValueError(f"elements {first} to {last} come after {before}: expected ascending ranges")
+                raise ValueError(f"hexes {first} to {last} come after {before}: expected ascending ranges")
             before = last
 
     @classmethod

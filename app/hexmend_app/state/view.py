@@ -82,8 +82,8 @@ class View(QObject):
 
     def change(self, **fields: object) -> None:
         """Change fields of the look; says nothing where nothing changes."""
-        if "clip" in fields:
-            fields = {"left": None, **fields}  # it is made anew
+        if fields.get("clip", self) is not self:
+            fields = {"left": None, **fields}  # the cut is made anew
         look = dataclasses.replace(self.look, **fields)
         if look != self.look:
             self.look = look

@@ -108,8 +108,8 @@ def test_a_camera_is_one_line(camera):
         ("[cut]\nplanes = [{ normal = [0, 0, 0] }]", "[cut] planes 1: normal = [0, 0, 0] is no direction"),
         ("[cut]\nplanes = [{ position = 0.1, point = [0, 0, 0] }]", "a position and a point"),
         ("[cut]\nplanes = [{}]\nbox = {}", "planes and a box"),
-        ("[cut]\nplanes = [{}]\nhexes = '3-1'", "hexes: elements 3 to 1 come after -1: expected ascending ranges"),
-        ("[cut]\nplanes = [{}]\nhexes = '0-2, 2'", "elements 2 to 2 come after 2"),
+        ("[cut]\nplanes = [{}]\nhexes = '3-1'", "hexes: hexes 3 to 1 come after -1: expected ascending ranges"),
+        ("[cut]\nplanes = [{}]\nhexes = '0-2, 2'", "hexes 2 to 2 come after 2"),
         (
             "[cut]\nplanes = [{}]\nhexes = '0-2, all'",
             "hexes: 'all' is no range of numbers: expected such as 0-120, 130",
