@@ -87,6 +87,8 @@ class Bar(Table):
 
     def check(self) -> None:
         """A number of ticks that has room."""
+        if self.ticks == ():
+            raise ParameterError("ticks = [] lists no value: expected some, or 0 for none")
         if isinstance(self.ticks, int) and not 0 <= self.ticks <= 30:
             raise ParameterError(f"ticks = {self.ticks} is out of range: expected 0 to 30, or a list of values")
 

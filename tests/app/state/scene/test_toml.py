@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from hexmend.errors import FileError, ParameterError
@@ -160,6 +160,7 @@ KEYS = [f"{table}.{key}" for table in ("page", "cut", "show", "camera", "bar", "
         ("width", "pixels", "dpi", "planes", "box", "hidden", "isolate", "from", "ticks", "a", "range", "scale")]  # fmt: skip
 
 
+@example({"bar.ticks": []})
 @given(st.dictionaries(st.sampled_from(KEYS), VALUES, max_size=4))
 def test_whatever_stands_in_a_file_gives_a_scene_or_an_error_of_ours(data):
     import tomli_w
