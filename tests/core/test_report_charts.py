@@ -54,6 +54,25 @@ def test_names_and_title_are_what_they_are_said_to_be(tmp_path):
     assert not {"bridge", "before (2 inverted)", "after"} & set(said)
 
 
+@pytest.mark.parametrize("drawn", [HISTOGRAM, CONVERGENCE])
+def test_no_letter_makes_a_name_vanish(tmp_path, drawn):
+    said, _ = written(tmp_path / "a.svg", drawn.draw, names={"after": "_ours", "mend": "_ours"})
+    assert "_ours" in said
+
+
+def test_powers_of_ten_need_something_to_be_counted(tmp_path):
+    nothing = Histogram([Outline("a", "#5b6573", [0, 0])], "", "q", "hexes", [(0.0, "0")], (0.0, 1.0), log=True)
+    assert "a" in written(tmp_path / "a.svg", nothing.draw)[0]
+
+
+def test_a_picture_of_too_many_pixels_is_refused_once_its_height_is_known(tmp_path):
+    many = Convergence([DrawnChart(str(k), [CURVE]) for k in range(8)], "bridge", "iteration")
+    style = ChartStyle(width=169.0, resolution=1200)
+    write_chart(tmp_path / "a.svg", CONVERGENCE.draw, style)
+    with pytest.raises(ParameterError, match="too many pixels"):
+        many.draw(style)
+
+
 def test_letters_have_their_size(tmp_path):
     sizes = []
     for letters in (6.0, 12.0):

@@ -97,7 +97,9 @@ class ExportDialog(QDialog):
         if self.names:
             rows.addRow(QLabel("<b>Names</b>"))
         for own, line in self.names.items():
-            rows.addRow(own, line)
+            called = QLabel(own)
+            called.setTextFormat(Qt.TextFormat.PlainText)
+            rows.addRow(called, line)
         column.addLayout(rows)
         column.addStretch()
         area = scrolled(settings)

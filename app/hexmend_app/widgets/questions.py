@@ -7,6 +7,7 @@ from collections.abc import Collection
 from enum import Enum
 from pathlib import Path
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox, QWidget
 
 from hexmend.io import readable_suffixes, writable_suffixes
@@ -111,7 +112,11 @@ def named(path: str, kinds: str) -> str:
 
 def ask_replacing(parent: QWidget, path: str) -> bool:
     """Whether a file may be written where there may be one."""
-    return not Path(path).exists() or _ask_yes(parent, f"{Path(path).name} already exists.", "Replace it?")
+    try:
+        there = Path(path).exists()
+    except OSError:  # whoever writes says that there can be none
+        there = False
+    return not there or _ask_yes(parent, f"{Path(path).name} already exists.", "Replace it?")
 
 
 def ask_camera_name(parent: QWidget, names: Collection[str]) -> str:
@@ -128,6 +133,7 @@ def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
     """What becomes of a smoothed mesh that was not saved or, not `of_mesh`, of cameras that a session has not."""
     buttons = QMessageBox.StandardButton
     box = QMessageBox(parent)
+    box.setTextFormat(Qt.TextFormat.PlainText)
     box.setIcon(QMessageBox.Icon.Question)
     smoothed, others = f"{name} has been smoothed and not saved.", f"The cameras of {name} are others than were saved."
     box.setText(smoothed if of_mesh else others)
@@ -141,6 +147,7 @@ def ask_short_of_memory(parent: QWidget, problem: str, remedy: str) -> bool:
     """Whether to begin a run for which memory will probably not suffice."""
     buttons = QMessageBox.StandardButton
     box = QMessageBox(parent)
+    box.setTextFormat(Qt.TextFormat.PlainText)
     box.setIcon(QMessageBox.Icon.Warning)
     whole = re.compile(r"(?<=\d) (?=[GM]B)")  # a number stays beside its unit
     box.setText(whole.sub("\u00a0", problem))
@@ -166,6 +173,7 @@ def _ask_yes(parent: QWidget, text: str, question: str) -> bool:
     """Whether something is meant that takes something away."""
     buttons = QMessageBox.StandardButton
     box = QMessageBox(parent)
+    box.setTextFormat(Qt.TextFormat.PlainText)
     box.setIcon(QMessageBox.Icon.Question)
     box.setText(text)
     box.setInformativeText(question)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 from PySide6.QtCore import Signal
@@ -56,7 +57,10 @@ class TargetRow(QWidget):
 
     def path(self) -> Path:
         """The file; a name without a suffix gets one."""
-        return Path(named(str(Path(self.line.text()).expanduser()), self._kinds))
+        path = Path(self.line.text())
+        with suppress(RuntimeError):  # of nobody's home
+            path = path.expanduser()
+        return Path(named(str(path), self._kinds))
 
     def settled(self) -> bool:
         """Whether the file may be written, as asked where there is one; its folder is where the next dialog begins."""

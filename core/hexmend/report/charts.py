@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib import import_module
@@ -19,6 +19,8 @@ from hexmend.parameters import Parametrised, parameter
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 MM_PER_INCH = 25.4
@@ -67,10 +69,14 @@ class ChartStyle(Parametrised):
         super().__post_init__()
         if 0 < self.height < 20:
             raise ParameterError(f"height = {self.height:g} is too low: expected 0, or at least 20 mm")
+        self._check_pixels(self.height or self.width)
+
+    def _check_pixels(self, height: float) -> None:
         share = self.resolution / MM_PER_INCH
-        if self.width * share * (self.height or self.width) * share > _MOST_PIXELS:
+        if self.width * share * height * share > _MOST_PIXELS:
             raise ParameterError(
-                f"{self.width:g} mm at {self.resolution:g} dpi are too many pixels: expected at most {_MOST_PIXELS:,}"
+                f"{self.width:g} × {height:g} mm at {self.resolution:g} dpi are too many pixels: "
+                f"expected at most {_MOST_PIXELS:,}"
             )
 
     def name(self, own: str) -> str:
@@ -87,9 +93,11 @@ class ChartStyle(Parametrised):
         Raises
         ------
         HexmendError
-            Where matplotlib is missing.
+            Where matplotlib is missing, and where it has too many pixels.
         """
-        return new_figure(self.width / MM_PER_INCH, (self.height or shape * self.width) / MM_PER_INCH)
+        height = self.height or shape * self.width
+        self._check_pixels(height)
+        return new_figure(self.width / MM_PER_INCH, height / MM_PER_INCH)
 
 
 #: Draws a chart.
@@ -122,6 +130,17 @@ def chart_png(draw: Draw, style: ChartStyle, dpi: float) -> bytes:
     with _written(style):
         draw(style).savefig(into, dpi=dpi, format="png")
     return into.getvalue()
+
+
+def add_legend(axes: Axes, named: Sequence[tuple[Artist, str]]) -> None:
+    """Say on the right of a chart what is what, whatever letter a name begins with."""
+    if not named:
+        return
+    artists, names = zip(*named, strict=True)
+    places = [str(place) for place in range(len(names))]  # a label with "_" before it would be left out
+    legend = axes.legend(artists, places, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
+    for text, name in zip(legend.get_texts(), names, strict=True):
+        text.set_text(name)
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from hexmend.report.charts import ChartStyle
+from hexmend.report.charts import ChartStyle, add_legend
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -99,10 +99,11 @@ class Convergence:
 
 
 def _draw(axes: Axes, chart: DrawnChart, style: ChartStyle) -> None:
+    named = []
     for curve in chart.curves:
         line = {"linestyle": "--" if curve.dashed else "-", "linewidth": 1.8 if curve.strong else 1.0}
         name = style.name(curve.label) + (f" {curve.part}" if curve.part else "")
-        axes.plot(curve.x, curve.y, color=curve.colour, label=name, **line)
+        named.append((axes.plot(curve.x, curve.y, color=curve.colour, **line)[0], name))
     known = [y for curve in chart.curves for y in curve.y if math.isfinite(y)]
     least = min((y for y in known if y > 0), default=math.inf)
     if chart.log and max(known, default=0) >= 10 * least:
@@ -114,5 +115,4 @@ def _draw(axes: Axes, chart: DrawnChart, style: ChartStyle) -> None:
         axes.yaxis.get_major_locator().set_params(integer=True)
     axes.set_ylabel(chart.title)
     axes.grid(alpha=0.3)
-    if chart.curves:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
+    add_legend(axes, named)

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from hexmend.report.charts import ChartStyle
+from hexmend.report.charts import ChartStyle, add_legend
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -76,31 +77,32 @@ class Histogram:
         figure = style.figure(_SHAPE)
         axes = figure.subplots()
         top = max((height for outline in self.outlines for height in outline.heights), default=0) or 1.0
-        for outline in self.outlines:
-            _draw(axes, outline, top, style)
-        if self.log:
-            drawn = [h for one in self.outlines for h in (*one.heights, *(bar[2] for bar in one.bars)) if h > 0]
-            axes.set(yscale="log", ylim=(0.8 * min(drawn, default=1.0), None))
+        named = [_draw(axes, outline, top, style) for outline in self.outlines]
+        drawn = [h for one in self.outlines for h in (*one.heights, *(bar[2] for bar in one.bars)) if h > 0]
+        if self.log and drawn:
+            axes.set(yscale="log", ylim=(0.8 * min(drawn), None))
         axes.set(xlim=self.extent, xlabel=self.xlabel, ylabel=self.ylabel, title=style.heading(self.title))
         axes.set_xticks([place for place, _ in self.ticks], [text for _, text in self.ticks])
         axes.grid(alpha=0.3)
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
+        add_legend(axes, named)
         return figure
 
 
-def _draw(axes: Axes, outline: Outline, top: float, style: ChartStyle) -> None:
+def _draw(axes: Axes, outline: Outline, top: float, style: ChartStyle) -> tuple[Artist, str]:
+    """Draw one, and say what it is called."""
     edges = [bin / len(outline.heights) for bin in range(len(outline.heights) + 1)]
     width = 1.0 if outline.filled else 1.6
     name = style.name(outline.label) + (f" ({outline.note})" if outline.note else "")
     if outline.filled:
         axes.stairs(outline.heights, edges, color=outline.colour, fill=True, alpha=0.35)
-    axes.stairs(outline.heights, edges, color=outline.colour, linewidth=width, label=name)
+    line = axes.stairs(outline.heights, edges, color=outline.colour, linewidth=width)
     for left, right, height in outline.bars:
         fill = {"facecolor": (outline.colour, 0.35 if outline.filled else 0.0)}
         end = _BROKEN * top if height > top else height
         axes.bar(left, end, right - left, align="edge", edgecolor=outline.colour, linewidth=width, **fill)
         if height > top:
             _break(axes, left, right, top, f"{height:,.0f}", outline.colour)
+    return line, name
 
 
 def _break(axes: Axes, left: float, right: float, top: float, number: str, colour: str) -> None:

@@ -45,6 +45,15 @@ def test_it_shows_what_will_be_written(dialog, qtbot):
     assert not dialog.form.isEnabled()
 
 
+@pytest.mark.parametrize("file", ["~nobody-of-this-name/x.svg", "x" * 300 + ".svg"])
+def test_a_path_that_cannot_be_is_for_the_writer_to_refuse(dialog, qtbot, file):
+    dialog.target.line.setText(file)
+    qtbot.waitUntil(lambda: not dialog.preview.pixmap().isNull(), timeout=PATIENCE)
+    dialog.accept()
+    assert dialog.target.path().name.endswith("x.svg")
+    assert not dialog.isVisible()
+
+
 @pytest.mark.parametrize(("file", "said"), [("", "Name the file"), ("a.gif", ".gif")])
 def test_a_file_that_cannot_be_written_is_said_before(dialog, qtbot, file, said):
     dialog.target.line.setText(file)

@@ -123,7 +123,7 @@ class FeatureCamera(Feature):
                 menu="View/Camera",
                 part=2,
                 help="Go to a kept camera, rename or delete it.",
-                handle=lambda: self.cameras_dialog().exec(),
+                handle=self.show_cameras,
                 enabled=lambda: self._draws and bool(self._cameras.all),
             ),
             Action(
@@ -211,6 +211,12 @@ class FeatureCamera(Feature):
         """Look through a kept camera."""
         if self._draws and name in self._cameras.all:
             self._look_through(self._cameras.all[name])
+
+    def show_cameras(self) -> None:
+        """Show the cameras that are kept, to be gone to, renamed and deleted."""
+        dialog = self.cameras_dialog()
+        dialog.exec()
+        dialog.deleteLater()
 
     def cameras_dialog(self) -> CamerasDialog:
         """The dialog in which kept cameras are gone to, renamed and deleted."""

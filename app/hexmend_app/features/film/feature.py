@@ -68,9 +68,11 @@ class FeatureFilm(Feature):
         view = self.canvas.width(), self.canvas.height()
         usual = self._choice or FilmChoice(rate=round(timeline.speed))
         dialog = FilmDialog(usual, view, timeline.record.newest, self.host.window)
-        if not dialog.exec():
+        meant, choice = dialog.exec(), dialog.choice()
+        dialog.deleteLater()
+        if not meant:
             return
-        self._choice = dialog.choice()
+        self._choice = choice
         path = ask_film(self.host.window, self.host.stem)
         if path:
             self.film(Path(path), self._choice)

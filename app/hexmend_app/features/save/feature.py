@@ -97,6 +97,7 @@ class FeatureSave(Feature):
             self._last = dialog.scene()
             self.session.cameras.take_in(self._last.cameras)
             self.write_picture(dialog.target.path(), self._last)
+        dialog.deleteLater()
 
     def picture_dialog(self) -> PictureDialog:
         """The dialog that edits the scene of what is seen: page, lines, bar and axes are as they were last."""

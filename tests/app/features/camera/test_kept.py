@@ -9,6 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMenu, QMessageBox, QPushButton
 
 from hexmend.cli.main import main
+from hexmend_app.features.camera.cameras_dialog import CamerasDialog
 from hexmend_app.state.scene import Camera, Scene, read_scene, write_scene
 from hexmend_app.state.scene.carried import read_carried
 from tests.app.driving import open_and_wait
@@ -169,3 +170,10 @@ def test_a_session_whose_cameras_are_lost_is_asked_about(window, kept, tmp_path,
     assert window.isWindowModified()
     assert not window.may_leave()
     assert asked == ["The cameras of work.hexmend are others than were saved."]
+
+
+def test_nothing_is_left_of_the_dialog(window, kept, qtbot, monkeypatch):
+    monkeypatch.setattr(CamerasDialog, "exec", lambda self: True)
+    for _ in range(3):
+        window.action("cameras").trigger()
+    qtbot.waitUntil(lambda: not window.findChildren(CamerasDialog), timeout=PATIENCE)
