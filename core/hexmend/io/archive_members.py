@@ -151,7 +151,7 @@ class Arrays:
             shape = tuple(int(length) for length in head["shape"].split(b",") if length.strip())
             left = self._members.sizes[name] - member.tell()
             count = math.prod(shape)
-            if count * dtype.itemsize != left:
+            if not dtype.itemsize or count * dtype.itemsize != left:  # numpy makes room for text of no letters too
                 problem = f"{name} has the shape {shape} of {dtype}, and {left:,} bytes"
                 raise FileError(self._path, problem, REMEDY)
             array = np.empty(count, dtype)
