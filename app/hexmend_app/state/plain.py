@@ -2,7 +2,8 @@
 
 Dataclasses become tables of their fields, enumerations their values, tuples and sets lists. What comes back is of the
 declared types or is refused: a field that is unknown, missing, or of another kind is named with its place. A field
-that was added `since` a version is none of older files, and has its default then.
+that was added `since` a version is none of older files, and has its default then; one that was renamed is read by its
+former name too.
 """
 
 from __future__ import annotations
@@ -47,6 +48,8 @@ class Plain:
         Types with a way of their own, as they are declared.
     version : int, optional
         Of the file that is read; by default the newest.
+    former : mapping of type to mapping of str to str, optional
+        What fields of dataclasses were called in files that are read still, by their names now.
 
     Examples
     --------
@@ -61,8 +64,13 @@ class Plain:
     hexmend_app.state.plain.Misfit: structure has no field 'irregular'
     """
 
-    def __init__(self, own: Mapping[type, Own], version: int | None = None):
-        self._own, self._version = own, version
+    def __init__(
+        self,
+        own: Mapping[type, Own],
+        version: int | None = None,
+        former: Mapping[type, Mapping[str, str]] | None = None,
+    ):
+        self._own, self._version, self._former = own, version, former or {}
 
     def data(self, value: Any, kind: Any) -> Any:
         """A value of a declared type as plain data."""
@@ -147,6 +155,8 @@ class Plain:
     def _made(self, data: Any, kind: type, where: str) -> Any:
         _check(data, dict, where)
         fields = _fields(kind, self._version)
+        now = {was: name for name, was in self._former.get(kind, {}).items() if name not in data}
+        data = {now.get(name, name): one for name, one in data.items()}
         for name in [*fields, *data]:
             if (name in fields) != (name in data):
                 raise Misfit(f"{where} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")

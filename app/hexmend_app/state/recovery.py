@@ -267,8 +267,8 @@ def _removed(folder: Path, lock: QLockFile) -> None:
 
 
 def _remove_session(folder: Path) -> None:
-    """Remove what a window's folder holds of a session; first that without which it is none."""
-    for path in (folder / _SESSION / DESCRIPTION, folder / _SESSION, folder / _ABOUT):
+    """Remove what a window's folder holds of a session; first what would take its place, and what makes it one."""
+    for path in (folder / _EARLIER, folder / _SESSION / DESCRIPTION, folder / _SESSION, folder / _ABOUT):
         with suppress(OSError):
             path.unlink()
     shutil.rmtree(folder / _SESSION, ignore_errors=True)

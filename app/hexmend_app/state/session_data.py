@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from hexmend.advice import Advice
 from hexmend.errors import FileError, MeshError
 from hexmend.io.atomic import replacing
 from hexmend.io.session import SUFFIX, KeptSession, is_session, read_session, write_session
@@ -35,6 +36,8 @@ from hexmend_app.state.views import ViewsData
 
 #: Bytes from which a file's kind is told.
 _HEAD = 64
+#: What fields are called in files from before they were renamed.
+_FORMER = {Advice: {"limiting": "holding"}}
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,7 +174,7 @@ def read(path: Path) -> SessionData:
         State: Own(_none, states),
         Smoother: Own(_none, _smoother),
         KeptCameras: Own(_none, lambda data: table.made(KeptCameras, data, ("cameras",))),
-    }, stored.version)  # fmt: skip
+    }, stored.version, _FORMER)  # fmt: skip
     try:
         data = plain.value(stored.window, SessionData, "the window")
         data.history.check()

@@ -95,6 +95,8 @@ def read_archive(path: str | os.PathLike[str], format: str, version: int) -> tup
         raise FileError(path, f"is damaged or not whole: {_small(error)}", REMEDY) from None
     except RecursionError:
         raise FileError(path, f"{DESCRIPTION} is nested too deeply", REMEDY) from None
+    except MemoryError:
+        raise FileError(path, "does not fit into memory", "Close other programs.") from None
     except (
         ValueError,
         TypeError,

@@ -22,7 +22,7 @@ from hexmend.io.atomic import replacing
 
 
 class ArchiveFolder:
-    """A folder that holds a tree; arrays in it are never changed.
+    """A folder that holds a tree; arrays in it are never changed, and those that were removed are written again.
 
     Parameters
     ----------
@@ -45,12 +45,12 @@ class ArchiveFolder:
         """
         named: dict[int, tuple[np.ndarray, int]] = {}
         fresh: list[tuple[np.ndarray, int]] = []
-        self._begin()
+        there = self._begin()
 
         def number(array: np.ndarray) -> int:
             if id(array) not in named:
                 before = self._there.get(id(array))
-                if before is not None and before[0]() is array:
+                if before is not None and before[0]() is array and before[1] in there:
                     named[id(array)] = array, before[1]
                 else:
                     fresh.append((array, self._next))
@@ -73,14 +73,16 @@ class ArchiveFolder:
         self._there = {key: (weakref.ref(array), at) for key, (array, at) in named.items()}
         self._remove(set(self._numbers()) - {at for _, at in named.values()})
 
-    def _begin(self) -> None:
-        """Make the folder; of what another writer has left there, no number is given again."""
+    def _begin(self) -> frozenset[int]:
+        """Make the folder: the numbers there; of what another writer has left there, none is given again."""
         try:
             (self.path / ARRAYS).mkdir(parents=True, exist_ok=True)
+            there = frozenset(self._numbers())
         except OSError as error:
             raise FileError(self.path, f"cannot be written: {error.strerror or error}", "Free the place.") from None
         if not self._there:
-            self._next = max([self._next, *(at + 1 for at in self._numbers())])
+            self._next = max([self._next, *(at + 1 for at in there)])
+        return there
 
     def _file(self, number: int) -> Path:
         return self.path / ARRAYS / f"{number}.npy"

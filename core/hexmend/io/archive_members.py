@@ -31,9 +31,11 @@ MEMBER = re.compile(rf"{ARRAYS}/(0|[1-9]\d{{0,8}})\.npy")
 #: The head of an .npy as it is written here: numpy's own reader of heads takes more, and fails in more ways.
 _HEAD = re.compile(
     rb"\{'descr': '(?P<type>[<>|][biufcSU]\d{1,9})', 'fortran_order': (?P<columns>True|False), "
-    rb"'shape': \((?P<shape>(\d{1,18},? ?){0,32})\), \} *\n"
+    rb"'shape': \((?P<shape>(\d{1,18}, ?){0,32}(\d{1,18})?)\), \} *\n"
 )
 _MAGIC = b"\x93NUMPY\x01\x00"
+#: Bytes of the longest head that is written here, of 32 axes, and some more.
+_LONGEST = 1024
 #: Bytes that are read at once.
 _AT_ONCE = 1 << 24
 
@@ -141,14 +143,15 @@ class Arrays:
     def _array(self, name: str) -> np.ndarray:
         with self._members.open(name) as member:
             begin = member.read(len(_MAGIC) + 2)
-            head = _HEAD.fullmatch(member.read(int.from_bytes(begin[-2:], "little")))
+            length = int.from_bytes(begin[-2:], "little")
+            head = _HEAD.fullmatch(member.read(length)) if length <= _LONGEST else None
             if begin[:-2] != _MAGIC or head is None:
                 raise FileError(self._path, f"{name} is no array of numbers or text", REMEDY)
             dtype, columns = np.dtype(head["type"].decode()), head["columns"] == b"True"
             shape = tuple(int(length) for length in head["shape"].split(b",") if length.strip())
             left = self._members.sizes[name] - member.tell()
             count = math.prod(shape)
-            if count * dtype.itemsize != left:
+            if not dtype.itemsize or count * dtype.itemsize != left:  # numpy makes room for text of no letters too
                 problem = f"{name} has the shape {shape} of {dtype}, and {left:,} bytes"
                 raise FileError(self._path, problem, REMEDY)
             array = np.empty(count, dtype)

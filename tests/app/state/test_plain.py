@@ -87,3 +87,13 @@ def test_a_type_may_have_a_way_of_its_own():
     assert plain.value(data, Traces) == Traces(Since.RUN)
     with pytest.raises(Misfit, match="NEVER"):
         plain.value(data | {"since": "NEVER"}, Traces)
+
+
+def test_a_field_is_read_by_its_former_name_too():
+    plain = Plain({}, former={Traces: {"since": "from"}})
+    data = plain.data(Traces(Since.RUN), Traces)
+    assert plain.value(data, Traces) == Traces(Since.RUN)
+    earlier = {{"since": "from"}.get(name, name): one for name, one in data.items()}
+    assert plain.value(earlier, Traces) == Traces(Since.RUN)
+    with pytest.raises(Misfit, match="an unknown field 'from'"):
+        plain.value(data | earlier, Traces)

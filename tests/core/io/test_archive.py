@@ -83,10 +83,13 @@ def npy(array):
     return file.getvalue()
 
 
-def lying(shape, kind="<i8"):
-    """Three numbers as .npy with a head of any shape and type."""
+THREE = np.arange(3).tobytes()
+
+
+def lying(shape, kind="<i8", content=THREE):
+    """Three numbers, or any content, as .npy with a head of any shape and type."""
     head = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
-    return b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head.encode() + np.arange(3).tobytes()
+    return b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head.encode() + content
 
 
 ARRAY = ("arrays/0.npy", npy(np.arange(3)))
@@ -117,7 +120,13 @@ def test_a_description_that_is_not_ours_is_refused(description, said, tmp_path):
     (("arrays/0.npy", lying("(300000000000,)")), "has the shape"),
     (("arrays/0.npy", lying("(-3, -1)")), "is no array"),
     (("arrays/0.npy", lying("(3,), } ")), "is no array"),
+    (("arrays/0.npy", lying(f"({'1' * 500}x")), "is no array"),
+    (("arrays/0.npy", lying(f"({'1' * 60_000}x")), "is no array"),
+    (("arrays/0.npy", lying("(3,)" + " " * 2000)), "is no array"),
+    (("arrays/0.npy", lying("(" + "1, " * 33 + ")")), "is no array"),
     (("arrays/0.npy", lying("(3,)", "<i7")), "is damaged"),
+    (("arrays/0.npy", lying("(1000000000,)", "<U0", b"")), "has the shape"),
+    (("arrays/0.npy", lying("(100000000000000,)", "|S00", b"")), "has the shape"),
     (("arrays/0.npy", lying("(3,)", "<i4")), "has the shape"),
     (("arrays/0.npy", lying("(3,)", "<M8[s]")), "is no array of numbers or text"),
     (("arrays/0.npy", b"no array"), "is no array"),
@@ -133,6 +142,15 @@ def test_a_member_that_is_not_ours_is_refused(member, said, tmp_path):
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 1 << 20
+
+
+def test_an_array_that_does_not_fit_into_memory_is_refused(tmp_path, monkeypatch):
+    def full(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(np, "empty", full)
+    with pytest.raises(FileError, match="does not fit into memory"):
+        read_archive(made(tmp_path / "a.zip", members=[ARRAY]), KIND, 1)
 
 
 def test_a_bomb_is_refused_before_it_is_unpacked(tmp_path):

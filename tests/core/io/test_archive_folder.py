@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -58,6 +59,22 @@ def test_an_array_in_the_place_of_one_that_is_gone_is_written(tmp_path):
     for number in range(50):
         folder.write(KIND, 1, [np.full(3, number)])  # that soon lies where the one before lay
         assert read_archive(tmp_path / "tree", KIND, 1)[1][0].tolist() == [number] * 3
+
+
+@pytest.mark.parametrize("gone", ["arrays/0.npy", "arrays", "."])
+def test_what_was_removed_meanwhile_is_written_again(tmp_path, gone):
+    path, folder, arrays = tmp_path / "tree", ArchiveFolder(tmp_path / "tree"), [np.arange(3), np.arange(4)]
+    folder.write(KIND, 1, arrays)
+    if (path / gone).is_dir():
+        shutil.rmtree(path / gone)
+    else:
+        (path / gone).unlink()
+    for more in (1, 2):
+        folder.write(KIND, 1, [*arrays, more])
+        *back, last = read_archive(path, KIND, 1)[1]
+        assert [one.tolist() for one in back] == [one.tolist() for one in arrays]
+        assert last == more
+    assert len(arrays_in(path)) == 2
 
 
 def test_another_writer_goes_on_in_the_same_folder(tmp_path):

@@ -179,6 +179,16 @@ def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot,
     assert session_data.read(own / "session.hexmend").view.look.peel == 1
 
 
+def test_of_another_mesh_nothing_is_left_that_was_being_written_anew(fresh_window, qtbot, own_state, mesh_file):
+    recovery = fresh_window.features["session"].recovery
+    recovery.begin()
+    (own,) = own_state.iterdir()
+    session_data.write(own / "earlier.hexmend", fresh_window.session.given())
+    open_and_wait(qtbot, fresh_window, mesh_file)
+    assert [one.name for one in own.iterdir()] == ["lock"]
+    recovery.end()
+
+
 def test_a_window_that_is_open_is_not_offered(fresh_window, qtbot, own_state):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
