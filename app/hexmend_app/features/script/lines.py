@@ -13,7 +13,7 @@ from hexmend import __version__
 from hexmend.parameters import Parametrised
 from hexmend.recipe import Recipe, Stage
 from hexmend.report.charts import ChartStyle
-from hexmend_app.features.script.words import WIDTH, lines_of, made, numbers
+from hexmend_app.features.script.words import WIDTH, comment_of, lines_of, made, numbers
 from hexmend_app.state.scene import Scene, from_toml, to_toml
 
 
@@ -37,7 +37,7 @@ class Lines:
 
     def put(self, title: str, source: str = "") -> None:
         """Add an entry; without source, a comment alone."""
-        words = " ".join(title.split())
+        words = comment_of(title)
         comment = f"# {words[:1].upper()}{words[1:]}"
         self.entries.append(f"{comment}\n{source}" if source else comment)
         self._told()

@@ -16,6 +16,7 @@ from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.features.script.script import Script
 from hexmend_app.state.run import Phase
+from hexmend_app.state.scene import Scene
 from hexmend_app.state.session import Session
 from tests.patience import PATIENCE
 
@@ -206,6 +207,18 @@ def test_a_session_that_is_opened_is_gone_on_from_with_its_way_back(session, qtb
     session.commands.undo()
     session.commands.tag("a", [4])
     assert "read_session(" in same_again(session, tmp_path)
+
+
+@pytest.mark.parametrize("name", ["x\nraise SystemExit(3) #", "x\rraise SystemExit(3) #", "x\0"])
+def test_what_a_session_calls_a_run_ends_no_comment(session, qtbot, tmp_path, name):
+    session.script.scene = Scene
+    run(qtbot, session, stage("laplacian"))
+    session.history.records[0].name = name
+    same_again(session, tmp_path)
+    session.commands.save(tmp_path / "named.hexmend")
+    opened(qtbot, session, tmp_path / "named.hexmend")
+    assert session.history.records[0].name.isprintable()
+    same_again(session, tmp_path)
 
 
 def test_without_a_mesh_there_is_nothing_to_do(qtbot, tmp_path):
