@@ -244,6 +244,18 @@ def test_begun_anew_after_runs_from_one_start_it_goes_on_from_there(session, qtb
     assert "save it under this name first" in session.script.text
 
 
+def test_a_comparison_that_a_session_holds_is_read_from_it(session, qtbot, tmp_path):
+    session.comparison.start([METHODS["local-sd"](), METHODS["laplacian"]()], SHORT)
+    qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
+    run(qtbot, session, stage("mend"))
+    kept = tmp_path / "kept.hexmend"
+    session.commands.save(kept)
+    opened(qtbot, session, kept)
+    assert not session.opener.busy
+    session.commands.take("Laplacian", session.comparison.of("laplacian").state)
+    assert "compare(" not in same_again(session, tmp_path).partition("kept.hexmend")[2]
+
+
 def test_without_a_mesh_there_is_nothing_to_do(qtbot, tmp_path):
     session = Session()
     script = tmp_path / "script.py"
