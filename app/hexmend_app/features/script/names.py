@@ -67,6 +67,10 @@ class Names:
             del self._paths[one]
         self._paths[state] = path
 
+    def session_saved(self, path: Path) -> None:
+        """A session's file holds its states and its runs by other numbers."""
+        self._stored.saved(path, self.known)
+
     def restored(self, data: Any, path: Path) -> None:
         """A session's file holds its states and its runs."""
         self._stored.take(data, path)

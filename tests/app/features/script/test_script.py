@@ -256,6 +256,30 @@ def test_a_comparison_that_a_session_holds_is_read_from_it(session, qtbot, tmp_p
     assert "compare(" not in same_again(session, tmp_path).partition("kept.hexmend")[2]
 
 
+def test_a_session_that_is_saved_over_is_read_by_its_new_numbers(session, qtbot, tmp_path):
+    run(qtbot, session, stage("local-sd"))
+    run(qtbot, session, stage("laplacian"))
+    kept = tmp_path / "kept.hexmend"
+    session.commands.save(kept)
+    opened(qtbot, session, kept)
+    end = session.history.records[0].end
+    session.commands.undo()
+    session.commands.undo()
+    run(qtbot, session, stage("mend"))
+    session.commands.save(kept)
+    session.commands.take("back", end)
+    same_again(session, tmp_path)
+
+
+def test_what_reads_a_file_that_was_saved_over_says_so(session, qtbot, path):
+    run(qtbot, session, stage("laplacian"))
+    assert "overwritten" not in session.script.text
+    session.commands.save(path)
+    session.commands.save(path)
+    assert session.script.text.count("the file was overwritten since") == 1
+    assert "overwritten" in session.script.entries[0]
+
+
 def test_without_a_mesh_there_is_nothing_to_do(qtbot, tmp_path):
     session = Session()
     script = tmp_path / "script.py"
