@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from hexmend.figures import printable
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration
 from hexmend_app.state.document import State
@@ -131,7 +132,7 @@ class History:
         for kept in data.records:
             parent = None if kept.parent is None else Moment(self.records[kept.parent[0]], kept.parent[1])
             slot = self._free_slot() if kept.slot is None else kept.slot
-            record = Record(kept.name, kept.title, kept.start, parent, slot)
+            record = Record(printable(kept.name), kept.title, kept.start, parent, slot)
             record.plotted = kept.plotted
             record.rows, record.result, record.end = [dict(row) for row in kept.rows], kept.result, kept.end
             record.message, record.pauses, record.advice = kept.message, dict(kept.pauses), kept.advice

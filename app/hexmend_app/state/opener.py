@@ -180,5 +180,7 @@ class Opener(QObject):
                 self._document.replace(result.state, result.path)
                 self.restored.emit(result)
             else:
+                self._task = task  # busy until all have taken it: what they tell meanwhile is no deed of the user's
                 self.loaded.emit(result, None if self._recovers else self._path)
+                self._task = None
             self.ended.emit(self._document.path if self._recovers and self._document.path else self._path)

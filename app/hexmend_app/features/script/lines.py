@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -13,8 +13,11 @@ from hexmend import __version__
 from hexmend.parameters import Parametrised
 from hexmend.recipe import Recipe, Stage
 from hexmend.report.charts import ChartStyle
-from hexmend_app.features.script.words import WIDTH, lines_of, made, numbers
+from hexmend_app.features.script.words import WIDTH, comment_of, lines_of, made, numbers
 from hexmend_app.state.scene import Scene, from_toml, to_toml
+
+#: Said of what reads a file that was written to since.
+_OVERWRITTEN = ": the file was overwritten since, put it back as it was first"
 
 
 class Lines:
@@ -37,10 +40,27 @@ class Lines:
 
     def put(self, title: str, source: str = "") -> None:
         """Add an entry; without source, a comment alone."""
-        words = " ".join(title.split())
+        words = comment_of(title)
         comment = f"# {words[:1].upper()}{words[1:]}"
         self.entries.append(f"{comment}\n{source}" if source else comment)
         self._told()
+
+    def change(self, old: str, new: str) -> bool:
+        """Let a line be another; whether it was there."""
+        for at, entry in enumerate(self.entries):
+            lines = entry.split("\n")
+            if old in lines:
+                self.entries[at] = "\n".join(new if line == old else line for line in lines)
+                return True
+        return False
+
+    def overwritten(self, path: Path, kept: Collection[str] = ()) -> None:
+        """Say of what reads a file that it is another now, but for some lines that read it as it is."""
+        read = f"({str(path.absolute())!r})"
+        for at, entry in enumerate(self.entries):
+            comment, _, source = entry.partition("\n")
+            if read in source and source not in kept and not comment.endswith(_OVERWRITTEN):
+                self.entries[at] = f"{comment}{_OVERWRITTEN}\n{source}"
 
     def clear(self) -> None:
         """Forget all."""

@@ -67,6 +67,10 @@ class Names:
             del self._paths[one]
         self._paths[state] = path
 
+    def session_saved(self, path: Path) -> None:
+        """A session's file holds its states and its runs by other numbers."""
+        self._stored.saved(path, self.known)
+
     def restored(self, data: Any, path: Path) -> None:
         """A session's file holds its states and its runs."""
         self._stored.take(data, path)
@@ -107,9 +111,7 @@ class Names:
         """What the script calls the mesh of a state; where it has no name yet, it is told how it came about."""
         if state in self._states:
             return self._states[state]
-        moment = self._session.history.moment_of(state)
-        if moment is not None and state is moment.record.start:
-            moment = moment.record.parent
+        moment = self._made_by(state)
         document = self._session.document
         if (source := self._stored.mesh(state)) is not None:
             self.add("From the session", state, source)
@@ -117,7 +119,7 @@ class Names:
             self._states[state] = f"{self.comparisons.row(row)}.mesh"
         elif state in self._paths:
             self.add("The mesh, as read", state, _read(self._paths[state]))
-        elif moment is not None and self.repeats(moment.record):
+        elif moment is not None and self._reaches(state):
             self._add_iteration(state, moment)
         else:
             path = document.path or Path(f"{state.mesh.name or 'mesh'}.vtu")
@@ -138,15 +140,35 @@ class Names:
             self._session.history.note(state, moment)
         return self.mesh(state)
 
+    def _made_by(self, state: State) -> Moment | None:
+        """The iteration that a state is of; of a state where runs begin, that of the run before them."""
+        moment = self._session.history.moment_of(state)
+        while moment is not None and state is moment.record.start:
+            moment = moment.record.parent
+        return moment
+
+    def _reaches(self, state: State) -> bool:
+        """Whether the script can make a state from what is named, or in files."""
+        while not (state in self._states or state in self._paths or self._stored.mesh(state) is not None):
+            moment = self._made_by(state)
+            if moment is None or not self.repeats(moment.record):
+                return self.comparisons.row_of(state) is not None
+            state = moment.record.start
+        return True
+
     def _add_iteration(self, state: State, moment: Moment) -> None:
         record, number = moment.record, moment.number
         same = record.start, record.end
         at = next((one for one in same if one is not None and one.mesh.points is state.mesh.points), None)
+        told = self.told(record)
+        if at is state and told is not None and told.stages:
+            start, name = self.mesh(record.start), self.new(state)
+            self._lines.put(moment.name, told.smoothed(start, name))
+            return
         base = self.mesh(self._like(state, record.start))
-        if at is not None:
+        if at is not None and at is not state:
             self.add(moment.name, state, f"{base}.with_points({self.mesh(at)}.points)")
             return
-        told = self.told(record)
         if told is None:
             points = f"{self.run(record)}.points({number})"
             self.add(moment.name, state, f"{base}.with_points({points})")
@@ -155,7 +177,7 @@ class Names:
         loop = told.until(start, number)
         name = self.new(state)
         points, note = "it.points", ""
-        if self._is_rounded(state, moment):
+        if at is None and self._is_rounded(state, moment):
             points = f'{start}.points + (it.points - {start}.points).astype("f4")'
             note = "# The window keeps ways from the start in single precision.\n"
         self._lines.put(moment.name, f"{loop}\n{note}{name} = {base}.with_points({points})")

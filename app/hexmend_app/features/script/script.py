@@ -129,9 +129,11 @@ class Script(QObject):
             case WentBack():
                 put(f"{'undo' if deed.undone else 'redo'} {deed.title}: on with {names.mesh(deed.now)}")
             case Saved(session=True):
+                names.session_saved(deed.path)
                 put(f"the session was saved as {deed.path}")
             case Saved():
                 source = f"hx.write({str(deed.path.absolute())!r}, {names.mesh(deed.now)})"
+                self._lines.overwritten(deed.path)
                 put("save", source)
                 names.written(deed.path, deed.now)
             case Tabled():

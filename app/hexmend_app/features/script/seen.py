@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend_app.features.script.words import lines_of
+from hexmend_app.features.script.words import comment_of, lines_of
 from hexmend_app.state.scene import Scene, to_toml
 
 #: How it begins.
@@ -31,7 +31,7 @@ class Seen:
         shown = [one for panel in self.scene.panels for one in (panel, panel.wipe) if one is not None]
         meshes = " ".join(["MESH"] * max((one.mesh for one in shown), default=1))
         comment = (
-            f"{SEEN}: {self.name}. Saved as view.toml, this text is drawn by\n"
+            f"{SEEN}: {comment_of(self.name)}. Saved as view.toml, this text is drawn by\n"
             f"# hexmend render --scene view.toml {meshes} -o PICTURE.png"
         )
         return f"{comment}\nscene = {lines_of(to_toml(self.scene, whole=False))}"

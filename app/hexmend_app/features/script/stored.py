@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
@@ -49,12 +50,52 @@ class Stored:
         for at, record in enumerate(self._session.history.records):
             self._runs[record] = path, at
 
+    def saved(self, path: Path, known: Callable[[State], str | None]) -> None:
+        """A session was saved; what the script reads from that file is read by its new numbers.
+
+        Parameters
+        ----------
+        path : Path
+        known : callable
+            What the script calls a state already.
+        """
+        if self._data is None or path not in (at[0] for at in self._states.values()):
+            return
+        session = self._session.given()
+        before, lines = dict(self._states.items()), self._lines
+        whole = self._names.get(path) if self._same(session) else None
+        for kept in (self._states, self._runs):
+            for one in [one for one, at in kept.items() if at[0] == path]:
+                del kept[one]
+        self.take(session, path)
+        good = set()
+        for state, at in before.items():
+            called, new = known(state), self._states.get(state)
+            if at[0] == path and called is not None and new is not None:
+                line = f"{called} = {self._reads(*new)}"
+                if lines.change(f"{called} = {self._reads(*at)}", line):
+                    good.add(line)
+        if whole is not None:
+            self._names[path] = whole
+            good.add(f"{whole} = {self._whole(path)}")
+        lines.overwritten(path, good)
+
+    def _same(self, session: SessionData) -> bool:
+        """Whether all that the script may read of a session, besides meshes, has the same numbers in another."""
+        old, records = self._data, self._session.history.records
+        runs = all(at < len(records) and records[at] is one for one, (path, at) in self._runs.items()
+                   if path == self._path)  # fmt: skip
+        kept = [one.points for one in old.kept]
+        places = len(session.kept) >= len(kept) and all(
+            one.points is points for one, points in zip(session.kept, kept, strict=False)
+        )
+        return runs and places and session.comparison.results is old.comparison.results
+
     def mesh(self, state: State) -> str | None:
         """What reads the mesh of a state."""
         if state not in self._states:
             return None
-        path, at = self._states[state]
-        return f"{self._lines.use(read_session)}({str(path.absolute())!r}).meshes[{at}]"
+        return self._reads(*self._states[state])
 
     def run(self, record: Record) -> str | None:
         """What reads a run."""
@@ -80,6 +121,11 @@ class Stored:
         if path not in self._names:
             name = self._names[path] = f"session_{self._count}"
             self._count += 1
-            read = f"{self._lines.use(session_data.read)}({str(path.absolute())!r})"
-            self._lines.put("All that the session holds", f"{name} = {read}")
+            self._lines.put("All that the session holds", f"{name} = {self._whole(path)}")
         return self._names[path]
+
+    def _reads(self, path: Path, at: int) -> str:
+        return f"{self._lines.use(read_session)}({str(path.absolute())!r}).meshes[{at}]"
+
+    def _whole(self, path: Path) -> str:
+        return f"{self._lines.use(session_data.read)}({str(path.absolute())!r})"

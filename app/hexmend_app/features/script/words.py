@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.doctor import repair
+from hexmend.figures import printable
 from hexmend.parameters import Parametrised, declared
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
@@ -57,6 +58,15 @@ def called(mesh: str, change: Callable[..., Any], values: Sequence[Any]) -> str:
     """
     words = ", ".join([mesh, *(repr(one) if isinstance(one, str | bool | tuple) else numbers(one) for one in values)])
     return f"{change.__name__}({words})" + "[0].keeping_surface()" * (change is repair)
+
+
+def comment_of(text: str) -> str:
+    r"""Words from anywhere as part of one line of a comment, which they cannot end.
+
+    >>> comment_of("a\nname\x0c\x00")
+    'a name ?'
+    """
+    return printable(" ".join(text.split()))
 
 
 def lines_of(text: str) -> str:
