@@ -254,6 +254,10 @@ def test_a_comparison_that_a_session_holds_is_read_from_it(session, qtbot, tmp_p
     assert not session.opener.busy
     session.commands.take("Laplacian", session.comparison.of("laplacian").state)
     assert "compare(" not in same_again(session, tmp_path).partition("kept.hexmend")[2]
+    session.commands.save(kept)
+    assert "overwritten" not in same_again(session, tmp_path).partition("kept.hexmend")[2]
+    session.commands.take("steepest descent", session.comparison.of("local-sd").state)
+    same_again(session, tmp_path)
 
 
 def test_a_session_that_is_saved_over_is_read_by_its_new_numbers(session, qtbot, tmp_path):
