@@ -132,8 +132,8 @@ class Laboratory:
 
     @property
     def answers(self):
-        """What is kept, by the number of the trial."""
-        kept = [json.loads(path.read_text()) for path in (self.out / "tasks").glob("*.json")]
+        """What is kept, by the number of the trial; not what is being written."""
+        kept = [json.loads(path.read_text()) for path in (self.out / "tasks").glob("[!.]*.json")]
         return {one["case"]["stages"][0]["parameters"]["number"]: one["answer"] for one in kept}
 
 
