@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QImage, QPixmap, QResizeEvent
 from PySide6.QtWidgets import (
-    QDialog,
-    QDialogButtonBox,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -21,14 +20,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.errors import FileError, HexmendError, ParameterError
+from hexmend.errors import HexmendError, ParameterError
 from hexmend.io.suffixes import suffix_for
 from hexmend.parameters import declared
-from hexmend.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, ChartStyle, Draw, chart_png
+from hexmend.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
 from hexmend_app.widgets.parameter_form import ParameterForm
+from hexmend_app.widgets.save_dialog import SaveDialog
 from hexmend_app.widgets.scrolled import scrolled
-from hexmend_app.widgets.style import WORSE, explain, note
-from hexmend_app.widgets.target_row import TargetRow
+from hexmend_app.widgets.style import explain
 
 #: Milliseconds after the last change until it is shown.
 _PAUSE = 150
@@ -37,19 +36,13 @@ _PAUSE = 150
 _LONGEST = 200
 
 
-class ExportDialog(QDialog):
-    """Edits what is called what and where it goes, beside a preview that others fill.
+class ExportDialog(SaveDialog):
+    """Edits what is called what and where it goes, beside a preview.
 
     Parameters
     ----------
-    what : str
-        What is saved, such as "the histogram".
-    name : str
-        The file name proposed.
-    kinds : str
-        Kinds of file, as Qt's dialogs take them.
-    suffixes : sequence of str
-        Those that can be written.
+    what, name, kinds : str
+        As of `SaveDialog`.
     style : ChartStyle
         Its values are shown first.
     title : str
@@ -63,16 +56,13 @@ class ExportDialog(QDialog):
         what: str,
         name: str,
         kinds: str,
-        suffixes: Sequence[str],
         style: ChartStyle,
         title: str,
         names: Sequence[str],
         parent: QWidget | None = None,
     ):
-        super().__init__(parent)
-        self.setWindowTitle(f"Save {what}")
-        self._what, self._suffixes, self._style = what, suffixes, style
-        self.target = TargetRow(f"Save {what} as", name, kinds, f"Where {what} goes: {', '.join(suffixes)}.")
+        super().__init__(what, name, kinds, parent)
+        self._style = style
         self.title = QLineEdit(title)
         self.title.setMaxLength(_LONGEST)
         self.title.setCursorPosition(0)
@@ -81,13 +71,11 @@ class ExportDialog(QDialog):
         for own, line in self.names.items():
             line.setMaxLength(_LONGEST)
             explain(line, f"Name of {own}", "What this is called in the file.")
-        self._problem = note("", WORSE)
-        self._problem.setAccessibleName("What is wrong")
         self._soon = QTimer(self, interval=_PAUSE, singleShot=True)
         self._soon.timeout.connect(self.show_preview)
 
     def lay_out(self, preview: QWidget, *forms: QWidget) -> None:
-        """Put a preview beside forms and the names, and what is edited before that into effect."""
+        """Put a preview beside forms and the names, and show what would be written."""
         settings = QWidget()
         column = QVBoxLayout(settings)
         for form in forms:
@@ -107,15 +95,7 @@ class ExportDialog(QDialog):
         both = QHBoxLayout()
         both.addWidget(preview, 1)
         both.addWidget(area)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
-        buttons.accepted.connect(self.accept)
-        buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
-        layout.addLayout(both, 1)
-        layout.addWidget(self.target)
-        layout.addWidget(self._problem)
-        layout.addWidget(buttons)
-        self.refuse("")
+        self.lay_out_below(both)
         for line in (self.title, *self.names.values()):
             line.textEdited.connect(self.changed)
         self.target.edited.connect(self.changed)
@@ -143,24 +123,17 @@ class ExportDialog(QDialog):
         self.refuse("")
         self._soon.start()
 
-    def accept(self) -> None:
-        """Close where it can be written to the path; or say why not."""
-        if self.target.empty:
-            self.refuse(f"Name the file that {self._what} goes to.")
-            return
-        try:
-            suffix_for(self.target.path(), self._what, self._suffixes)
-            self.chosen()
-        except (FileError, ParameterError) as error:
-            self.refuse(str(error))
-            return
-        if self.target.settled():
-            super().accept()
+    def check(self) -> None:
+        """Raise `FileError` or `ParameterError` where what is chosen cannot be written to the path."""
+        suffix_for(self.target.path(), self._what, self.suffixes)
+        self.chosen()
 
-    def refuse(self, problem: str) -> None:
-        """Say what is wrong; nothing, where it is empty."""
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))
+
+def answer(dialog: ExportDialog) -> tuple[Path, ChartStyle] | None:
+    """Show a dialog: where the file goes and what it is to be like, None for nowhere. Nothing is left of the dialog."""
+    meant = dialog.exec()
+    dialog.deleteLater()
+    return (dialog.target.path(), dialog.chosen()) if meant else None
 
 
 class ChartDialog(ExportDialog):
@@ -168,16 +141,16 @@ class ChartDialog(ExportDialog):
 
     Parameters
     ----------
-    draw : callable
-        Draws it in a style.
-    *arguments
+    chart : Chart
+    what, name, kinds, style
         As of `ExportDialog`.
     """
 
-    def __init__(self, draw: Draw, *arguments: Any, parent: QWidget | None = None):
-        super().__init__(*arguments, parent)
-        self._draw = draw
-        self._picture = QPixmap()
+    def __init__(
+        self, chart: Chart, what: str, name: str, kinds: str, style: ChartStyle, parent: QWidget | None = None
+    ):
+        super().__init__(what, name, kinds, style, chart.title, chart.names, parent)
+        self._chart = chart
         self.preview = QLabel(alignment=Qt.AlignmentFlag.AlignCenter)
         self.preview.setMinimumSize(360, 260)
         self.preview.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
@@ -209,7 +182,7 @@ class ChartDialog(ExportDialog):
         room = self.preview.contentsRect().size() * ratio
         try:
             style = self.chosen()
-            data = chart_png(self._draw, style, max(10.0, room.width() / style.width * MM_PER_INCH))
+            data = chart_png(self._chart.draw, style, max(10.0, room.width() / style.width * MM_PER_INCH))
         except HexmendError as error:
             self.refuse(str(error))
             return
@@ -229,12 +202,22 @@ class TableDialog(ExportDialog):
     ----------
     text : callable
         The table as Markdown; raises `ParameterError` where it cannot be made with what is chosen.
-    *arguments
+    what, name, kinds, style, title, names
         As of `ExportDialog`.
     """
 
-    def __init__(self, text: Callable[[ChartStyle], str], *arguments: Any, parent: QWidget | None = None):
-        super().__init__(*arguments, parent)
+    def __init__(
+        self,
+        text: Callable[[ChartStyle], str],
+        what: str,
+        name: str,
+        kinds: str,
+        style: ChartStyle,
+        title: str,
+        names: Sequence[str],
+        parent: QWidget | None = None,
+    ):
+        super().__init__(what, name, kinds, style, title, names, parent)
         self._text = text
         self.preview = QTextBrowser()
         self.preview.setMinimumSize(360, 200)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.figures import printable
@@ -98,6 +98,19 @@ class ChartStyle(Parametrised):
         height = self.height or shape * self.width
         self._check_pixels(height)
         return new_figure(self.width / MM_PER_INCH, height / MM_PER_INCH)
+
+
+class Chart(Protocol):
+    """What is drawn in a style: its own title, and what its curves call themselves, each once."""
+
+    title: str
+
+    @property
+    def names(self) -> list[str]:
+        """Of its curves."""
+
+    def draw(self, style: ChartStyle) -> Figure:
+        """The figure."""
 
 
 #: Draws a chart.

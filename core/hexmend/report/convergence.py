@@ -78,6 +78,11 @@ class Convergence:
     xlabel: str
     whole: bool = True
 
+    @property
+    def names(self) -> list[str]:
+        """What runs call themselves, each once."""
+        return list(dict.fromkeys(curve.label for chart in self.charts for curve in chart.curves))
+
     def draw(self, style: ChartStyle) -> Figure:
         """The figure.
 

@@ -66,6 +66,11 @@ class Histogram:
     extent: tuple[float, float]
     log: bool = False
 
+    @property
+    def names(self) -> list[str]:
+        """What distributions call themselves, each once."""
+        return list(dict.fromkeys(one.label for one in self.outlines))
+
     def draw(self, style: ChartStyle) -> Figure:
         """The figure.
 

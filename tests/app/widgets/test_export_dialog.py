@@ -9,12 +9,12 @@ from hexmend_app.widgets.export_dialog import ChartDialog, TableDialog
 from tests.patience import PATIENCE
 
 HISTOGRAM = Histogram([Outline("at the start", "#5b6573", [1, 2, 3])], "bridge", "q", "hexes", [(0.0, "0")], (0.0, 1.0))
-WORDS = ("the histogram", "bridge.svg", "SVG figure (*.svg);;Counts (*.csv)", (".svg", ".csv"), ChartStyle())
+WORDS = ("the histogram", "bridge.svg", "SVG figure (*.svg);;Counts (*.csv)", ChartStyle())
 
 
 @pytest.fixture
 def dialog(qtbot, tmp_path):
-    asks = ChartDialog(HISTOGRAM.draw, *WORDS, "bridge", ["at the start"])
+    asks = ChartDialog(HISTOGRAM, *WORDS)
     qtbot.addWidget(asks)
     asks.show()
     asks.target.line.setText(str(tmp_path / "a.svg"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QGuiApplication
@@ -65,20 +65,7 @@ class FeatureCamera(Feature):
                 enabled=self._ready,
                 in_view=True,
             ),
-            *(
-                Action(
-                    id=id,
-                    text=text,
-                    menu="View/Camera",
-                    keys=keys,
-                    icon=icon,
-                    help=f"Look at what is shown from {'a corner' if name == 'iso' else name.replace('-', '−')}.",
-                    tool=tool,
-                    handle=lambda name=name: self.canvas.look_along(name),
-                    enabled=self._ready,
-                )
-                for name, id, text, keys, icon, tool in _DIRECTIONS
-            ),
+            *self._directions(),
             self._move("face", "Face the pl&ane", "Shift+C", "Look straight at the plane of the cut.", self._face,
                        lambda: self._plane is not None, in_view=True),
             self._move("roll_left", "Roll to the &left", "Shift+[", "Turn the picture counter-clockwise.",
@@ -105,6 +92,40 @@ class FeatureCamera(Feature):
             self._move("copy_camera", "&Copy camera", "", "Copy where the camera stands, for a picture or another "
                        "window.", self.copy, lambda: self._draws),
             self._move("paste_camera", "&Paste camera", "", "Look from where a copied text says.", self.paste),
+            *self._kept(),
+            Action(
+                id="parallel",
+                text="&Parallel projection",
+                menu="View/Camera",
+                part=3,
+                keys="P",
+                help="Without perspective, for figures.",
+                handle=lambda on: self.canvas.set_parallel(on),
+                enabled=self._ready,
+                checked=lambda: self.canvas is not None and self.canvas.parallel,
+            ),
+        )  # fmt: skip
+
+    def _directions(self) -> Iterator[Action]:
+        """Those that look along an axis, or from a corner."""
+        yield from (
+            Action(
+                id=id,
+                text=text,
+                menu="View/Camera",
+                keys=keys,
+                icon=icon,
+                help=f"Look at what is shown from {'a corner' if name == 'iso' else name.replace('-', '−')}.",
+                tool=tool,
+                handle=lambda name=name: self.canvas.look_along(name),
+                enabled=self._ready,
+            )
+            for name, id, text, keys, icon, tool in _DIRECTIONS
+        )
+
+    def _kept(self) -> Sequence[Action]:
+        """What is done with cameras that are kept by name."""
+        return (
             Action(
                 id="keep_camera",
                 text="&Keep camera as…",
@@ -126,18 +147,7 @@ class FeatureCamera(Feature):
                 handle=self.show_cameras,
                 enabled=lambda: self._draws and bool(self._cameras.all),
             ),
-            Action(
-                id="parallel",
-                text="&Parallel projection",
-                menu="View/Camera",
-                part=3,
-                keys="P",
-                help="Without perspective, for figures.",
-                handle=lambda on: self.canvas.set_parallel(on),
-                enabled=self._ready,
-                checked=lambda: self.canvas is not None and self.canvas.parallel,
-            ),
-        )  # fmt: skip
+        )
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take the 3D view."""

@@ -9,7 +9,6 @@ from hexmend.recipe import Stage
 from hexmend.report import markdown, table_of, write_comparison
 from hexmend.report.charts import ChartStyle
 from hexmend.report.comparison import LINES
-from hexmend.report.documents import SUFFIXES
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
@@ -17,7 +16,7 @@ from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_
 from hexmend_app.state.comparison import Compared
 from hexmend_app.state.deeds import Tabled
 from hexmend_app.state.document import State
-from hexmend_app.widgets.export_dialog import TableDialog
+from hexmend_app.widgets.export_dialog import TableDialog, answer
 from hexmend_app.widgets.wording import counted
 
 #: Methods that are ticked at first: the plain one, the fast one, an optimiser of the thesis, and the default.
@@ -166,21 +165,21 @@ class FeatureCompare(Feature):
 
     def ask(self) -> None:
         """Ask what is called what in the table and where it goes, and write it."""
-        dialog = self.dialog()
-        if dialog.exec():
-            self._style = dialog.chosen()
-            self.save(dialog.target.path(), self._style)
-        dialog.deleteLater()
+        if given := answer(self.dialog()):
+            path, self._style = given
+            self.save(path, self._style)
 
     def dialog(self) -> TableDialog:
         """The dialog that asks: names are as they were last."""
         record = self._comparison.given().record()
         names = ["initial", *(row["method"] for row in record["rows"])]
         proposed = f"{self.host.stem}-comparison.csv"
-        arguments = ("the table", proposed, _KINDS, SUFFIXES, self._style, table_of(record).title, names)
-        return TableDialog(
-            lambda style: markdown(table_of(record, style.names, style.title)), *arguments, parent=self.host.window
-        )
+
+        def text(style: ChartStyle) -> str:
+            return markdown(table_of(record, style.names, style.title))
+
+        title = table_of(record).title
+        return TableDialog(text, "the table", proposed, _KINDS, self._style, title, names, self.host.window)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; whether it was."""

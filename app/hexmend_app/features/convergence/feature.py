@@ -10,12 +10,12 @@ from superqt.utils import QSignalThrottler
 from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.convergence.curves import Columns, Curve, beginning
-from hexmend_app.features.convergence.file import SUFFIXES, figure, write_convergence
+from hexmend_app.features.convergence.file import figure, write_convergence
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.deeds import Wrote
 from hexmend_app.state.history import Record
 from hexmend_app.state.run import Phase
-from hexmend_app.widgets.export_dialog import ChartDialog
+from hexmend_app.widgets.export_dialog import ChartDialog, answer
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;All figures of all runs (*.csv)"
 
@@ -108,20 +108,15 @@ class FeatureConvergence(Feature):
 
     def ask(self) -> None:
         """Ask what the charts are to be like and where they go, and write them."""
-        dialog = self.dialog()
-        if dialog.exec():
-            self._style = dialog.chosen()
-            self.save(dialog.target.path(), self._style)
-        dialog.deleteLater()
+        if given := answer(self.dialog()):
+            path, self._style = given
+            self.save(path, self._style)
 
     def dialog(self) -> ChartDialog:
         """The dialog that asks: sizes and names are as they were last."""
         deed = self._told(Path())
-        drawn = figure(*deed.given[1:], **deed.options)
-        names = dict.fromkeys(curve.label for chart in drawn.charts for curve in chart.curves)
-        proposed = f"{self.host.stem}-convergence.svg"
-        arguments = ("the charts", proposed, _KINDS, SUFFIXES, self._style, drawn.title, list(names))
-        return ChartDialog(drawn.draw, *arguments, parent=self.host.window)
+        chart, proposed = figure(*deed.given[1:], **deed.options), f"{self.host.stem}-convergence.svg"
+        return ChartDialog(chart, "the charts", proposed, _KINDS, self._style, self.host.window)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts as a figure, or the figures of all runs as CSV, by the suffix; whether it was done."""

@@ -11,7 +11,7 @@ from hexmend.movement import MOVEMENTS
 from hexmend.quality import measure
 from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
-from hexmend_app.features.histogram.file import SUFFIXES, figure, write_histogram
+from hexmend_app.features.histogram.file import figure, write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.scene.palette import BLUE, GREY, KEPT
 from hexmend_app.state.deeds import Wrote
@@ -19,7 +19,7 @@ from hexmend_app.state.document import State
 from hexmend_app.state.kept import Kept
 from hexmend_app.state.kinds import of_kind
 from hexmend_app.state.measured import values
-from hexmend_app.widgets.export_dialog import ChartDialog
+from hexmend_app.widgets.export_dialog import ChartDialog, answer
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
 
@@ -134,20 +134,15 @@ class FeatureHistogram(Feature):
 
     def ask(self) -> None:
         """Ask what the histogram is to be like and where it goes, and write it."""
-        dialog = self.dialog()
-        if dialog.exec():
-            self._style = dialog.chosen()
-            self.save(dialog.target.path(), self._style)
-        dialog.deleteLater()
+        if given := answer(self.dialog()):
+            path, self._style = given
+            self.save(path, self._style)
 
     def dialog(self) -> ChartDialog:
         """The dialog that asks: sizes and names are as they were last."""
         deed = self._told(Path())
-        drawn = figure(*deed.given[1:], **deed.options)
-        names = dict.fromkeys(one.label for one in drawn.outlines)
-        proposed = f"{self.host.stem}-histogram.svg"
-        arguments = ("the histogram", proposed, _KINDS, SUFFIXES, self._style, drawn.title, list(names))
-        return ChartDialog(drawn.draw, *arguments, parent=self.host.window)
+        chart, proposed = figure(*deed.given[1:], **deed.options), f"{self.host.stem}-histogram.svg"
+        return ChartDialog(chart, "the histogram", proposed, _KINDS, self._style, self.host.window)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as figure, or its counts as CSV, by the suffix; whether it was."""

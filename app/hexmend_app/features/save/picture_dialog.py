@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSize, Signal
 from PySide6.QtWidgets import (
     QComboBox,
-    QDialog,
-    QDialogButtonBox,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -29,9 +27,9 @@ from hexmend_app.state.scene.camera import DIRECTIONS
 from hexmend_app.state.scene.kept_cameras import joined
 from hexmend_app.widgets.key_form import KeyForm
 from hexmend_app.widgets.questions import ask_scene, ask_scene_target
+from hexmend_app.widgets.save_dialog import SaveDialog
 from hexmend_app.widgets.scrolled import scrolled
-from hexmend_app.widgets.style import WORSE, explain, note
-from hexmend_app.widgets.target_row import TargetRow
+from hexmend_app.widgets.style import explain
 
 if TYPE_CHECKING:
     from hexmend_app.scene.export.sheet import Sheet
@@ -55,7 +53,7 @@ _SHARE = 0.7
 _OF_SEVERAL = ("captions", "figures", "columns")
 
 
-class PictureDialog(QDialog):
+class PictureDialog(SaveDialog):
     """Edits a scene, with a preview, and the path that it goes to.
 
     Signals
@@ -88,13 +86,8 @@ class PictureDialog(QDialog):
         views: Sequence[str] = (),
         parent: QWidget | None = None,
     ):
-        super().__init__(parent)
-        self.setWindowTitle("Save picture")
+        super().__init__("the picture", name, _KINDS, parent)
         self._seen = self._base = scene
-        self.target = TargetRow("Save picture", name, _KINDS, "Where the picture goes: .png, .tif, .pdf or .svg.")
-        self.target.edited.connect(lambda: self._refuse(""))
-        self._problem = note("", WORSE)
-        self._problem.setAccessibleName("What is wrong")
         self.preview = Preview(draw)
         self._about = QLabel()
         self.size_form = SizeForm(view, scene.page)
@@ -116,7 +109,6 @@ class PictureDialog(QDialog):
             form.changed.connect(self._on_changed)
         for line in self.captions:
             line.textEdited.connect(self._on_changed)
-        self._refuse("")
         self._on_changed()
 
     def _lay_out(self) -> None:
@@ -153,16 +145,7 @@ class PictureDialog(QDialog):
         explain(keep, "Save scene…", "Write all of this as a file, for hexmend render --scene.")
         load.clicked.connect(self._ask_scene)
         keep.clicked.connect(self._ask_target)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
-        buttons.addButton(load, QDialogButtonBox.ButtonRole.ResetRole)
-        buttons.addButton(keep, QDialogButtonBox.ButtonRole.ResetRole)
-        buttons.accepted.connect(self.accept)
-        buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
-        layout.addLayout(both, 1)
-        layout.addWidget(self.target)
-        layout.addWidget(self._problem)
-        layout.addWidget(buttons)
+        self.lay_out_below(both, load, keep)
         room = self.screen().availableSize() * _SHARE
         self.resize(room.expandedTo(QSize(1000, 640)))
 
@@ -195,28 +178,19 @@ class PictureDialog(QDialog):
         self._offer_cameras()
         self._on_changed()
 
-    def accept(self) -> None:
-        """Close where a picture can be written to the path, and remember its folder; or say why not."""
+    def check(self) -> None:
+        """Raise `FileError` or `ParameterError` where what is chosen cannot be written to the path."""
         from hexmend_app.scene.export.sheet import format_of
 
-        if self.target.empty:
-            self._refuse("Name the file that the picture goes to.")
-            return
-        try:
-            format_of(self.target.path())
-            self.scene()
-        except (FileError, ParameterError) as error:
-            self._refuse(str(error))
-            return
-        if self.target.settled():
-            super().accept()
+        format_of(self.target.path())
+        self.scene()
 
     def load(self, path: str) -> None:
         """Take a scene from a file, or say why not."""
         try:
             self.show_scene(read_scene(path))
         except FileError as error:
-            self._refuse(str(error))
+            self.refuse(str(error))
 
     def keep(self, path: str) -> None:
         """Write the scene to a file, or say why not."""
@@ -224,7 +198,7 @@ class PictureDialog(QDialog):
             scene = self.scene()
             write_scene(path, scene)
         except (FileError, ParameterError) as error:
-            self._refuse(str(error))
+            self.refuse(str(error))
         else:
             self.scene_kept.emit(Path(path), scene)
 
@@ -247,11 +221,11 @@ class PictureDialog(QDialog):
             scene = self.scene()
         except ParameterError as error:
             self._wrong = True
-            self._refuse(str(error))
+            self.refuse(str(error))
             return
         if self._wrong:
             self._wrong = False
-            self._refuse("")
+            self.refuse("")
         page = scene.page
         wide, high = (side * 25.4 / page.resolution for side in page.size)
         self._about.setText(
@@ -262,11 +236,7 @@ class PictureDialog(QDialog):
 
     def _on_drawn(self, problem: str) -> None:
         if not self._wrong:
-            self._refuse(problem)
-
-    def _refuse(self, problem: str) -> None:
-        self._problem.setText(problem)
-        self._problem.setVisible(bool(problem))
+            self.refuse(problem)
 
     def _ask_scene(self) -> None:
         if path := ask_scene(self):
