@@ -118,12 +118,12 @@ class Names:
         elif (row := self.comparisons.row_of(state)) is not None:
             self._states[state] = f"{self.comparisons.row(row)}.mesh"
         elif state in self._paths:
-            self.add("The mesh, as read", state, _read(self._paths[state]))
+            self.add("The mesh, as read", state, read_from(self._paths[state]))
         elif moment is not None and self._reaches(state):
             self._add_iteration(state, moment)
         else:
             path = document.path or Path(f"{state.mesh.name or 'mesh'}.vtu")
-            self.add("The mesh, as the window had it: save it under this name first", state, _read(path))
+            self.add("The mesh, as the window had it: save it under this name first", state, read_from(path))
         return self._states[state]
 
     def places(self, mesh: Mesh) -> str:
@@ -239,5 +239,6 @@ class Names:
         return call(self._lines.use(rerun), words)
 
 
-def _read(path: Path) -> str:
+def read_from(path: Path) -> str:
+    """The source that reads a mesh."""
     return f"hx.read({str(path.absolute())!r}).keeping_surface()"

@@ -15,7 +15,7 @@ from hexmend.optimise import Result
 from hexmend.report import write_comparison
 from hexmend.study.row import Row
 from hexmend_app.features.script.lines import Lines, call
-from hexmend_app.features.script.names import Names
+from hexmend_app.features.script.names import Names, read_from
 from hexmend_app.features.script.runs import Told
 from hexmend_app.features.script.seen import Seen
 from hexmend_app.features.script.words import called, made
@@ -101,7 +101,7 @@ class Script(QObject):
         state = self._document.now
         if state not in self._names:
             self._names.read(path, state)
-            self._names.add(f"Open {path.name}", state, f"hx.read({str(path.absolute())!r}).keeping_surface()")
+            self._names.add(f"Open {path.name}", state, read_from(path))
 
     def _on_restored(self, restored: Restored) -> None:
         """Know from where the meshes are that a picture shows beside the first."""
