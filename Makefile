@@ -33,7 +33,7 @@ test: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages chromium
 	@PYTHONDONTWRITEBYTECODE= MALLOC_ARENA_MAX=2 MALLOC_TRIM_THRESHOLD_=131072 $(BIN)/python -m pytest -n 2 --dist worksteal
 
-lint: $(VENV)/.test
+lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
 	@$(BIN)/clang-format --dry-run -Werror $(CXX_SOURCES)
@@ -67,8 +67,10 @@ wheel: $(VENV)/.wheel
 	@scripts/debian-packages
 	@scripts/try-wheel "$(PYTHON)" dist/*.whl
 
+# In an environment of its own: one with the old pins cannot be made where these are wrong.
 pins:
-	@scripts/pins "$(PYTHON)"
+	@$(PYTHON) -m venv --clear build/pins && build/pins/bin/python -m pip install --quiet uv
+	@scripts/pins build/pins/bin
 
 # The stamps: what an environment holds is decided by these files alone.
 $(VENV)/.app: pyproject.toml constraints.txt scripts/environment
@@ -78,6 +80,10 @@ $(VENV)/.app: pyproject.toml constraints.txt scripts/environment
 $(VENV)/.test: pyproject.toml constraints.txt scripts/environment
 	@scripts/environment "$(PYTHON)" $(VENV) app,build,site,test
 	@touch $(VENV)/.app $(VENV)/.site $@
+
+$(VENV)/.pins: pyproject.toml constraints.txt scripts/pins $(VENV)/.test
+	@scripts/pins $(BIN) --check
+	@touch $@
 
 $(VENV)/.site: pyproject.toml constraints.txt scripts/environment
 	@scripts/environment "$(PYTHON)" $(VENV) app,build,site

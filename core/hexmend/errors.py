@@ -21,6 +21,10 @@ class ParameterError(HexmendError):
     """A parameter's name or value that its declaration does not admit."""
 
 
+class InstallationError(HexmendError, ImportError):
+    """A part of Hexmend that is not installed, or not built."""
+
+
 class ShortageError(HexmendError):
     """A run that needs more memory than there is."""
 

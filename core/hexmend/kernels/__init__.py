@@ -22,12 +22,15 @@ import os
 import sys
 from types import ModuleType
 
-from hexmend.errors import ParameterError
+from hexmend.errors import InstallationError, ParameterError
 
 try:
     from hexmend.kernels import _processor
-except ImportError as error:
-    raise ImportError("the kernels of Hexmend are not built: run  make run  or  scripts/build-kernels BIN") from error
+except ImportError:
+    raise InstallationError(
+        f"the kernels of Hexmend are not built for this Python ({sys.version.split()[0]}): run  pip install --editable .  "
+        "in its folder, which needs a C++ compiler and Python's headers (Debian: apt-get install g++ python3-dev)"
+    ) from None
 
 #: Builds, the newest first, that a processor of each level can run.
 _RUNS = {"v4": ("v4", "v3", "v2"), "v3": ("v3", "v2"), "v2": ("v2",), "native": ("native",)}
@@ -39,7 +42,7 @@ BUILDS = _RUNS.get(_processor.LEVEL, ())
 
 def _chosen() -> str:
     if not BUILDS:
-        raise ImportError("this processor can run none of the builds of Hexmend's kernels: SSE 4.2 is the least")
+        raise InstallationError("this processor can run none of the builds of Hexmend's kernels: SSE 4.2 is the least")
     wanted = os.environ.get("HEXMEND_KERNELS", "").strip() or BUILDS[0]
     if wanted not in BUILDS:
         raise ParameterError(
