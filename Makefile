@@ -6,12 +6,12 @@ BIN    := $(VENV)/bin
 MESH   ?=
 CXX_SOURCES = $(shell find core/native -name "*.cpp" -o -name "*.hpp")
 
-.PHONY: help run test lint format bench study docs site pins wheel clean
+.PHONY: help run test test-slow lint format bench study docs site pins wheel clean
 .NOTPARALLEL:
 
 help:
 	@echo "make run [MESH=path]   open the viewer (on the demo mesh, or on yours)"
-	@echo "make test              run the tests, on a virtual screen"
+	@echo "make test              run the quick tests, on a virtual screen;  make test-slow  runs the others"
 	@echo "make lint              check the style;  make format  mends it"
 	@echo "make bench             measure speed and memory"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
@@ -28,10 +28,18 @@ run: $(VENV)/.app $(VENV)/.kernels
 
 # What glibc is given back goes back to the system, and threads share two heaps: a process that opens window after window
 # keeps less. Hundreds of processes find compiled what one has: else each takes half as long again to begin.
+PYTEST = PYTHONDONTWRITEBYTECODE= MALLOC_ARENA_MAX=2 MALLOC_TRIM_THRESHOLD_=131072 \
+	$(BIN)/python -m pytest -n 2 --dist worksteal
+
 test: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
+	@$(PYTEST) -m "not slow"
+
+# Browsers, notebooks, clusters, programs in processes of their own, windows opened one after another, large meshes.
+test-slow: $(VENV)/.test $(VENV)/.kernels
+	@scripts/debian-packages
 	@scripts/debian-packages chromium
-	@PYTHONDONTWRITEBYTECODE= MALLOC_ARENA_MAX=2 MALLOC_TRIM_THRESHOLD_=131072 $(BIN)/python -m pytest -n 2 --dist worksteal
+	@$(PYTEST) -m slow
 
 lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff check
