@@ -108,3 +108,18 @@ def test_files_are_told_apart(tmp_path):
     expected[str(font)] = "application/x-font-bdf"
     done = subprocess.run([sys.executable, "-c", TYPES, *expected], env=environment, capture_output=True, text=True)
     assert json.loads(done.stdout) == expected
+
+
+def test_pins_are_versions_alone():
+    for line in (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines():
+        assert re.fullmatch(r"#.*|[A-Za-z0-9._-]+==[A-Za-z0-9.]+( ; [a-z_]+ [!<=>]+ '[^']+'.*)?", line), line
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a script of the shell")
+def test_a_command_that_fails_shows_its_last_lines(tmp_path):
+    words = [ROOT / "scripts" / "logged", tmp_path / "log", "sh", "-c"]
+    for script, status, shown in (("seq 100; exit 3", 3, [str(k) for k in range(71, 101)]), ("seq 100", 0, [])):
+        done = subprocess.run([*words, script], capture_output=True, text=True, check=False)
+        assert done.returncode == status
+        assert done.stderr.split() == shown
+        assert (tmp_path / "log").read_text().split() == [str(k) for k in range(1, 101)]

@@ -66,3 +66,15 @@ def test_builds_agree(answers, build):
             size = np.abs(values[finite]).max()
             tolerance = {"solved": 1e-8, "swept": 1e-8, "max-angle": 1e-9, "min-angle": 1e-9}.get(name, 1e-12)
             np.testing.assert_allclose(other[name][finite], values[finite], rtol=0, atol=tolerance * size, err_msg=name)
+
+
+def test_kernels_that_are_not_built_are_one_line(tmp_path):
+    program = (
+        "import sys; sys.modules['hexmend.kernels._processor'] = None\n"
+        "from hexmend.cli.main import main; sys.exit(main(['info', 'mesh.vtu']))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert len(done.stderr.splitlines()) == 1
+    assert "kernels of Hexmend are not built" in done.stderr
+    assert "g++" in done.stderr
