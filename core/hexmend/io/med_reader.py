@@ -11,6 +11,7 @@ import numpy as np
 
 from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
+from hexmend.io import hdf5
 from hexmend.io.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.med_content import DAMAGED, KINDS, NAMES, ORDER, most_bytes, names_of, taken
 from hexmend.io.med_fields import read_fields
@@ -25,10 +26,8 @@ def content(path: Path) -> Content:
 @contextmanager
 def _opened(path: Path) -> Iterator[Mapping]:
     """The file; whatever HDF5 says against it becomes a `FileError`."""
-    import h5py
-
     try:
-        with h5py.File(path, "r", track_order=True) as file:
+        with hdf5.open_file(path) as file:
             yield file
     except (OSError, RuntimeError, LookupError, ValueError) as error:
         words = " ".join(str(error).strip("'\"").split())[:120]

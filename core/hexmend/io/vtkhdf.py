@@ -33,10 +33,8 @@ def read(path: Path) -> Mesh:
 
 def content(path: Path) -> Content:
     """What a VTKHDF file holds."""
-    import h5py
-
     try:
-        with h5py.File(path, "r") as file:
+        with hdf5.open_file(path) as file:
             root = _group(file, "VTKHDF")
             if root is None:
                 raise FileError(path, "has no group VTKHDF", "Is it a VTKHDF file? Check its suffix.")
@@ -172,14 +170,12 @@ class _Reader:
         return values.astype(values.dtype.newbyteorder("="), copy=False)
 
     def _checked(self, group, name: str):
-        """A dataset that lies in this file itself."""
+        """A dataset, which has no more chunks than fit into the file."""
         import h5py
 
-        if not isinstance(group.get(name, getlink=True), h5py.HardLink) or not isinstance(group[name], h5py.Dataset):
-            raise FileError(self.path, f"has no array {name!r} of its own", _DAMAGED)
-        found = group[name]
-        if found.external or found.is_virtual:
-            raise FileError(self.path, f"its array {name!r} lies in another file", "Write it as one file.")
+        found = group.get(name)
+        if not isinstance(found, h5py.Dataset):
+            raise FileError(self.path, f"has no array {name!r}", _DAMAGED)
         chunks = math.prod(
             -(-size // max(1, width)) for size, width in zip(found.shape, found.chunks or (), strict=False)
         )
@@ -191,11 +187,11 @@ class _Reader:
 
 
 def _group(parent, name: str):
-    """A group that lies in this file itself, or None."""
+    """A group, or None."""
     import h5py
 
-    own = isinstance(parent.get(name, getlink=True), h5py.HardLink)
-    return parent[name] if own and isinstance(parent[name], h5py.Group) else None
+    found = parent.get(name)
+    return found if isinstance(found, h5py.Group) else None
 
 
 FORMATS.add(

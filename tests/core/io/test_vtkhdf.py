@@ -116,8 +116,7 @@ def replaced(**arrays):
         (replaced(Types=[12, 268]), "cell 1 is of type 268"),
         (replaced(Connectivity=np.arange(16) / 1), "its Connectivity are float64: expected whole numbers"),
         (replaced(Connectivity=np.full(16, 2**32 + 7)), "its parts|uses the nodes"),
-        (replaced(Connectivity=h5py.ExternalLink("b.vtkhdf", "/x")), "has no array 'Connectivity' of its own"),
-        (lambda root: root.__delitem__("Types"), "has no array 'Types' of its own"),
+        (lambda root: root.__delitem__("Types"), "has no array 'Types'"),
     ],
 )
 def test_what_is_wrong_is_named(change, words, tmp_path):
@@ -144,5 +143,5 @@ def test_what_is_no_vtkhdf_is_said(tmp_path):
         io.read(tmp_path / "a.vtkhdf")
     content = hand_made(tmp_path / "b.vtkhdf").read_bytes()
     (tmp_path / "b.vtkhdf").write_bytes(content[: len(content) // 2])
-    with pytest.raises(FileError, match=r"b\.vtkhdf: cannot be read as VTKHDF"):
+    with pytest.raises(FileError, match=r"b\.vtkhdf: the HDF5 library cannot read it"):
         io.read(tmp_path / "b.vtkhdf")
