@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.io.content import ID
 from hexmend.io.format import Holds
-from hexmend.io.pins import held_by_pins
+from hexmend.io.pins import held_by_pins, needs_marks
 from hexmend.mesh import Mesh
 
 #: Whole numbers up to here are the same as real ones.
@@ -31,7 +31,7 @@ def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Holds, str]:
         Holds.HEX_SETS: _all(volumes),
         Holds.CELL_SETS: _all(lower),
         Holds.SIDE_SETS: list(mesh.side_sets),
-        Holds.PINS: [""] if mesh.pinned is not None and mesh.pinned.any() else [],
+        Holds.PINS: [""] if needs_marks(mesh) else [],
         Holds.LOWER_CELLS: [""] if any(0 < cells.dimension < 3 for cells in mesh.cells) else [],
         Holds.VERTICES: [""] if any(cells.dimension == 0 for cells in mesh.cells) else [],
         Holds.OTHER_CELLS: [""] if any(cells.dimension == 3 for cells in mesh.cells) else [],

@@ -13,7 +13,7 @@ from hexmend.io.content import ID, Block, hex_blocks, unused
 from hexmend.io.exodus_elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.exodus_ids import IDS, ids_of
 from hexmend.io.netcdf3_write import Writer
-from hexmend.io.pins import FIXED, held_by_pins
+from hexmend.io.pins import FIXED, held_by_pins, needs_marks
 from hexmend.mesh import Mesh
 
 #: In `int64_status`: that ids are kept in 64 bits.
@@ -112,11 +112,15 @@ def _add_ids(file: Writer, mesh: Mesh, parts: list[Block]) -> None:
 
 def _add_node_sets(file: Writer, mesh: Mesh) -> None:
     pins, sets = "", {name: np.asarray(members) for name, members in mesh.node_sets.items() if len(members)}
-    if mesh.pinned is not None and mesh.pinned.any():
+    fixed = np.zeros(mesh.n_nodes, bool)
+    for name, members in sets.items():
+        fixed[members] |= name.lower() == FIXED
+    by_name = not needs_marks(mesh, fixed) and (mesh.pinned is not None or not fixed.any())
+    if not by_name and needs_marks(mesh):
         pins = unused(FIXED, sets) if FIXED in sets else FIXED
         sets[pins] = np.flatnonzero(mesh.pinned)
     _add_list(file, mesh, "ns", "num_node_sets", list(sets))
-    if sets:  # so that no set is taken for the pins by its name
+    if sets and not by_name:  # so that no set is taken for the pins by its name
         file.add("ns_prop2", {"num_node_sets": len(sets)}, np.array([one == pins for one in sets], np.int32), name=PINS)
     for k, members in enumerate(sets.values(), 1):
         file.add(f"node_ns{k}", {f"num_nod_ns{k}": len(members)}, members + 1)

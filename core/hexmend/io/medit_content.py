@@ -12,6 +12,7 @@ from hexmend.io.content import Block, Content, hex_blocks
 from hexmend.io.content import from_mesh as content_of
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.format import Holds
+from hexmend.io.pins import needs_marks
 from hexmend.io.reduced import middles_lost, reduced
 from hexmend.mesh import Mesh
 
@@ -118,11 +119,10 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]
     for name, title in _NODE_SETS.items():
         if title in content.node_sets:
             sections[name] = np.asarray(content.node_sets[title]).reshape(-1, 1) + 1
-    if content.pinned is not None:
-        required = np.zeros(len(content.points), bool)
-        required[content.node_sets.get("required", [])] = True
-        if not np.array_equal(required, content.pinned):  # changed since it was read, or read elsewhere
-            sections["RequiredVertices"] = np.flatnonzero(content.pinned).reshape(-1, 1) + 1
+    required = np.zeros(mesh.n_nodes, bool)
+    required[mesh.node_sets.get("required", [])] = True
+    if needs_marks(mesh, required):  # changed since it was read, or read elsewhere
+        sections["RequiredVertices"] = np.flatnonzero(content.pinned).reshape(-1, 1) + 1
     for name, kind, flag in _FLAGS:
         blocks = [block for block in content.blocks if block.kind == kind]
         marks = [np.asarray(block.data.get(flag, np.zeros(len(block)))) for block in blocks]

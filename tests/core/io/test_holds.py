@@ -185,3 +185,37 @@ def test_data_of_one_name_and_other_widths_are_all_kept(name, encoding, tmp_path
     (tetra,) = back.cells
     kept = [values for values in tetra.data.values() if np.shape(values) == (1, 3)]
     np.testing.assert_array_equal(kept, [np.arange(3.0)[None]])
+
+
+@pytest.mark.parametrize(("name", "encoding"), WAYS)
+def test_nodes_that_other_cells_fix_make_no_set_or_data_called_fixed(name, encoding, tmp_path):
+    if Holds.OTHER_CELLS not in FORMATS[name].holds:
+        return
+    path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
+    first = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]])
+    io.write(path, first, encoding=encoding)
+    mesh = io.read(path)
+    assert mesh.pinned[[18, 19, 21, 27]].all()
+    assert not any(words.startswith("fixed nodes") for words in io.left_out(path, mesh))
+    io.write(path, mesh, encoding=encoding)
+    back = io.read(path)
+    assert not {"fixed", "required"} & {*back.node_data, *back.node_sets}
+    np.testing.assert_array_equal(back.pinned, mesh.pinned)
+    mesh = mesh.replace(pinned=mesh.pinned | (np.arange(28) == 13))  # by the user
+    if Holds.PINS not in FORMATS[name].holds:
+        assert "fixed nodes" in io.left_out(path, mesh)
+        return
+    io.write(path, mesh, encoding=encoding)
+    np.testing.assert_array_equal(io.read(path).pinned, mesh.pinned)
+
+
+def test_a_set_called_fixed_that_says_which_nodes_are_is_not_written_twice(tmp_path):
+    netcdf_file = pytest.importorskip("scipy.io").netcdf_file
+    members = np.array([3, 13])
+    mesh = grid(2).replace(node_sets={"Fixed": members}, pinned=np.isin(np.arange(27), members))
+    io.write(tmp_path / "a.exo", mesh)
+    with netcdf_file(tmp_path / "a.exo", mmap=False) as file:
+        assert file.dimensions["num_node_sets"] == 1
+    back = io.read(tmp_path / "a.exo")
+    np.testing.assert_array_equal(back.pinned, mesh.pinned)
+    np.testing.assert_array_equal(back.node_sets["Fixed"], members)
