@@ -14,7 +14,7 @@ TURNED_FACES = np.array([0, 1, 2, 3, 5, 4])
 
 
 def upright(mesh: Mesh) -> Mesh:
-    """The mesh with every part turned all of whose hexes are wound the other way, and a note that says so.
+    """The mesh with every part turned that is wound the other way, and a note that says so.
 
     Single inverted hexes are never turned: they are what is to be mended.
     """
@@ -29,17 +29,29 @@ def upright(mesh: Mesh) -> Mesh:
 
 
 def mirrored_parts(mesh: Mesh) -> np.ndarray:
-    """True for the hexes of every part all of whose hexes are wound the other way, (m,) bool.
+    """True for the hexes of every part that is wound the other way, (m,) bool.
 
-    Parts hang together by nodes. A hex is wound the other way if its volume is negative.
+    Parts hang together by nodes. A part is wound the other way if some of its hexes have a negative volume and none a
+    positive one; flat hexes, whose volume is zero but for rounding, belong to the part and say nothing about it.
     """
     with np.errstate(all="ignore"):  # of coordinates that are very large
-        wrong = corner_determinants(mesh.points, mesh.hexes).sum(axis=1) < 0
-    if not wrong.any():
-        return wrong
+        volumes = corner_determinants(mesh.points, mesh.hexes).sum(axis=1)
+        wrong = volumes < 0
+        if not wrong.any():
+            return wrong
+        rounding = _rounding(mesh)
+        wrong, right = volumes < -rounding, volumes > rounding
     part = parts_of(mesh)
-    whole = np.bincount(part) == np.bincount(part, wrong, minlength=part.max() + 1)
-    return whole[part]
+    count = part.max() + 1
+    of_part = (np.bincount(part, wrong, count) > 0) & (np.bincount(part, right, count) == 0)
+    return of_part[part]
+
+
+def _rounding(mesh: Mesh) -> np.ndarray:
+    """How far from zero the sum of the corner determinants of a flat hex may be, (m,) float64."""
+    corners = mesh.points[mesh.hexes]
+    size = np.linalg.norm(corners.max(axis=1) - corners.min(axis=1), axis=1)
+    return 64 * np.finfo(np.float64).eps * np.abs(corners).max(axis=(1, 2)) * size**2
 
 
 def turned(mesh: Mesh, which: np.ndarray) -> Mesh:

@@ -196,6 +196,23 @@ def test_a_tangled_mesh_is_not_taken_for_a_flipped_one():
     assert "mirrored-parts" not in found_in(mesh)
 
 
+@pytest.mark.parametrize("degrees", [0, 27])
+def test_flat_hexes_do_not_keep_a_part_from_being_turned(degrees):
+    points = SOUND.points.copy()
+    high = points[:, 2].max()
+    points[points[:, 2] > high - 0.01, 2] = np.unique(points[:, 2])[-2]  # a layer of no height
+    angle = np.deg2rad(degrees)  # which makes volumes of nearly zero, of either sign
+    spin = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+    flat = Mesh(points @ spin.T + degrees, SOUND.hexes)
+    mirrored = turned(flat, np.ones(27, dtype=bool))
+    assert found_in(mirrored)["mirrored-parts"].count == 27
+    np.testing.assert_array_equal(upright(mirrored).hexes, flat.hexes)
+    assert "have been turned" in upright(mirrored).notes[-1]
+    assert upright(flat) is flat
+    nothing = Mesh(points * [1, 1, 0] @ spin.T, SOUND.hexes)  # flat all over
+    assert upright(nothing) is nothing
+
+
 def test_names_and_titles_are_of_their_own():
     assert len({one.title for one in AILMENTS.values()}) == len(AILMENTS)
     assert len({one.rank for one in AILMENTS.values()}) == len(AILMENTS)
