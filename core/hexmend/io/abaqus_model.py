@@ -35,6 +35,14 @@ class Members:
     ids: list[np.ndarray] = field(default_factory=list)
     within: dict[str, Members] = field(default_factory=dict)
 
+    def joined(self, other: Members) -> Members:
+        """A set of what both say."""
+        within = {**self.within, **other.within}
+        for key in self.within.keys() & other.within.keys():
+            within[key] = self.within[key].joined(other.within[key])
+        lists = (self.words + other.words, self.ranges + other.ranges, self.ids + other.ids)
+        return Members(self.title, *lists, within)
+
 
 @dataclass(eq=False)
 class Chunk:
@@ -48,7 +56,7 @@ class Chunk:
 
 @dataclass(eq=False)
 class Part:
-    """What stands between *PART and *END PART, or in a file without parts."""
+    """What stands between *PART and *END PART, between *INSTANCE and *END INSTANCE, or in a file without parts."""
 
     name: str
     node_ids: list[np.ndarray] = field(default_factory=list)
@@ -59,19 +67,42 @@ class Part:
     #: Title of a surface to (element or set, side).
     surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
 
-    @property
-    def empty(self) -> bool:
-        return not self.node_ids
+    def joined(self, other: Part) -> Part:
+        """A part of what both say; what neither adds to is shared."""
+        return Part(
+            self.name,
+            self.node_ids + other.node_ids,
+            self.points + other.points,
+            self.chunks + other.chunks,
+            _joined(self.node_sets, other.node_sets),
+            _joined(self.element_sets, other.element_sets),
+            {**self.surfaces, **{name: self.surfaces.get(name, []) + rows for name, rows in other.surfaces.items()}},
+        )
+
+
+def _joined(one: dict[str, Members], other: dict[str, Members]) -> dict[str, Members]:
+    return {**one, **{key: one[key].joined(sets) if key in one else sets for key, sets in other.items()}}
 
 
 @dataclass(eq=False)
 class Instance:
-    """A part and where it is put: points @ rotation.T + shift."""
+    """A part and where it is put: points @ rotation.T + shift.
+
+    Parameters
+    ----------
+    name : str
+    part : Part
+    shift : (3,) float64
+    rotation : (3, 3) float64
+    own : Part
+        The nodes, elements, sets and surfaces that stand in the instance itself.
+    """
 
     name: str
     part: Part
     shift: np.ndarray
     rotation: np.ndarray
+    own: Part = field(default_factory=lambda: Part(""))
 
 
 class Budget:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from hexmend.mesh import Mesh
 _GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL")
 _EXPAND = "Write the file with all nodes and elements expanded, as Abaqus/CAE does."
 #: Cards that are of the mesh but say nothing that is kept.
-_PASSED_OVER = ("HEADING", "PREPRINT", "ASSEMBLY", "END INSTANCE", "END ASSEMBLY")
+_PASSED_OVER = ("HEADING", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
 
 
 def read(path: Path) -> Mesh:
@@ -63,7 +64,7 @@ class Reader:
         left = sum(all(one.part is not part for one in placed) for part in self.parts.values())
         if left:
             notes.append(f"{left} part{'s' * (left > 1)} without an instance {'are' if left > 1 else 'is'} left out.")
-        return placed, self.flat, notes
+        return [replace(one, part=one.part.joined(one.own)) for one in placed], self.flat, notes
 
     def _refuse(self, card: Card) -> None:
         if card.name == "INCLUDE" or "INPUT" in card.options:
@@ -145,20 +146,21 @@ class Reader:
         self.part = self.parts[key_of(name)] = Part(title_of(name))
 
     def read_instance(self, card: Card) -> None:
-        """*INSTANCE, NAME=..., PART=..."""
+        """*INSTANCE, NAME=..., PART=...: what follows up to *END INSTANCE belongs to the instance alone."""
         part = self.parts.get(key_of(card.options.get("PART", "")))
         if part is None:
             name = shown(card.options.get("PART", ""))
             raise self.deck.error(f"*INSTANCE in line {card.line} is of the part {name}, which is not there")
+        self.part = Part(part.name)
         self.instances.append(
-            Instance(title_of(card.options.get("NAME", "")), part, *moved(self.deck, self.deck.rows(card)))
+            Instance(title_of(card.options.get("NAME", "")), part, *moved(self.deck, self.deck.rows(card)), self.part)
         )
         nodes = sum(len(ids) for one in self.instances for ids in one.part.node_ids)
         if nodes > 1_000_000 + len(self.deck.data):
             raise self.deck.error(f"its {len(self.instances)} instances have more nodes than so small a file can mean")
 
     def end(self, card: Card) -> None:
-        """*END PART: what follows belongs to the assembly."""
+        """*END PART, *END INSTANCE: what follows belongs to the assembly."""
         self.part = self.flat
 
     def _lines(self, card: Card) -> list[str]:
@@ -179,4 +181,5 @@ _CARDS: dict[str, Callable[[Reader, Card], None]] = {
     "PART": Reader.read_part,
     "INSTANCE": Reader.read_instance,
     "END PART": Reader.end,
+    "END INSTANCE": Reader.end,
 }

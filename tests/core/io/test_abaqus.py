@@ -180,6 +180,68 @@ def test_several_instances_are_joined_where_they_are_put(tmp_path):
     assert summarise(mesh).inverted == 0
 
 
+def meshed_instance(name, lift):
+    """An instance whose nodes and elements stand in itself, as Abaqus/CAE writes the mesh of an assembly."""
+    nodes = "".join(f"{k}, {x:g}, {y:g}, {z + lift:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 1))
+    upper = "".join(f"{k}, {x:g}, {y:g}, {z + lift + 1:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE[4:], 9))
+    return f"""\
+*INSTANCE, NAME={name}, PART=Empty
+*NODE
+{nodes}{upper}*ELEMENT, TYPE=C3D8R
+1, 1, 2, 3, 4, 5, 6, 7, 8
+2, 5, 6, 7, 8, 9, 10, 11, 12
+*NSET, NSET=Picked, GENERATE
+1, 12, 5
+*ELSET, ELSET=Picked, INTERNAL, GENERATE
+1, 2, 1
+*SURFACE, NAME=Top, TYPE=ELEMENT
+2, S2
+*END INSTANCE
+"""
+
+
+ON_INSTANCES = """*NSET, NSET=ends, INSTANCE=A-1
+1, 12
+*ELSET, ELSET=_Sides_S3, INTERNAL, INSTANCE=A-1, GENERATE
+1, 2, 1
+*ELSET, ELSET=all, INSTANCE=A-1
+Picked
+*SURFACE, NAME=Sides, TYPE=ELEMENT
+_Sides_S3, S3
+A-1.Picked, S5
+*END ASSEMBLY
+"""
+
+
+def test_sets_of_an_instance_that_holds_its_own_mesh_are_found(tmp_path):
+    head = "*PART, NAME=Empty\n*END PART\n*ASSEMBLY, NAME=Assembly\n"
+    mesh = read(head + meshed_instance("A-1", 0) + ON_INSTANCES, tmp_path)
+    assert mesh.notes == ()
+    assert {name: members.tolist() for name, members in mesh.node_sets.items()} == {
+        "Picked": [0, 5, 10], "ends": [0, 11],
+    }  # fmt: skip
+    assert {name: members.tolist() for name, members in mesh.hex_sets.items()} == {
+        "Picked": [0, 1], "_Sides_S3": [0, 1], "all": [0, 1],
+    }  # fmt: skip
+    assert mesh.side_sets["Top"].tolist() == [[1, 5]]
+    assert sorted(mesh.side_sets["Sides"][:, 0].tolist()) == [0, 0, 1, 1]
+
+    two = read(head + meshed_instance("A-1", 0) + meshed_instance("B-1", 5) + ON_INSTANCES, tmp_path)
+    assert not any("do not exist" in note for note in two.notes)
+    assert two.node_sets["B-1.Picked"].tolist() == [12, 17, 22]
+    assert two.hex_sets["all"].tolist() == [0, 1]
+    assert two.side_sets["B-1.Top"].tolist() == [[3, 5]]
+
+
+def test_what_an_instance_adds_to_its_part_is_its_own(tmp_path):
+    own = "*NSET, NSET=Corner\n7\n*NSET, NSET=New\nCorner, 2\n*END INSTANCE\n"
+    mesh = read(PARTS.removesuffix("*END INSTANCE\n") + own + SECOND + ASSEMBLY, tmp_path)
+    sets = {name: members.tolist() for name, members in mesh.node_sets.items()}
+    assert sets == {
+        "Brick-1.Corner": [0, 6], "Brick-1.New": [0, 1, 6], "Brick-2.Corner": [8], "ends": [0, 6],
+    }  # fmt: skip
+
+
 def test_a_real_file_is_read_and_survives(real_mesh, tmp_path):
     mesh = io.read(real_mesh("bunny_projected.inp"))
     assert (mesh.n_hexes, summarise(mesh).inverted) == (9732, 4341)
