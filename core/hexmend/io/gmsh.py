@@ -1,4 +1,4 @@
-"""Gmsh's format (.msh): versions 2 and 4.1 are read, 4.1 is written, in decimals and binary."""
+"""Gmsh's format (.msh): versions 1, 2 and 4.1 are read, 4.1 is written, in decimals and binary."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def cannot(mesh: Mesh) -> list[str]:
 
 
 def _recognised(head: bytes) -> bool:
-    return b"$MeshFormat" in head
+    return b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD")
 
 
 HELD = (Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.HEX_SETS, Holds.PINS, Holds.LOWER_CELLS)

@@ -16,10 +16,15 @@ def read_nodes(source: Source, order: str, result: Read) -> None:
         result.tags, result.points = rows["tag"].astype(np.int64), rows["x"].astype(np.float64)
         _expect(source, "$EndNodes")
         return
-    values = source.decimals_until("$Nodes", b"$EndNodes", np.float64)
-    count = int(values[0]) if values.size else 0
+    nodes_of_rows(source, "$Nodes", b"$EndNodes", result)
+
+
+def nodes_of_rows(source: Source, name: str, end: bytes, result: Read) -> None:
+    """Nodes in decimals: a count, then the tag and the coordinates of each."""
+    values = source.decimals_until(name, end, np.float64)
+    count = int(values[0]) if values.size and np.isfinite(values[0]) else 0
     if values.size != 1 + 4 * count:
-        raise source.error(f"$Nodes holds {values.size} numbers: expected {1 + 4 * count} for {count} nodes")
+        raise source.error(f"{name} holds {values.size} numbers: expected {1 + 4 * count} for {count} nodes")
     rows = values[1:].reshape(count, 4)
     result.tags, result.points = whole_tags(source, rows[:, 0]), np.ascontiguousarray(rows[:, 1:])
 
@@ -51,8 +56,8 @@ def read_elements(source: Source, order: str, result: Read) -> None:
     for kind, more in np.unique(np.column_stack([types, extra]), axis=0).tolist():
         rows = begins[(types == kind) & (extra == more)]
         nodes = values[rows[:, None] + np.arange(3 + more, widths[kind] + more)]
-        groups = values[rows + 3] if more else np.zeros(len(rows), np.int64)
-        result.elements.append(Elements(kind, values[rows], nodes, groups))
+        numbers = values[rows[:, None] + np.arange(3, 3 + more)]
+        result.elements.append(Elements(kind, values[rows], nodes, *_group_and_partition(numbers)))
 
 
 def _binary(source: Source, order: str) -> list[Elements]:
@@ -64,13 +69,21 @@ def _binary(source: Source, order: str) -> list[Elements]:
             raise source.error(f"$Elements announces {follow} elements with {more} groups at {source.here}")
         rows = source.binary("$Elements", follow, 1 + more + width_of(source.path, kind), f"{order}i4")
         rows = rows.astype(np.int64)
-        groups = rows[:, 1] if more else np.zeros(follow, np.int64)
-        found.append(Elements(kind, rows[:, 0], rows[:, 1 + more :], groups))
+        found.append(Elements(kind, rows[:, 0], rows[:, 1 + more :], *_group_and_partition(rows[:, 1 : 1 + more])))
         seen += follow
     if seen != count:
         raise source.error(f"$Elements holds {seen} elements: expected {count}")
     _expect(source, "$EndElements")
     return found
+
+
+def _group_and_partition(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+    """The physical group and the first partition of elements, (k,) int64 each; 0 where an element has none.
+
+    Of the numbers (k, more) the first is the group, the third says how many partitions follow.
+    """
+    group = numbers[:, 0] if numbers.shape[1] else np.zeros(len(numbers), np.int64)
+    return group, np.where(numbers[:, 2] > 0, numbers[:, 3], 0) if numbers.shape[1] > 3 else None
 
 
 def whole_tags(source: Source, values: np.ndarray) -> np.ndarray:

@@ -53,15 +53,40 @@ class _Numbers:
 def read_entities(source: Source, order: str, result: Read) -> None:
     """$Entities: points, curves, surfaces and volumes with their physical groups."""
     numbers = _Numbers(source, order, "Entities", np.float64)
-    counts = numbers.naturals(4)
-    for dimension, count in enumerate(counts):
+    for dimension, count in enumerate(numbers.naturals(4)):
         for _ in range(count):
             (tag,) = numbers.naturals(1, "i4")
-            numbers.take(6 if dimension else 3, "f8")
-            result.entities[dimension, tag] = numbers.naturals(numbers.naturals(1)[0], "i4")
-            if dimension:
-                numbers.take(numbers.naturals(1)[0], "i4")  # what bounds it
+            result.entities[dimension, tag] = _groups(numbers, dimension)
     numbers.close()
+
+
+def read_partitioned(source: Source, order: str, result: Read) -> None:
+    """$PartitionedEntities: the parts of entities that processors have, with their physical groups or their parent's.
+
+    Before them stand the number of partitions, and entities of ghost elements, which are in no other section.
+    """
+    numbers = _Numbers(source, order, "PartitionedEntities", np.float64)
+    ghosts = numbers.naturals(2)[1]
+    numbers.take(2 * ghosts, "i4")
+    for dimension, count in enumerate(numbers.naturals(4)):
+        for _ in range(count):
+            tag, *parent = numbers.naturals(3, "i4")
+            partitions = numbers.naturals(numbers.naturals(1)[0], "i4")
+            groups = _groups(numbers, dimension)
+            if not groups and parent[0] == dimension:
+                groups = result.entities.get(tuple(parent), [])
+            result.entities[dimension, tag] = groups
+            result.partitions[dimension, tag] = partitions[0] if partitions else 0
+    numbers.close()
+
+
+def _groups(numbers: _Numbers, dimension: int) -> list[int]:
+    """The physical groups of an entity, which stand between its place and what bounds it."""
+    numbers.take(6 if dimension else 3, "f8")
+    groups = numbers.naturals(numbers.naturals(1)[0], "i4")
+    if dimension:
+        numbers.take(numbers.naturals(1)[0], "i4")
+    return groups
 
 
 def read_nodes(source: Source, order: str, result: Read) -> None:
@@ -93,7 +118,9 @@ def read_elements(source: Source, order: str, result: Read) -> None:
         width = 1 + width_of(source.path, kind)
         rows = numbers.take(many * width, "u8").reshape(many, width).astype(np.int64)
         groups = result.entities.get((dimension, entity), ())
-        result.elements.append(Elements(kind, rows[:, 0], rows[:, 1:], groups))
+        number = result.partitions.get((dimension, entity))
+        partition = None if number is None else np.full(many, number)
+        result.elements.append(Elements(kind, rows[:, 0], rows[:, 1:], groups, partition))
         seen += many
     numbers.close()
     if seen != count:

@@ -40,6 +40,9 @@ ORDER = {
     "pyramid13": [0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12],
 }
 
+#: Name of the data of cells that hold their partition.
+PARTITION = "partition"
+
 #: Name of field data that holds the lines of $PhysicalNames, so that groups keep their numbers.
 PHYSICAL = "gmsh:physical"
 _LINE = re.compile(r'\s*(\d+)\s+(-?\d+)\s+"?(.*?)"?\s*\Z')
@@ -59,12 +62,15 @@ class Elements:
         Tags of nodes, in Gmsh's order.
     groups : (k,) int64, or sequence of int
         The physical group of each element, 0 for none; or the groups of all.
+    partitions : (k,) int64, optional
+        The partition of each element, 0 for none.
     """
 
     type: int
     tags: np.ndarray
     nodes: np.ndarray
     groups: np.ndarray | Sequence[int]
+    partitions: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +101,8 @@ class Read:
     names: list[str] = field(default_factory=list)
     #: Physical groups of the entities of the file, (dimension, tag) to numbers.
     entities: dict[tuple[int, int], list[int]] = field(default_factory=dict)
+    #: Partition of the entities that belong to one, by (dimension, tag).
+    partitions: dict[tuple[int, int], int] = field(default_factory=dict)
     data: list[Data] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
@@ -141,11 +149,17 @@ def to_mesh(path: Path, read: Read) -> Mesh:
         notes.append(
             f"{left:,} elements of types that Hexmend does not keep (orders above 2, prisms of 18 nodes) are left out."
         )
+    partitioned = any(part.partitions is not None and part.partitions.any() for part in read.elements)
+    if partitioned:
+        notes.append(
+            f"The mesh is in parts for several processors: the data {PARTITION!r} says which cell is in which."
+        )
     for number in dict.fromkeys(part.type for part in read.elements):
         parts = [part for part in read.elements if part.type == number and len(part.tags)]
         if parts and number in KINDS:
             block = _block(path, KINDS[number], parts, read.tags, titles, notes)
-            blocks.append(replace(block, data={**_data(read.data, False, block.data[ID], allowance), **block.data}))
+            own = block.data if partitioned else {ID: block.data[ID]}
+            blocks.append(replace(block, data={**_data(read.data, False, block.data[ID], allowance), **own}))
     blocks.sort(key=lambda block: block.kind not in HEX_KINDS)
     field_data = {PHYSICAL: read.names} if read.names else {}
     node_data = {**_data(read.data, True, read.tags, allowance), ID: read.tags}
@@ -163,6 +177,9 @@ def _block(
 ) -> Block:
     nodes = np.concatenate([part.nodes for part in parts])
     tags = np.concatenate([part.tags for part in parts])
+    partitions = np.concatenate(
+        [np.zeros(len(part.tags), np.int64) if part.partitions is None else part.partitions for part in parts]
+    )
     members: dict[int, list[np.ndarray]] = {}
     first = 0
     for part in parts:
@@ -181,14 +198,14 @@ def _block(
             f"{len(nodes) - len(kept):,} {kind} elements stand in the file once for each of their physical groups: "
             "they are read as one each."
         )
-        nodes, tags = nodes[kept], tags[kept]
+        nodes, tags, partitions = nodes[kept], tags[kept], partitions[kept]
     nodes = places(path, node_tags, nodes, "node")
     sets = {}
     for number, rows in members.items():
         chosen = np.concatenate(rows)
         chosen = np.unique(place[chosen]) if place is not None else chosen
         sets[titles.get((dimension_of(kind), number)) or f"physical {number}"] = chosen
-    return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: tags}, sets)
+    return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: tags, PARTITION: partitions}, sets)
 
 
 def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray, allowance: Allowance) -> dict[str, np.ndarray]:

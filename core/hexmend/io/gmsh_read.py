@@ -1,4 +1,4 @@
-"""Reads Gmsh's format, versions 2 and 4.1, in decimals and binary, section by section."""
+"""Reads Gmsh's format, versions 1, 2 and 4.1, in decimals and (but for version 1) binary, section by section."""
 
 from __future__ import annotations
 
@@ -6,19 +6,28 @@ import struct
 from pathlib import Path
 
 from hexmend.errors import FileError
+from hexmend.io.gmsh_1 import read_elements as elements_1
+from hexmend.io.gmsh_1 import read_nodes as nodes_1
 from hexmend.io.gmsh_2 import read_elements as elements_2
 from hexmend.io.gmsh_2 import read_nodes as nodes_2
 from hexmend.io.gmsh_4 import read_elements as elements_4
 from hexmend.io.gmsh_4 import read_entities as entities_4
 from hexmend.io.gmsh_4 import read_nodes as nodes_4
+from hexmend.io.gmsh_4 import read_partitioned
 from hexmend.io.gmsh_content import Read, to_mesh
 from hexmend.io.gmsh_data import DATA, read_data
 from hexmend.io.source import Source, shown
 from hexmend.mesh import Mesh
 
 _SECTIONS = {
+    1: {"$NOD": nodes_1, "$ELM": elements_1},
     2: {"$Nodes": nodes_2, "$Elements": elements_2},
-    4: {"$Entities": entities_4, "$Nodes": nodes_4, "$Elements": elements_4},
+    4: {
+        "$Entities": entities_4,
+        "$PartitionedEntities": read_partitioned,
+        "$Nodes": nodes_4,
+        "$Elements": elements_4,
+    },
 }
 
 
@@ -28,28 +37,29 @@ def read(path: Path) -> Mesh:
         if not file.read(4096).lstrip().startswith(b"$"):  # said before all of a large file is read
             raise FileError(path, "does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
     source = Source(path, path.read_bytes())
-    version, order, result = 0, "", Read()
+    version, order, result, left = 0, "", Read(), {}
     while not source.ended:
         key = source.line()
         if key == "$MeshFormat":
             version, order = _head(source)
-        elif version and key in _SECTIONS[version]:
+        elif key in _SECTIONS[version or 1]:  # the first version has no $MeshFormat
+            version = version or 1
             _SECTIONS[version][key](source, order, result)
         elif version and key == "$PhysicalNames":
             _names(source, result)
         elif version and key in DATA:
             read_data(source, order, key, result)
-        elif key == "$PartitionedEntities":
-            result.notes.append("The mesh is in parts for several processors: groups of their own are left out.")
-            _skip(source, key)
         elif key.startswith("$") and not key.startswith("$End"):
             _skip(source, key)
+            left[shown(key)[1:-1]] = None
         elif not version:
             raise source.error("does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
         else:
             raise source.error(f"{shown(key)} stands where a section should begin, before {source.here}")
     if not version:
         raise source.error("has no section $MeshFormat")
+    if left:
+        result.notes.append(f"Sections that are not kept ({', '.join(list(left)[:6])}) are left out.")
     return to_mesh(path, result)
 
 

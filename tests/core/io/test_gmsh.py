@@ -240,3 +240,10 @@ def test_data_of_one_name_and_several_widths_are_told(tmp_path):
     back = io.read(path)
     assert set(back.hex_data) == {"d", "e", "id"}
     assert set(back.cells[0].data) == {"d_2", "e", "id"}
+
+
+def test_sections_that_are_not_kept_are_said(tmp_path):
+    io.write(tmp_path / "a.msh", grid(2), encoding="ascii")
+    with open(tmp_path / "a.msh", "a", encoding="ascii") as file:
+        file.write("$Periodic\n1\n0 1 2\n0\n1\n1 2\n$EndPeriodic\n")
+    assert io.read(tmp_path / "a.msh").notes == ("Sections that are not kept ($Periodic) are left out.",)
