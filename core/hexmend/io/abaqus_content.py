@@ -10,6 +10,7 @@ from hexmend.io.abaqus_model import Budget, Instance, Members, Names, Part, key_
 from hexmend.io.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.numbering import places
+from hexmend.io.source import shown
 from hexmend.mesh import Mesh
 
 #: Data of cells: the place of their type in the list of this name among the field data.
@@ -28,10 +29,12 @@ def to_mesh(deck: Deck, placed: list[Instance], top: Part, notes: list[str]) -> 
     if len(placed) > 1:
         notes.append(f"{len(placed)} instances ({', '.join(one.name for one in placed[:5])}...) are read as one mesh.")
     joined = _Elements(deck, every, ids)
-    unread = sum(len(chunk.ids) for one in every for chunk in one.part.chunks if chunk.kind is None)
+    unread: dict[str, int] = {}
+    for chunk in (chunk for one in every for chunk in one.part.chunks if chunk.kind is None):
+        unread[chunk.type] = unread.get(chunk.type, 0) + len(chunk.ids)
     if unread:
-        types = sorted({chunk.type for one in every for chunk in one.part.chunks if chunk.kind is None})
-        notes.append(f"{unread:,} elements of other types ({', '.join(types[:6])}) are left out.")
+        types = ", ".join(sorted(unread)[:6])
+        notes.append(f"{sum(unread.values()):,} elements of other types ({types}) are left out.")
 
     budget = Budget(deck)
     nodes = _names(deck, every, ids, "node_sets", budget)
@@ -53,6 +56,7 @@ def to_mesh(deck: Deck, placed: list[Instance], top: Part, notes: list[str]) -> 
         side_sets,
         field_data={TYPES: joined.types} if joined.types else {},
         notes=tuple(notes),
+        unread={f"type {shown(type)}": count for type, count in unread.items()},
     )
     return mesh_of(deck.path, content)
 

@@ -65,6 +65,8 @@ class Content:
     pinned : (n,) bool, optional
     field_data : mapping
     notes : sequence of str
+    unread : mapping of str to int
+        How many cells of kinds that are not read the file has, by what they are, such as "type PRISM18".
     """
 
     points: np.ndarray
@@ -75,6 +77,7 @@ class Content:
     pinned: np.ndarray | None = None
     field_data: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    unread: Mapping[str, int] = field(default_factory=dict)
 
 
 #: Whether nodes without finite coordinates are put between their neighbours, as who repairs a mesh wants it.
@@ -94,7 +97,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     hexes = [block for block in content.blocks if block.kind in HEX_KINDS and len(block)]
     others = [block for block in content.blocks if block.kind not in HEX_KINDS and len(block)]
     if not hexes:
-        what = f", but {_inventory(others)}" if others else ""
+        what = f", but {_inventory(others, content.unread)}" if others or content.unread else ""
         raise FileError(path, f"holds no hexahedra{what}", "Hexmend works on hexahedral meshes only.")
     for block in content.blocks:
         if len(block):
@@ -252,10 +255,11 @@ def _pinned(content: Content) -> np.ndarray | None:
     return content.pinned if content.pinned is not None else marks_in(content.node_data)[1]
 
 
-def _inventory(blocks: list[Block]) -> str:
-    """What cells there are, in words."""
+def _inventory(blocks: list[Block], unread: Mapping[str, int] | None = None) -> str:
+    """What cells there are, and of which kinds others are that are not read, in words."""
     counts: dict[str, int] = {}
     for block in blocks:
         counts[block.kind] = counts.get(block.kind, 0) + len(block)
     words = [f"{count:,} {kind} cell{'s' * (count != 1)}" for kind, count in counts.items()]
+    words += [f"{count:,} cell{'s' * (count != 1)} of {kind}" for kind, count in list((unread or {}).items())[:6]]
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words) or "no cells"

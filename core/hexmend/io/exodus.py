@@ -8,6 +8,7 @@ from hexmend.io import hdf5, netcdf3
 from hexmend.io.carried import rounded
 from hexmend.io.content import to_mesh
 from hexmend.io.exodus_ids import IDS
+from hexmend.io.exodus_records import INFORMATION, QA
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.mesh import Mesh
 
@@ -52,7 +53,7 @@ FORMATS.add(
                 Holds.PINS, Holds.CELL_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER,
             }
         ),
-        names=frozenset({IDS}),
+        names=frozenset({IDS, QA, INFORMATION}),
         recognised=recognised,
         cannot=rounded,
     )

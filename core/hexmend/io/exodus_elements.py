@@ -9,6 +9,8 @@ nodes of its vertical edges before those of its upper ones, and the node in its 
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 #: Where VTK's nodes are among Exodus' ones; kinds that are not named have the same order. vtk = exodus[ORDER[kind]].
@@ -22,7 +24,7 @@ ORDER = {
 FACE_OF_SIDE = np.array([2, 1, 3, 0, 4, 5])
 SIDE_OF_FACE = np.argsort(FACE_OF_SIDE) + 1
 
-#: What types begin with, and the kinds that they are by their number of nodes; the first kind has the corners alone.
+#: What types begin with before the number of nodes, and the kinds that they are by their number of nodes; the first kind has the corners alone.
 FAMILIES = {
     "HEX": ("hex", "hex20", "hex27"),
     "TET": ("tetra", "tetra10"),
@@ -39,6 +41,25 @@ FAMILIES = {
     "POINT": ("vertex",),
     "CIRCLE": ("vertex",),
 }
+
+#: What types of hexes are called; others that begin so, such as HEXSHELL, are something else.
+_HEX = re.compile(r"HEX(A|AHEDRON|AHEDRAL|AHEDRA)?[_-]?[0-9]*")
+
+
+def family_of(type: str, width: int) -> tuple[str, ...]:
+    """Kinds of a type of elements with so many nodes, of which the first has the corners alone; none if it is unknown.
+
+    Examples
+    --------
+    >>> family_of("HEX8", 8), family_of("SHELL3", 3), family_of("BEX_HEX", 8)
+    (('hex', 'hex20', 'hex27'), ('triangle', 'triangle6'), ())
+    """
+    if type.startswith("HEX") and not _HEX.fullmatch(type):
+        return ()
+    if type.startswith("SHELL") and width in (3, 6):
+        return FAMILIES["TRI"]
+    return next((kinds for start, kinds in FAMILIES.items() if type.startswith(start)), ())
+
 
 #: What kinds are written as.
 TYPES = {

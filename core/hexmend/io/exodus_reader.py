@@ -9,11 +9,13 @@ import numpy as np
 from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.io.content import HEX_KINDS, ID, Block, Content, joined, joined_sets
-from hexmend.io.exodus_elements import FACE_OF_SIDE, FAMILIES, ORDER, PINS
+from hexmend.io.exodus_elements import FACE_OF_SIDE, ORDER, PINS, family_of
 from hexmend.io.exodus_ids import kept
+from hexmend.io.exodus_records import not_kept, records_of
 from hexmend.io.exodus_store import Store, opened
 from hexmend.io.exodus_values import DAMAGED, Values, with_columns
 from hexmend.io.pins import FIXED
+from hexmend.io.source import shown
 
 
 def content(path: Path) -> Content:
@@ -28,6 +30,7 @@ class _Reader:
     def __init__(self, path: Path, store: Store):
         self.path, self.store = path, store
         self.notes: list[str] = []
+        self.unread: dict[str, int] = {}  # how many cells of which type and block are left out
         self.named: list[tuple[str, int, str]] = []  # the sort, id and name of every block and set
         if "num_nodes" not in store.dimensions:
             raise FileError(path, "is NetCDF, but has no dimension num_nodes, as ExodusII has", "Name an Exodus file.")
@@ -48,6 +51,7 @@ class _Reader:
         self.element_sets(blocks, numbers)
         hexes = [part for block, part in zip(blocks, numbers, strict=True) if block.kind in HEX_KINDS]
         side_sets = self.side_sets(np.concatenate(hexes) if hexes else np.empty(0, np.int64))
+        self.notes += not_kept(self.store)
         return Content(
             points,
             tuple(_by_kind(blocks)),
@@ -55,8 +59,9 @@ class _Reader:
             node_sets,
             side_sets,
             pinned=pinned,
-            field_data=kept(self.named),
+            field_data={**kept(self.named), **records_of(self.store)},
             notes=tuple(self.notes),
+            unread=self.unread,
         )
 
     # Parts of the file
@@ -112,13 +117,13 @@ class _Reader:
         variable = f"connect{k}"
         type_ = str(self.store.attribute(variable, "elem_type") or "").upper()
         width = self.store.dimensions.get(f"num_nod_per_el{k}", 0)
-        family = next((kinds for start, kinds in FAMILIES.items() if type_.startswith(start)), ())
-        if type_.startswith("SHELL") and width in (3, 6):
-            family = FAMILIES["TRI"]
+        family = family_of(type_, width)
         widths = [HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes for kind in family]
         kind = dict(zip(widths, family, strict=True)).get(width)
         if kind is None and (not family or width < widths[0]):
-            self.notes.append(f"{count:,} cells of type {type_ or 'unnamed'} in block {number} are left out.")
+            named = f"type {shown(type_)[1:-1] if type_ else 'unnamed'} in block {number}"
+            self.notes.append(f"{count:,} cells of {named} are left out.")
+            self.unread[named] = count
             return None
         nodes = self.values.whole(variable, count, width) - 1
         if nodes.min() < 0 or nodes.max() >= self.n_nodes:

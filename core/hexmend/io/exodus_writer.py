@@ -12,6 +12,7 @@ import numpy as np
 from hexmend.io.content import ID, Block, hex_blocks, unused
 from hexmend.io.exodus_elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.exodus_ids import IDS, ids_of
+from hexmend.io.exodus_records import add_records
 from hexmend.io.netcdf3_write import Writer
 from hexmend.io.pins import FIXED, held_by_pins, needs_marks
 from hexmend.mesh import Mesh
@@ -44,6 +45,7 @@ def write(path: Path, mesh: Mesh) -> None:
             "title": mesh.name or "Hexmend",
         }
     )
+    add_records(file, mesh.field_data)
     _add_points(file, mesh)
     _add_blocks(file, mesh, blocks)
     _add_ids(file, mesh, parts)

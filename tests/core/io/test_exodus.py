@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.errors import FileError
 from hexmend.hexahedron import FACES, UNIT_CUBE
 from hexmend.second_order import MID_PLACES
 from tests.core.grids import grid
@@ -110,6 +111,53 @@ def test_cells_of_unknown_types_are_left_out_and_that_is_said(tmp_path):
     mesh = io.read(written(tmp_path / "u.exo", UNIT_CUBE, blocks))
     assert mesh.n_hexes == 1
     assert any("RICH" in note for note in mesh.notes)
+
+
+@pytest.mark.parametrize("kind", ["BEX_HEX", "HEXSHELL", "NFACED", ""])
+def test_a_file_without_hexes_is_refused_with_the_types_that_it_has(kind, tmp_path):
+    blocks = [(kind, "", [range(1, 9)]), ("TETRA4", "", [range(1, 5)])]
+    words = f"holds no hexahedra, but 1 tetra cell and 1 cell of type {kind or 'unnamed'} in block 1"
+    with pytest.raises(FileError, match=words):
+        io.read(written(tmp_path / "b.exo", UNIT_CUBE, blocks))
+
+
+@pytest.mark.parametrize("kind", ["HEX", "hex8", "HEXA", "Hexahedron", "HEX_8"])
+def test_hexes_are_known_by_every_name_that_they_have(kind, tmp_path):
+    assert io.read(written(tmp_path / "h.exo", UNIT_CUBE, [(kind, "", [range(1, 9)])])).n_hexes == 1
+
+
+def test_what_is_not_kept_of_a_file_is_said(tmp_path):
+    more = [
+        ("node_ns1", ("num_nod_ns1",), np.array([1, 3], np.int32)),
+        ("dist_fact_ns1", ("num_nod_ns1",), np.array([1.0, 1])),
+        ("ns_status", ("num_node_sets",), np.array([1], np.int32)),
+        ("elem_ss1", ("num_side_ss1",), np.array([1], np.int32)),
+        ("side_ss1", ("num_side_ss1",), np.array([2], np.int32)),
+        ("ss_status", ("num_side_sets",), np.array([1], np.int32)),
+    ]
+    blocks = [("HEX8", "", [range(1, 9)])]
+    factors = [("dist_fact_ss1", ("num_df_ss1",), np.array([1, 1, 0.5, 1]))]
+    globals_ = [("name_glo_var", ("num_glo_var", "len_name"), letters(["energy"]))]
+    assert io.read(written(tmp_path / "a.exo", UNIT_CUBE, blocks, more)).notes == ()  # factors of 1 say nothing
+    mesh = io.read(written(tmp_path / "b.exo", UNIT_CUBE, blocks, [*more, *factors, *globals_]))
+    words = "What Hexmend does not keep is left out: distribution factors other than 1, global variables."
+    assert mesh.notes == (words,)
+
+
+def test_records_of_the_programs_that_made_a_file_are_kept(tmp_path):
+    qa = ["CUBIT", "16.1", "11/22/26", "12:30:00", "Sierra", "5.2", "11/23/26", "00:00:01"]
+    more = [
+        ("qa_records", ("num_qa_rec", "four", "len_name"), letters(qa).reshape(2, 4, 33)),
+        ("info_records", ("num_info", "len_name"), letters(["begin sierra", "", "end"])),
+    ]
+    mesh = io.read(written(tmp_path / "q.exo", UNIT_CUBE, [("HEX8", "", [range(1, 9)])], more))
+    assert mesh.notes == ()
+    assert io.left_out("a.exo", mesh) == []
+    assert io.left_out("a.med", mesh) == ["field data (exodus:information, exodus:qa)"]
+    io.write(tmp_path / "again.exo", mesh)
+    back = io.read(tmp_path / "again.exo")
+    assert back.field_data["exodus:qa"] == qa
+    assert back.field_data["exodus:information"] == ["begin sierra", "", "end"]
 
 
 def test_a_set_of_nodes_called_fixed_makes_pins_and_stays_a_set(tmp_path):
