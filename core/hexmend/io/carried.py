@@ -27,10 +27,15 @@ def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Holds, str]:
         Holds.NODE_DATA: [name for name in mesh.node_data if name not in (ID, held_by_pins(mesh))],
         Holds.HEX_DATA: [name for name in _all(data) if name != ID],
         Holds.IDS: [""] if ID in mesh.node_data or ID in _all(data) else [],
-        Holds.NODE_SETS: list(mesh.node_sets),
-        Holds.HEX_SETS: _all(volumes),
-        Holds.CELL_SETS: _all(lower),
-        Holds.SIDE_SETS: list(mesh.side_sets),
+        Holds.NODE_SETS: _filled([mesh.node_sets]),
+        Holds.HEX_SETS: _filled(volumes),
+        Holds.CELL_SETS: _filled(lower),
+        Holds.SIDE_SETS: _filled([mesh.side_sets]),
+        Holds.EMPTY_SETS: [
+            name
+            for sets in ([mesh.node_sets], [*volumes, *lower], [mesh.side_sets])
+            for name in set(_all(sets)) - set(_filled(sets))
+        ],
         Holds.PINS: [""] if needs_marks(mesh) else [],
         Holds.LOWER_CELLS: [""] if any(0 < cells.dimension < 3 for cells in mesh.cells) else [],
         Holds.VERTICES: [""] if any(cells.dimension == 0 for cells in mesh.cells) else [],
@@ -48,17 +53,38 @@ def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Holds, str]:
 
 def rounded(mesh: Mesh) -> list[str]:
     """That whole numbers are rounded by a format whose data are real numbers, in words; nothing where none are."""
-    parts = {"point data": [mesh.node_data], "cell data": [mesh.hex_data, *(cells.data for cells in mesh.cells)]}
     left = []
-    for what, data in parts.items():
-        arrays = [(name, np.asarray(values)) for one in data for name, values in one.items() if name != ID]
+    for what, arrays in arrays_of(mesh).items():
         names = {name for name, values in arrays if values.dtype.kind in "iu" and _beyond(values)}
         left += [f"whole numbers of {what} above 2^53, which are rounded ({', '.join(sorted(names))})"] if names else []
     return left
 
 
+def no_numbers(mesh: Mesh) -> list[str]:
+    """Data that are texts or complex numbers, in words, for formats whose data are numbers; nothing where none are."""
+    left = []
+    for what, arrays in arrays_of(mesh).items():
+        names = {name for name, values in arrays if values.dtype.kind not in "biuf"}
+        left += [f"{what} that are no numbers ({', '.join(sorted(names))})"] if names else []
+    return left
+
+
+def arrays_of(mesh: Mesh) -> dict[str, list[tuple[str, np.ndarray]]]:
+    """Names and values of all data but ids, those of nodes as "point data" and those of cells as "cell data"."""
+    parts = {"point data": [mesh.node_data], "cell data": [mesh.hex_data, *(cells.data for cells in mesh.cells)]}
+    return {
+        what: [(name, np.asarray(values)) for one in data for name, values in one.items() if name != ID]
+        for what, data in parts.items()
+    }
+
+
 def _beyond(values: np.ndarray) -> bool:
     return bool(((values > _EXACT) | (values < -_EXACT)).any())
+
+
+def _filled(parts: Iterable[Mapping[str, np.ndarray]]) -> list[str]:
+    """The names of sets that have members in some part, each once."""
+    return list(dict.fromkeys(name for part in parts for name, members in part.items() if len(members)))
 
 
 def _all(parts: Iterable[Mapping[str, object]]) -> list[str]:

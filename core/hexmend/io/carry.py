@@ -220,10 +220,10 @@ def _taken(values: np.ndarray, chosen: np.ndarray) -> np.ndarray:
 
 
 def _parted(data: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Arrays, and the sets among them."""
+    """Arrays, and the sets among them, which are of ones and zeros."""
     arrays, sets = {}, {}
     for name, values in data.items():
-        if name.startswith(_SET) and np.ndim(values) == 1:
+        if name.startswith(_SET) and np.ndim(values) == 1 and np.isin(values, (0, 1)).all():
             members = np.flatnonzero(values)
             if members.size:
                 sets[name[len(_SET) :]] = members

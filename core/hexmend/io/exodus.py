@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.io import hdf5, netcdf3
-from hexmend.io.carried import rounded
 from hexmend.io.content import to_mesh
 from hexmend.io.exodus_ids import IDS
 from hexmend.io.exodus_records import INFORMATION, QA
@@ -29,6 +28,13 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     from hexmend.io.exodus_writer import write as write_file
 
     write_file(path, mesh)
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """What it cannot hold of what it holds as a rule, in words."""
+    from hexmend.io import exodus_writer
+
+    return exodus_writer.cannot(mesh)
 
 
 def recognised(head: bytes) -> bool:
@@ -55,6 +61,6 @@ FORMATS.add(
         ),
         names=frozenset({IDS, QA, INFORMATION}),
         recognised=recognised,
-        cannot=rounded,
+        cannot=cannot,
     )
 )  # fmt: skip

@@ -24,7 +24,8 @@ ORDER = {
 FACE_OF_SIDE = np.array([2, 1, 3, 0, 4, 5])
 SIDE_OF_FACE = np.argsort(FACE_OF_SIDE) + 1
 
-#: What types begin with before the number of nodes, and the kinds that they are by their number of nodes; the first kind has the corners alone.
+#: What types begin with, before the number of nodes, and the kinds that they are by that number; the first kind has the
+#: corners alone.
 FAMILIES = {
     "HEX": ("hex", "hex20", "hex27"),
     "TET": ("tetra", "tetra10"),

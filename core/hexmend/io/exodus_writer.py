@@ -9,10 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.io.carried import arrays_of, no_numbers, rounded
 from hexmend.io.content import ID, Block, hex_blocks, unused
 from hexmend.io.exodus_elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.exodus_ids import IDS, ids_of
 from hexmend.io.exodus_records import add_records
+from hexmend.io.names import distinct, renamed
 from hexmend.io.netcdf3_write import Writer
 from hexmend.io.pins import FIXED, held_by_pins, needs_marks
 from hexmend.mesh import Mesh
@@ -32,7 +34,7 @@ def write(path: Path, mesh: Mesh) -> None:
         numbers[chosen] = sum(len(part) for part in parts) + np.arange(len(block))
         parts.append(block)
     parts += [Block(cells.kind, cells.nodes, cells.data, cells.sets) for cells in mesh.cells if len(cells.nodes)]
-    often = Counter(name for part in parts for name in part.sets)
+    often = Counter(name for part in parts for name in part.sets if name)
     blocks = [piece for part in parts for piece in _pieces(part, {name for name in often if often[name] == 1})]
     ids = [np.asarray(values) for values in (mesh.node_data.get(ID), *(part.data.get(ID) for part in parts))]
     file = Writer(
@@ -57,6 +59,22 @@ def write(path: Path, mesh: Mesh) -> None:
     file.add("time_whole", {"time_step": 0}, np.zeros(int(bool(nodes) or any(cells))))
     _add_results(file, nodes, cells)
     file.write(path)
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """Data that are no numbers or are rounded, and names with spaces around, in words."""
+    left, titles = rounded(mesh) + no_numbers(mesh), {}
+    for what, arrays in arrays_of(mesh).items():
+        left += renamed(distinct((name for name, _ in arrays), _form), what)
+    sets = [name for one in mesh.cells for name in one.sets]
+    for names in (mesh.node_sets, [*mesh.hex_sets, *sets], mesh.side_sets):
+        titles |= distinct(names, _form)
+    return left + renamed(titles)
+
+
+def _form(name: str, end: str) -> str:
+    """A name as the format can have it: without spaces around it, and up to a zero."""
+    return (name.split("\0")[0].strip() or "unnamed") + end
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +148,7 @@ def _add_node_sets(file: Writer, mesh: Mesh) -> None:
 
 def _add_element_sets(file: Writer, mesh: Mesh, parts: list[Block], blocks: list[_Piece]) -> None:
     sets: dict[str, list[np.ndarray]] = {}
-    named, first = {block.name for block in blocks}, 0
+    named, first = {block.name for block in blocks if block.name}, 0
     for part in parts:
         for name, members in part.sets.items():
             if name not in named and len(members):
@@ -154,12 +172,12 @@ def _add_side_sets(file: Writer, mesh: Mesh, numbers: np.ndarray) -> None:
 def _add_results(file: Writer, nodes: Mapping[str, np.ndarray], cells: list[Mapping[str, np.ndarray]]) -> None:
     """Data of nodes and cells, as results of one time step."""
     if nodes:
-        file.add_text("name_nod_var", "num_nod_var", list(nodes))
+        file.add_text("name_nod_var", "num_nod_var", list(distinct(nodes, _form).values()))
         for v, values in enumerate(nodes.values(), 1):
             file.add(f"vals_nod_var{v}", {"time_step": 0, "num_nodes": len(values)}, values)
     names = list(dict.fromkeys(name for those in cells for name in those))
     if names:
-        file.add_text("name_elem_var", "num_elem_var", names)
+        file.add_text("name_elem_var", "num_elem_var", list(distinct(names, _form).values()))
         table = np.array([[name in those for name in names] for those in cells])
         file.add("elem_var_tab", {"num_el_blk": len(cells), "num_elem_var": len(names)}, table)
         for k, those in enumerate(cells, 1):
@@ -179,7 +197,11 @@ def _columns(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         rows = values.astype(np.float64).reshape(len(values), -1)
         ends = ["_x", "_y", "_z"] if rows.shape[1] == 3 else [f"_{k}" for k in range(1, rows.shape[1] + 1)]
         ends = [""] if rows.shape[1] == 1 else ends
-        answer |= {name + end: rows[:, k] for k, end in enumerate(ends)}
+        for k, end in enumerate(ends):
+            column = name + end
+            answer[column if column not in {*answer, *data} or not end else unused(column, {*answer, *data})] = rows[
+                :, k
+            ]
     return answer
 
 
@@ -189,7 +211,8 @@ def _add_list(file: Writer, mesh: Mesh, start: str, dimension: str, names: list[
         shape = {dimension: len(names)}
         file.add(f"{start}_status", shape, np.ones(len(names), np.int32))
         file.add(f"{start}_prop1", shape, np.array(ids_of(mesh.field_data.get(IDS), start, names)), name="ID")
-        file.add_text(f"{start}_names", dimension, names)
+        titles = distinct((name for name in names if name or start != "eb"), _form)  # a block may have no name
+        file.add_text(f"{start}_names", dimension, [titles.get(name, "") for name in names])
 
 
 def _whole(values: object) -> bool:

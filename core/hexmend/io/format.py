@@ -21,6 +21,7 @@ class Holds(Enum):
     HEX_SETS = "element sets"
     CELL_SETS = "sets of cells of lower dimension"
     SIDE_SETS = "side sets"
+    EMPTY_SETS = "sets without members"
     PINS = "fixed nodes"
     LOWER_CELLS = "cells of lower dimension"
     VERTICES = "vertices as cells"

@@ -28,6 +28,8 @@ ORDER = {
     "hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15],
     "wedge15": [*range(9), 12, 13, 14, 9, 10, 11],
 }
+#: Numbers of nodes and elements are below this: they have 8 digits at most.
+_MOST = 100_000_000
 _PROPERTY = re.compile(r"property ([1-9][0-9]{0,7})\Z")
 
 
@@ -45,8 +47,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """
     content = reduced(from_mesh(mesh), _NAMES)
     blocks = content.blocks
-    tags, numbers = node_numbers(dict(content.node_data), len(content.points)), element_numbers(blocks)
-    if max(int(tags.max()), *(int(own.max(initial=0)) for own in numbers)) > 99_999_999:
+    tags, numbers = node_numbers(dict(content.node_data), len(content.points), _MOST), element_numbers(blocks, _MOST)
+    if max(int(tags.max()), *(int(own.max(initial=0)) for own in numbers)) >= _MOST:
         raise FileError(path, "a number of a node or element has more than 8 digits", "Write .vtu or .msh instead.")
     used = {number for block in blocks for number in _properties(block)}
     none = next(number for number in count(1) if number not in used)
@@ -76,7 +78,7 @@ def _properties(block: Block) -> dict[int, np.ndarray]:
 
 
 def _cannot(mesh: Mesh) -> list[str]:
-    """Ids that are none here, properties that share elements with later ones, and mid-nodes, in words."""
+    """Ids and digits without a place, properties that share elements with later ones, and mid-nodes, in words."""
     losing = set()
     for block in from_mesh(mesh).blocks:
         later = np.zeros(len(block), bool)
@@ -85,7 +87,17 @@ def _cannot(mesh: Mesh) -> list[str]:
                 losing.add(number)
             later[members] = True
     words = ", ".join(f"property {number}" for number in sorted(losing))
-    return ids_lost(mesh) + ([f"element sets that overlap ({words})"] if words else []) + middles_lost(mesh, _NAMES)
+    left = ids_lost(mesh, _MOST) + ([f"element sets that overlap ({words})"] if words else [])
+    if not all(map(_is_exact, mesh.points.ravel().tolist())):
+        left.append("last digits of coordinates (a column has a place for 12 to 14)")
+    return left + middles_lost(mesh, _NAMES)
+
+
+def _is_exact(value: float) -> bool:
+    """Whether a real number has all its digits in 16 columns."""
+    text = column(value)
+    sign = max(text.rfind("+"), text.rfind("-"))  # that of the exponent, which has no letter
+    return float(f"{text[:sign]}e{text[sign:]}" if sign > 0 else text) == value
 
 
 def column(value: float) -> str:

@@ -64,18 +64,36 @@ def places(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.nda
     return found
 
 
-def node_numbers(data: dict[str, np.ndarray], count: int) -> np.ndarray:
-    """Numbers under which nodes are written, (count,) int64: their ids where these are usable, else from 1."""
-    ids = _usable(data.get(ID), count)
+#: Numbers of nodes and elements are below this in most formats.
+MOST = 2**31
+
+
+def node_numbers(data: dict[str, np.ndarray], count: int, most: int = MOST) -> np.ndarray:
+    """Numbers under which nodes are written, (count,) int64: their ids where these are usable, else from 1.
+
+    Parameters
+    ----------
+    data : mapping of name to (count, ...) array
+    count : int
+    most : int
+        Ids from this on are none that the format can have.
+    """
+    ids = _usable(data.get(ID), count, most)
     return np.arange(1, count + 1) if ids is None or len(np.unique(ids)) < count else ids
 
 
-def element_numbers(blocks: Sequence[Block]) -> list[np.ndarray]:
+def element_numbers(blocks: Sequence[Block], most: int = MOST) -> list[np.ndarray]:
     """Numbers under which the elements of blocks are written: their ids where these are usable, others after them.
 
     No two elements have the same one.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+    most : int
+        Ids from this on are none that the format can have.
     """
-    ids = [_usable(block.data.get(ID), len(block)) for block in blocks]
+    ids = [_usable(block.data.get(ID), len(block), most) for block in blocks]
     known = [one for one in ids if one is not None]
     taken = np.concatenate([*known, np.zeros(0, np.int64)])
     if len(np.unique(taken)) < taken.size:
@@ -131,32 +149,39 @@ def combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[
     return found, which
 
 
-def ids_lost(mesh: Mesh) -> list[str]:
-    """Ids of a mesh that a file numbered from 1 cannot have, in words; its nodes or elements are numbered anew."""
+def ids_lost(mesh: Mesh, most: int = MOST) -> list[str]:
+    """Ids of a mesh that a file numbered from 1 cannot have, in words; its nodes or elements are numbered anew.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    most : int
+        Ids from this on are none that the format can have.
+    """
     content, answer = from_mesh(mesh), []
     ids = content.node_data.get(ID)
-    if ids is not None and (why := _unfit(ids, len(content.points)) or _repeated([ids])):
+    if ids is not None and (why := _unfit(ids, len(content.points), most) or _repeated([ids])):
         answer.append(f"ids of nodes ({why})")
     known = [(block.data[ID], len(block)) for block in content.blocks if ID in block.data and len(block)]
-    reasons = [why for ids, count in known if (why := _unfit(ids, count))]
+    reasons = [why for ids, count in known if (why := _unfit(ids, count, most))]
     if reasons or (reasons := [why for why in [_repeated([ids for ids, _ in known])] if why]):
         answer.append(f"ids of elements ({', '.join(dict.fromkeys(reasons))})")
     return answer
 
 
-def _usable(ids: np.ndarray | None, count: int) -> np.ndarray | None:
+def _usable(ids: np.ndarray | None, count: int, most: int) -> np.ndarray | None:
     """Ids that a file can have, (count,) int64, else None."""
-    return None if ids is None or count == 0 or _unfit(ids, count) else np.asarray(ids).astype(np.int64)
+    return None if ids is None or count == 0 or _unfit(ids, count, most) else np.asarray(ids).astype(np.int64)
 
 
-def _unfit(ids: np.ndarray, count: int) -> str:
-    """Why ids are none that a file can have, which are whole numbers from 1 that fit 31 bits; empty where they are."""
+def _unfit(ids: np.ndarray, count: int, most: int) -> str:
+    """Why ids are none that a file can have, which are whole numbers from 1 and below `most`; empty where they are."""
     ids = np.asarray(ids)
     if ids.shape != (count,) or ids.dtype.kind not in "iu":
         return "no whole numbers"
     if count and ids.min() < 1:
         return "some below 1"
-    return "some of 2^31 and above" if count and ids.max() >= 2**31 else ""
+    return f"some of {'2^31' if most == MOST else f'{most:,}'} and above" if count and ids.max() >= most else ""
 
 
 def _repeated(ids: Sequence[np.ndarray]) -> str:

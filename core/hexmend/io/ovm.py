@@ -35,16 +35,17 @@ def read(path: Path) -> Mesh:
         raise source.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
     points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)
     faces = cells = Lists(np.zeros(1, np.int64), np.zeros(0, np.int64))
-    seen: set[str] = set()
+    seen: set[object] = set()
     node_data: dict[str, np.ndarray] = {}
     cell_data: dict[str, np.ndarray] = {}
     notes: list[str] = []
     while not source.ended:
         line, key = source.here, source.line()
-        section = key.upper()
-        if section in seen:
+        section, named = key.upper(), _PROPERTY.match(key)
+        mark = (named[1].upper(), *named.groups()[1:]) if named else section  # capitals tell names apart
+        if mark in seen:
             raise source.error(f"holds {shown(key)} twice, again at {line}")
-        seen.add(section)
+        seen.add(mark)
         if section == "VERTICES":
             points = source.decimals("Vertices", _count(source, "Vertices"), 3, np.float64)
         elif section == "EDGES":

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.carried import no_numbers
 from hexmend.io.carry import Grid, to_mesh
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.source import Source, shown
@@ -251,7 +252,8 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset(Holds) - {Holds.SIDE_SETS},
+        holds=frozenset(Holds) - {Holds.SIDE_SETS, Holds.EMPTY_SETS},
+        cannot=no_numbers,
         recognised=lambda head: head[:40].lower().lstrip().startswith(b"# vtk datafile"),
     ),
 )

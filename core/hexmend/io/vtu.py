@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.io.carried import no_numbers
 from hexmend.io.carry import Grid, to_mesh
 from hexmend.io.format import FORMATS, Format, Holds
 from hexmend.io.pieces import joined
@@ -135,7 +136,8 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset(Holds) - {Holds.SIDE_SETS},
+        holds=frozenset(Holds) - {Holds.SIDE_SETS, Holds.EMPTY_SETS},
+        cannot=no_numbers,
         recognised=lambda head: _ROOT.search(head) is not None,
     ),
 )

@@ -135,3 +135,28 @@ def test_whole_numbers_that_are_rounded_are_told(tmp_path):
     assert io.left_out(tmp_path / "a.exo", kept) == []
     io.write(tmp_path / "a.exo", kept)
     np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], large)
+
+
+def test_data_and_names_that_the_format_cannot_have_are_told(tmp_path):
+    names = [" lead", "lead", "S", "s", ""]
+    mesh = grid(2).replace(
+        node_data={"phase": np.arange(27) * 1j, " t": np.arange(27.0), "v": np.ones((27, 3)), "v_x": np.arange(27.0)},
+        hex_data={"label": np.array(list("abcdefgh"))},
+        node_sets={name: np.array([k]) for k, name in enumerate(names)},
+        hex_sets={name: np.array([k]) for k, name in enumerate(names)},
+        side_sets={"": np.array([[0, 0]])},
+    )
+    assert io.left_out(tmp_path / "a.exo", mesh) == [
+        "point data that are no numbers (phase)",
+        "cell data that are no numbers (label)",
+        "names of point data as they are ( t)",
+        "names of sets as they are (,  lead)",
+    ]
+    io.write(tmp_path / "a.exo", mesh)
+    back = io.read(tmp_path / "a.exo")
+    for sets in (back.node_sets, back.hex_sets):
+        members = {name: one.tolist() for name, one in sets.items()}
+        assert members == {"lead 2": [0], "lead": [1], "S": [2], "s": [3], "unnamed": [4]}
+    assert list(back.side_sets) == ["unnamed"]
+    np.testing.assert_array_equal(back.node_data["t"], np.arange(27))
+    np.testing.assert_array_equal(back.node_data["v_x"], np.arange(27))

@@ -48,6 +48,7 @@ MESHES = {
     Holds.NODE_SETS: [grid(2).replace(node_sets={"inlet": np.array([0, 3, 26]), "all": np.arange(27)})],
     Holds.HEX_SETS: [grid(2).replace(hex_sets={"steel": np.array([1, 4]), "air": np.array([0, 2, 3, 5, 6, 7])})],
     Holds.SIDE_SETS: [grid(2).replace(side_sets={"wall": np.array([[0, 0], [0, 2], [7, 5]]), "top": np.array([[5, 1]])})],
+    Holds.EMPTY_SETS: [grid(2).replace(hex_sets={"left": np.array([], int)}, node_sets={"right": np.array([], int)})],
     Holds.CELL_SETS: [beside("quad", grid(2).topology.boundary_faces[:3], sets={"inlet": [0, 2], "wall": [1]})],
     Holds.PINS: [grid(3).replace(pinned=np.isin(np.arange(64), [21, 22]))],
     Holds.LOWER_CELLS: [
@@ -98,6 +99,7 @@ COMPARED = {
     Holds.NODE_SETS: lambda a, b: same_sets(a.node_sets, b.node_sets),
     Holds.HEX_SETS: lambda a, b: same_sets(a.hex_sets, b.hex_sets),
     Holds.SIDE_SETS: lambda a, b: same_sets(a.side_sets, b.side_sets),
+    Holds.EMPTY_SETS: lambda a, b: (same_sets(a.hex_sets, b.hex_sets), same_sets(a.node_sets, b.node_sets)),
     Holds.CELL_SETS: lambda a, b: [same_members(*pair) for pair in zip(a.cells, b.cells, strict=True)],
     Holds.PINS: lambda a, b: np.testing.assert_array_equal(a.fixed, b.fixed),
     Holds.LOWER_CELLS: same_cells,
@@ -219,3 +221,20 @@ def test_a_set_called_fixed_that_says_which_nodes_are_is_not_written_twice(tmp_p
     back = io.read(tmp_path / "a.exo")
     np.testing.assert_array_equal(back.pinned, mesh.pinned)
     np.testing.assert_array_equal(back.node_sets["Fixed"], members)
+
+
+@pytest.mark.parametrize("suffix", [".vtk", ".vtu", ".ovm"])
+def test_data_called_as_a_set_are_one_only_if_they_are_ones_and_zeros(suffix, tmp_path):
+    values = np.arange(27) / 4
+    io.write(tmp_path / f"a{suffix}", grid(2).replace(node_data={"set:heat": values}, node_sets={"top": np.array([3])}))
+    back = io.read(tmp_path / f"a{suffix}")
+    np.testing.assert_array_equal(back.node_data["set:heat"], values)
+    assert list(back.node_sets) == ["top"]
+
+
+@pytest.mark.parametrize("suffix", [".vtk", ".vtu", ".exo", ".med"])
+def test_texts_among_the_data_are_named_before_they_are_lost(suffix, tmp_path):
+    mesh = grid(2).replace(node_data={"label": np.array(["a"] * 27)})
+    assert io.left_out(tmp_path / f"a{suffix}", mesh) == ["point data that are no numbers (label)"]
+    io.write(tmp_path / f"a{suffix}", mesh)
+    assert io.read(tmp_path / f"a{suffix}").n_hexes == 8

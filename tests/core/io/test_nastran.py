@@ -11,6 +11,7 @@ from hexmend import io
 from hexmend.errors import FileError
 from hexmend.hexahedron import UNIT_CUBE
 from hexmend.io.nastran import column
+from hexmend.mesh import Mesh
 from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
@@ -130,3 +131,22 @@ def test_elements_are_in_the_properties_they_were_in_or_it_is_said(sets, members
     assert io.left_out(tmp_path / "a.bdf", mesh) == said
     io.write(tmp_path / "a.bdf", mesh)
     assert {name: rows.tolist() for name, rows in io.read(tmp_path / "a.bdf").hex_sets.items()} == members
+
+
+def test_digits_that_columns_have_no_place_for_are_said(tmp_path):
+    words = "last digits of coordinates (a column has a place for 12 to 14)"
+    fine = grid(2)
+    for scale, said in ((0.25, []), (1e-60, []), (1 / 3, [words]), (1e-9 / 3, [words])):
+        mesh = Mesh(fine.points * scale, fine.hexes)
+        assert io.left_out(tmp_path / "a.bdf", mesh) == said
+        io.write(tmp_path / "a.bdf", mesh)
+        assert np.array_equal(io.read(tmp_path / "a.bdf").points, mesh.points) == (not said)
+
+
+def test_ids_of_more_than_eight_digits_do_not_keep_a_mesh_from_being_written(tmp_path):
+    mesh = grid(2).replace(node_data={"id": np.arange(27) + 10**8 - 26}, hex_data={"id": np.arange(8) + 10**8 - 8})
+    assert io.left_out(tmp_path / "a.bdf", mesh) == ["ids of nodes (some of 100,000,000 and above)"]
+    io.write(tmp_path / "a.bdf", mesh)
+    back = io.read(tmp_path / "a.bdf")
+    np.testing.assert_array_equal(back.node_data["id"], np.arange(27) + 1)
+    np.testing.assert_array_equal(back.hex_data["id"], mesh.hex_data["id"])

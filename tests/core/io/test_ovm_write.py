@@ -147,3 +147,13 @@ def test_data_of_one_column_are_written_as_numbers(tmp_path):
     assert not io.left_out(tmp_path / "a.ovm", mesh)
     io.write(tmp_path / "a.ovm", mesh)
     np.testing.assert_array_equal(io.read(tmp_path / "a.ovm").node_data["one"], np.arange(27.0))
+
+
+def test_names_that_differ_in_capitals_alone_are_two(tmp_path):
+    mesh = grid(2).replace(
+        node_sets={"S": np.array([1]), "s": np.array([2])}, hex_data={"T": np.ones(8), "t": np.zeros(8)}
+    )
+    io.write(tmp_path / "a.ovm", mesh)
+    back = io.read(tmp_path / "a.ovm")
+    assert {name: members.tolist() for name, members in back.node_sets.items()} == {"S": [1], "s": [2]}
+    np.testing.assert_array_equal([back.hex_data["T"], back.hex_data["t"]], [np.ones(8), np.zeros(8)])
