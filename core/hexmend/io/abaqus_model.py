@@ -37,11 +37,8 @@ class Members:
 
     def joined(self, other: Members) -> Members:
         """A set of what both say."""
-        within = {**self.within, **other.within}
-        for key in self.within.keys() & other.within.keys():
-            within[key] = self.within[key].joined(other.within[key])
         lists = (self.words + other.words, self.ranges + other.ranges, self.ids + other.ids)
-        return Members(self.title, *lists, within)
+        return Members(self.title, *lists, _joined(self.within, other.within))
 
 
 @dataclass(eq=False)
@@ -76,12 +73,12 @@ class Part:
             self.chunks + other.chunks,
             _joined(self.node_sets, other.node_sets),
             _joined(self.element_sets, other.element_sets),
-            {**self.surfaces, **{name: self.surfaces.get(name, []) + rows for name, rows in other.surfaces.items()}},
+            self.surfaces | {name: self.surfaces.get(name, []) + rows for name, rows in other.surfaces.items()},
         )
 
 
 def _joined(one: dict[str, Members], other: dict[str, Members]) -> dict[str, Members]:
-    return {**one, **{key: one[key].joined(sets) if key in one else sets for key, sets in other.items()}}
+    return one | {key: one[key].joined(more) if key in one else more for key, more in other.items()}
 
 
 @dataclass(eq=False)
