@@ -15,6 +15,7 @@ from hexmend.io.child import in_child
 from hexmend.io.content import Block, Content, joined, to_mesh
 from hexmend.io.format import Format
 from hexmend.mesh import Mesh
+from hexmend_app.formats.adf_links import check_links
 
 
 def read(path: Path) -> Mesh:
@@ -26,6 +27,7 @@ def content(path: Path) -> Content:
     """What VTK's reader finds in a file: zones of three dimensions, with their results."""
     from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
 
+    check_links(path)
     reader = vtkCGNSReader()
     reader.SetFileName(str(path))
     reader.UpdateInformation()

@@ -82,6 +82,33 @@ def test_a_damaged_file_ends_no_process_but_its_own(library, joined, tmp_path):
         io.read(tmp_path / "bad.cgns")
 
 
+@pytest.mark.parametrize("other", [b"other.cgns", b"/dev/null", b""])
+def test_a_link_to_another_file_is_refused_and_one_inside_the_file_is_not(other, library, joined, tmp_path):
+    path, file = tmp_path / "linked.cgns", ctypes.c_int()
+    for name in ("linked.cgns", "other.cgns"):
+        write_adf(library, tmp_path / name, grid(2))
+    assert library.vtkcgns_cg_open(str(path).encode(), 2, ctypes.byref(file)) == 0
+    assert library.vtkcgns_cg_goto(file, 1, b"Zone_t", ctypes.c_int(1), b"end") == 0
+    assert library.vtkcgns_cg_link_write(b"More", other, b"/Base/hexes/GridCoordinates") == 0
+    assert library.vtkcgns_cg_close(file) == 0
+    if other:
+        with pytest.raises(FileError, match="its 'More' is a link to another file: no other file is opened"):
+            io.read(path)
+    else:
+        assert io.read(path).n_hexes == 16
+
+
+def test_a_file_on_hdf5_is_not_taken_for_one_of_that_kind(joined, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "both.cgns"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        file["link"] = h5py.ExternalLink("other.cgns", "/")
+    data = path.read_bytes()
+    path.write_bytes(b"  ADF Database" + data[14:])  # in the block that HDF5 leaves to programs
+    with pytest.raises(FileError, match="has not the head of a CGNS file of the ADF kind"):
+        io.read(path)
+
+
 def test_without_the_app_it_is_said_what_reads_it(library, monkeypatch, tmp_path):
     monkeypatch.setattr(files, "further", tuple)
     write_adf(library, tmp_path / "old.cgns", grid(1))
