@@ -29,10 +29,10 @@ def check_links(path: Path) -> None:
         while at >= 0:
             head = data[at : at + _HEAD]
             if head[96:98] == b"LK" and not _is_inside(data, head, at + _HEAD):
+                name = head[4:36].decode("ascii", "replace").strip()
                 raise FileError(
                     path,
-                    f"its {head[4:36].decode('ascii', 'replace').strip()!r} is a link to another file: no other file is "
-                    "opened",
+                    f"its {name!r} is a link to another file: no other file is opened",
                     "Write all data into one file with the program that made it.",
                 )
             at = data.find(_NODE, at + 1)
