@@ -12,7 +12,7 @@ from hexmend.io.content import Content
 
 MAGIC = b"\x89HDF\r\n\x1a\n"
 
-_ONE_FILE = "Write all data into one file, with the program that made it or with HDF5's h5copy -f ext."
+_ONE_FILE = "Write all data into one file with the program that made it (links: HDF5's h5copy -f ext)."
 
 #: Compressed arrays may be that many times the size of the file, and that many bytes whatever its size.
 _GROWTH, _ALWAYS = 100, 1 << 28
