@@ -7,7 +7,7 @@ from hexmend.advice import advise
 from hexmend.advice.situation import Situation
 from hexmend.gallery import make
 from hexmend.optimise import Stop
-from hexmend.quality import measure
+from hexmend.quality import measure, objective
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import iterate, smooth
 from hexmend.smoothers import METHODS
@@ -58,9 +58,9 @@ def followed(mesh, result, suggestion):
     return smooth(begin, suggestion.smoother, suggestion.stop)
 
 
-def energy(mesh, p):
-    """The sum of eta(H)^p."""
-    return np.power(measure(mesh.points, mesh.hexes).eta, p).sum()
+def energy(mesh, smoother):
+    """The objective that a method minimises."""
+    return objective(measure(mesh.points, mesh.hexes), *smoother.power)
 
 
 @pytest.mark.parametrize("which", MESHES)
@@ -84,7 +84,7 @@ def follow_all(mesh):
             after = then.after
             said = f"{what}: {suggestion.title}: {result.after} became {after}"
             if suggestion.gain == "energy":
-                assert energy(then.mesh, suggestion.smoother.p) < energy(result.mesh, suggestion.smoother.p), said
+                assert energy(then.mesh, suggestion.smoother) < energy(result.mesh, suggestion.smoother), said
             else:
                 assert better(suggestion.gain, result.after, after), said
             assert after.inverted <= result.after.inverted, said

@@ -26,7 +26,7 @@ def test_history_has_a_row_an_iteration_and_one_before(mesh):
     result = smooth(mesh, "local-sd")
     assert result.outcome is Outcome.CONVERGED
     assert [row["iteration"] for row in result.history] == list(range(result.iterations + 1))
-    assert set(result.history[0]) == set(HISTORY)
+    assert set(result.history[0]) == {*HISTORY, "objective_formula"}
     assert result.history[0]["inverted"] == result.before.inverted > 0
     assert result.history[0]["objective"] is None
     assert result.history[-1]["objective"] == result.after.objective

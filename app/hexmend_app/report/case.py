@@ -11,6 +11,7 @@ from time import perf_counter
 from typing import Any
 
 from hexmend.advice import Advice, advise
+from hexmend.energy.power import SQUARES, Power
 from hexmend.errors import FileError
 from hexmend.figures import printable
 from hexmend.io import read
@@ -20,7 +21,7 @@ from hexmend.quality import ElementQuality, Summary, measure, summarise
 from hexmend.recipe import Recipe
 from hexmend.run import Run
 from hexmend.smoothers import Smoother
-from hexmend.study.row import Row, Watch, distribution, run_one
+from hexmend.study.row import Row, Watch, common_power, initial_record, run_one
 
 #: What the mesh as it was given is called.
 INITIAL = "initial"
@@ -81,11 +82,11 @@ class Version:
         told = (result.history, advise(result)) if result is not None else ()
         return cls(name, mesh, figures, summarise(mesh, figures), row, *told)
 
-    def record(self) -> dict[str, Any]:
-        """Its figures, as tables take them."""
+    def record(self, power: Power = SQUARES) -> dict[str, Any]:
+        """Its figures, as tables take them; the objective by the p and offset that a table compares by."""
         if self.row is not None:
-            return self.row.record()
-        return self.summary.to_dict() | {"distribution": distribution(self.mesh)}
+            return self.row.record(power)
+        return initial_record(self.mesh, self.summary, power)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +114,11 @@ class Case:
     failed: tuple[Row, ...] = ()
     stop: Stop = Stop()  # noqa: RUF009 it is immutable
     interrupted: bool = False
+
+    @property
+    def power(self) -> Power:
+        """p and offset of the objective by which its tables compare methods."""
+        return common_power(one.row for one in self.versions if one.row is not None)
 
     @property
     def initial(self) -> Version:

@@ -140,7 +140,8 @@ def stationary(scene: Scene) -> Scene:
 def table_of(case: Case) -> Table:
     """The thesis's table of methods."""
     summary = case.initial.summary
-    columns = {one.name: one.record() for one in case.versions} | {row.method: row.record() for row in case.failed}
+    columns = {one.name: one.record(case.power) for one in case.versions}
+    columns |= {row.method: row.record(case.power) for row in case.failed}
     title = f"{case.name}: {summary.hexes:,} hexes, {summary.free_nodes:,} free nodes"
     return comparison_table(title, columns)
 
@@ -196,9 +197,9 @@ def _table(case: Case, folder: Path, style: Style) -> Figure:
         "mesh": case.name,
         "stop": case.stop.values(),
         "interrupted": case.interrupted,
-        "initial": case.initial.record(),
-        "rows": [one.record() | {"name": one.name} for one in case.versions[1:]]
-        + [row.record() for row in case.failed],
+        "initial": case.initial.record(case.power),
+        "rows": [one.record(case.power) | {"name": one.name} for one in case.versions[1:]]
+        + [row.record(case.power) for row in case.failed],
     }
     table = table_of(case)
     paths = write_documents(folder, "table", table, comparison_rows(record), record)

@@ -6,9 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.energy.power import SQUARES
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Result, Stop
-from hexmend.quality import ElementQuality, measure
+from hexmend.quality import ElementQuality, measure, objective
 from hexmend.quality.measure import locked
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.surface import freed_by_sliding
@@ -17,8 +18,8 @@ from hexmend.surface.features import DEGREES
 #: Outcomes of a run that did not end by itself.
 CUT_SHORT = frozenset({Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS, Outcome.STOPPED})
 
-#: What a figure must gain over the last quarter of the iterations to be still on its way: a share of the objective, or
-#: of the mean quality.
+#: What a figure must gain over the last quarter of the iterations to be still on its way: a share of what the objective
+#: is above that of cubes, or of the mean quality.
 _FALLING, _RISING = 1e-3, 1e-4
 
 
@@ -73,9 +74,9 @@ class Situation:
     @property
     def aim(self) -> str:
         """What an optimiser betters: the objective with its p and offset, or, where that is infinite, q_norm."""
-        if self.result.after.objective is not None and (self.p != 2 or self.objective.get("offset", 1.0) != 1):
-            return "energy"
-        return "objective" if self.result.after.objective is not None else "q_norm"
+        if objective(self.figures, *self.smoother.power) is None:
+            return "q_norm"
+        return "objective" if self.smoother.power == SQUARES else "energy"
 
     @cached_property
     def improving(self) -> bool:
@@ -84,12 +85,12 @@ class Situation:
         then, now = rows[-1 - min(iterations, max(1, iterations // 4))], rows[-1]
         if self.result.kept <= then["iteration"]:
             return False
-        if self.aim == "energy":  # of which the history does not tell; a line search lowers it with every move
-            return now["largest_move"] > self.stop.tolerance
         if now["inverted"] != then["inverted"]:
             return now["inverted"] < then["inverted"]
-        if now["objective"] is not None and then["objective"] is not None:
-            return now["objective"] < (1 - _FALLING) * then["objective"]
+        same = now["objective_formula"] == then["objective_formula"]  # a stage's first step is from another's objective
+        if same and now["objective"] is not None and then["objective"] is not None:
+            least = self.smoother.power.least * self.mesh.n_hexes
+            return then["objective"] - now["objective"] > _FALLING * (then["objective"] - least)
         return now["q_mean"] > then["q_mean"] + _RISING
 
     @cached_property

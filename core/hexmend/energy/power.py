@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 
 class Power(NamedTuple):
     """eta(H)^p with eta(H) = mean of eta(T) minus offset.
@@ -27,7 +29,26 @@ class Power(NamedTuple):
         >>> Power(2.0, 1.0).least, Power(3.0, 0.0).least
         (0.0, 1.0)
         """
-        return (1 - self.offset) ** self.p
+        return self.of(0.0)
+
+    def of(self, eta: float) -> float:
+        """What a hex of this eta(H), as (B.20) has it, contributes.
+
+        >>> Power(2.0, 1.0).of(1.0), Power(2.0, 0.0).of(1.0)
+        (1.0, 4.0)
+        """
+        return (eta + 1 - self.offset) ** self.p
+
+    @property
+    def formula(self) -> str:
+        """The objective as tables and charts write it.
+
+        >>> Power().formula, Power(4.0, 0.0).formula, Power(1.5).formula, Power(1.0).formula
+        ('Σ η²', 'Σ η⁴, offset 0', 'Σ η^1.5', 'Σ η')
+        """
+        number = f"{self.p:g}"
+        power = "" if number == "1" else number.translate(_RAISED) if number.isdigit() else f"^{number}"
+        return f"Σ η{power}" + ("" if self.offset == 1 else f", offset {self.offset:g}")
 
 
 #: The sum of squares of (B.20).

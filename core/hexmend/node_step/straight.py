@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.energy import SQUARES
 from hexmend.mesh import Mesh
 from hexmend.node_step.patch import MORE, Patch
 from hexmend.node_step.record import NodeStep, Pull, Verdict
@@ -43,7 +42,7 @@ def straight_step(
     wanted, target = target is not None, after if target is None else target
     hexes = mesh.topology.node_corners[node] // 8
     tangled = measure(mesh.points, np.ascontiguousarray(mesh.hexes[hexes])).n_inverted > 0
-    power, delta = getattr(smoother, "power", SQUARES), SOFTNESS if tangled else 0.0
+    power, delta = smoother.power, SOFTNESS if tangled else 0.0
     patch = Patch(mesh, mesh.points, node, power, delta)
     way, gone = target - before, after - before
     far = float(way @ way)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Sequence
 from html import escape
 
@@ -11,7 +12,9 @@ _WIDTH, _HEIGHT, _EDGE = 120, 24, 3
 _MOST = 2 * _WIDTH
 
 
-def sparkline(values: Sequence[float | int | None], title: str, marked: int | None = None) -> str:
+def sparkline(
+    values: Sequence[float | int | None], title: str, marked: int | None = None, breaks: Sequence[int] = ()
+) -> str:
     """An SVG of values from left to right, with a dot at one of them; what is None or not finite leaves a gap.
 
     Parameters
@@ -21,6 +24,8 @@ def sparkline(values: Sequence[float | int | None], title: str, marked: int | No
         For who points at it, and for who cannot see it.
     marked : int, optional
         The place in `values` that has the dot.
+    breaks : sequence of int
+        Places in `values` at which the line is interrupted, ascending: from there on it is another figure.
 
     Returns
     -------
@@ -44,7 +49,11 @@ def sparkline(values: Sequence[float | int | None], title: str, marked: int | No
         return f"{_EDGE + across * at:.1f},{_HEIGHT - _EDGE - up * ((values[at] or 0.0) - low) / span:.1f}"
 
     lines: list[list[str]] = [[]]
+    passed = 0
     for at in sorted({*range(0, len(values), math.ceil(len(values) / _MOST)), len(values) - 1}):
+        if bisect_right(breaks, at) > passed:
+            passed = bisect_right(breaks, at)
+            lines.append([])
         if values[at] is None or not math.isfinite(values[at]):
             lines.append([])
         else:

@@ -10,6 +10,7 @@ from hexmend.figures import Figure
 from hexmend.mesh import Mesh
 from hexmend.notebook.sparkline import sparkline
 from hexmend.optimise import Result
+from hexmend.optimise.figures import HISTORY, objective_changes
 from hexmend.quality.summary import FIGURES, Summary, summarise
 
 _ROW = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start"
@@ -77,4 +78,5 @@ def _line(figure: Figure, result: Result) -> str:
     if figure.key not in _LINES:
         return ""
     values: Sequence[float | int | None] = [row[figure.key] for row in result.history]
-    return sparkline(values, f"{figure.label} by iteration", result.kept)
+    breaks = objective_changes(result.history) if figure.key == "objective" else ()
+    return sparkline(values, f"{HISTORY[figure.key].label} by iteration", result.kept, breaks)

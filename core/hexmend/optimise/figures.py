@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from hexmend.figures import Figure, count, significant
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from hexmend.figures import Figure, count, objective, significant
 from hexmend.quality.summary import FIGURES
 
 #: The columns of a history, in order; a row of it is `Iteration.row`.
@@ -11,7 +14,14 @@ HISTORY: dict[str, Figure] = {
     for figure in (
         Figure("iteration", "iteration", "Number of the iteration; 0 is the mesh before the first.", count),
         Figure("seconds", "seconds", "Time in the method since its preparation ended.", significant, -1),
-        FIGURES["objective"],
+        Figure(
+            "objective",
+            "objective",
+            "The objective that the method minimises, Σ η(H)^p with its p and offset (3.3): infinite while any element "
+            "is inverted.",
+            objective,
+            -1,
+        ),
         FIGURES["q_min"],
         FIGURES["q_mean"],
         FIGURES["inverted"],
@@ -23,6 +33,17 @@ HISTORY: dict[str, Figure] = {
         ),
     )
 }
+
+
+def objective_changes(rows: Sequence[Mapping[str, Any]]) -> list[int]:
+    """Numbers of the rows of a history from which on the objective is another one: there its curve is interrupted.
+
+    >>> objective_changes([{"objective_formula": "Σ η²"}, {"objective_formula": "Σ η⁴"}, {"objective_formula": "Σ η⁴"}])
+    [1]
+    """
+    formulas = [row.get("objective_formula") for row in rows]
+    return [k for k in range(1, len(rows)) if formulas[k] != formulas[k - 1]]
+
 
 #: What methods note of a step.
 NOTES: dict[str, Figure] = {

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from hexmend.energy.power import SQUARES, Power
 from hexmend.mesh import Mesh
 from hexmend.optimise.stop import Stop
 from hexmend.quality import ElementQuality, Summary, objective, worse
@@ -104,6 +105,8 @@ class Iteration:
         Of any node in this step, in mean edge lengths of the initial mesh: what Algorithm A.1 looks at.
     notes : mapping
         From the step, and "stage" (the number of the recipe's, from 1) and "method" (the name of the one at work).
+    power : Power
+        p and offset of the objective that the method at work minimises.
     """
 
     number: int
@@ -112,13 +115,23 @@ class Iteration:
     seconds: float
     largest_move: float
     notes: Mapping[str, Any] = field(default_factory=dict)
+    power: Power = SQUARES
 
-    def row(self) -> dict[str, float | int | None]:
-        """The row of the history: `iteration seconds objective q_min q_mean inverted largest_move`."""
+    @property
+    def objective(self) -> float | None:
+        """The objective that the method at work minimises, at delta = 0; None while any hex is inverted."""
+        return objective(self.figures, *self.power)
+
+    def row(self) -> dict[str, float | int | str | None]:
+        """The row of the history: `iteration seconds objective q_min q_mean inverted largest_move`.
+
+        `objective_formula` says which objective it is: stages of a recipe may have different ones.
+        """
         return {
             "iteration": self.number,
             "seconds": self.seconds,
-            "objective": objective(self.figures),
+            "objective": self.objective,
+            "objective_formula": self.power.formula,
             "q_min": float(self.figures.q.min()),
             "q_mean": float(self.figures.q.mean()),
             "inverted": self.figures.n_inverted,
@@ -189,7 +202,7 @@ class Result:
     setup_seconds : float
         Topology, colouring and whatever else the method prepares.
     history : tuple of dict
-        A row an iteration, the initial mesh first.
+        A row an iteration, the initial mesh first: `Iteration.row`.
     stages : tuple of StageResult
         What each method did: of a run of one method one, else the stages of a recipe as they were run, or the methods
         of a run whose method was changed on the way.
@@ -210,7 +223,7 @@ class Result:
     kept: int
     seconds: float
     setup_seconds: float
-    history: tuple[dict[str, float | int | None], ...]
+    history: tuple[dict[str, float | int | str | None], ...]
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
     limits: Limits | None = None

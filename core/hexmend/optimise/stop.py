@@ -18,7 +18,7 @@ class Stop(Parametrised):
         high=1,
         unit="mean edge length",
         help="Converged when no node moves further than this in an iteration (A.1), unless the method goes on to other "
-        "steps or, of an optimiser, the objective still falls by more than a thousandth.",
+        "steps or, of an optimiser, its objective still falls by more than a thousandth.",
     )
     move: str = parameter(
         "length",

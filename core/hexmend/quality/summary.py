@@ -119,6 +119,29 @@ def summarise(mesh: Mesh, figures: ElementQuality | None = None) -> Summary:
     )
 
 
-def objective(figures: ElementQuality) -> float | None:
-    """Sum of eta(H)^2 at delta = 0, the square of (3.3) with p = 2; None while any hex is inverted."""
-    return float(np.square(figures.eta).sum()) if figures.n_inverted == 0 else None
+def objective(figures: ElementQuality, p: float = 2.0, offset: float = 1.0) -> float | None:
+    """Objective of a mesh at delta = 0: the sum of eta(H)^p, the p-th power of (3.3).
+
+    Parameters
+    ----------
+    figures : ElementQuality
+    p, offset : float
+        See `hexmend.energy.Power`; the defaults are those of `Summary.objective`.
+
+    Returns
+    -------
+    float or None
+        None while any hex is inverted, or where no float holds the sum.
+
+    Examples
+    --------
+    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> figures = measure(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
+    >>> objective(figures), objective(figures, p=4.0, offset=0.0)
+    (0.0, 1.0)
+    """
+    if figures.n_inverted:
+        return None
+    with np.errstate(over="ignore"):
+        total = float(((figures.eta + (1 - offset)) ** p).sum())
+    return total if np.isfinite(total) else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -80,12 +80,22 @@ def comparison_table(
     """
     rows = []
     for figure in LINES:
-        rows.append([figure.label, *(_cell(figure, record) for record in columns.values())])
+        rows.append([label(figure, columns.values()), *(_cell(figure, record) for record in columns.values())])
         theirs = [(published or {}).get(head, {}) for head in columns]
         if any(record.get(figure.key) is not None for record in theirs):
             rows.append(["– thesis", *(figure.of(record) for record in theirs)])
     table = Table(title, ["", *columns], rows, [*notes, *_fallen(columns), *_explained(columns.values())])
     return table if len(columns) <= _WIDEST or published else table.transposed
+
+
+def label(figure: Figure, records: Iterable[Mapping[str, Any]]) -> str:
+    """The label of a line of records: of the objective with its formula, which all of them have in common.
+
+    >>> label(FIGURES["objective"], [{"objective": 7.0, "objective_formula": "Σ η⁴, offset 0"}])
+    'objective Σ η⁴, offset 0'
+    """
+    formula = next((one["objective_formula"] for one in records if "objective_formula" in one), None)
+    return f"objective {formula}" if figure.key == "objective" and formula else figure.label
 
 
 def table_of(comparison: Mapping[str, Any], names: Mapping[str, str] | None = None, title: str | None = None) -> Table:

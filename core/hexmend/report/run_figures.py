@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hexmend.optimise.figures import HISTORY
+from hexmend.optimise.figures import HISTORY, objective_changes
 from hexmend.report.charts import ChartStyle, write_chart
 from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend.report.histogram import Histogram, Outline
@@ -76,16 +77,15 @@ def _label(name: str) -> str:
 
 
 def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> list[DrawnCurve]:
-    return [
-        DrawnCurve(
-            _label(name),
-            COLOURS[k % len(COLOURS)],
-            [row["iteration"] for row in rows],
-            [float("nan") if row[key] is None else row[key] for row in rows],
-            strong=True,
-        )
-        for k, (name, rows) in enumerate(histories.items())
-    ]
+    curves = []
+    for k, (name, rows) in enumerate(histories.items()):
+        x = [float(row["iteration"]) for row in rows]
+        y = [math.nan if row[key] is None else row[key] for row in rows]
+        for at in reversed(objective_changes(rows) if key == "objective" else ()):
+            x.insert(at, math.nan)
+            y.insert(at, math.nan)
+        curves.append(DrawnCurve(_label(name), COLOURS[k % len(COLOURS)], x, y, strong=True))
+    return curves
 
 
 def _has(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> bool:

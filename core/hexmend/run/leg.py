@@ -17,8 +17,8 @@ from hexmend.smoothers import Smoother
 
 log = logging.getLogger(__name__)
 
-#: An objective still falls if a step lowers it by a greater share than the first, and by more than the second: a
-#: hundredth of what one hex of q = 1/2 has.
+#: An objective still falls if a step lowers what it has above that of cubes by a greater share than the first, and by
+#: more than the second share of what one hex of q = 1/2 has above a cube.
 _FALLING, _WORTH = 1e-3, 1e-2
 
 
@@ -112,7 +112,9 @@ class Leg:
             return None
         figures = step.figures if step.figures is not None else measure(points, self._hexes)
         notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
-        now = self.last = self.at = Iteration(self.last.number + 1, points, figures, seconds, move, notes)
+        now = self.last = self.at = Iteration(
+            self.last.number + 1, points, figures, seconds, move, notes, self.smoother.power
+        )
         self.decision, self.limits = step.decision, step.limits or self.limits
         if not step.detour:
             self._consider(now)
@@ -176,9 +178,12 @@ class Leg:
         """Whether an optimiser's objective still falls: beside the barrier steps are short, however much they gain."""
         if not self.smoother.optimises:
             return False
-        then, later = objective(before.figures), objective(now.figures)
-        known = then is not None and later is not None
-        return known and then - later > max(_FALLING * then, _WORTH)
+        power = self.smoother.power  # the step before may be another method's
+        then, later = objective(before.figures, *power), now.objective
+        if then is None or later is None:
+            return False
+        least = power.least * now.figures.q.size
+        return then - later > max(_FALLING * (then - least), _WORTH * (power.of(1.0) - power.least))
 
     def _end_at_a_limit(self) -> None:
         stop, last, since = self.stage.stop, self.last, self.since

@@ -55,7 +55,7 @@ class Run(Iterator[Iteration]):
         self._stages = _stages(smoother, stop)
         notes = {"stage": 1, "method": self._stages[0].smoother.name}
         figures = measure(mesh.points, mesh.hexes)
-        self.start = Iteration(0, read_only(mesh.points), figures, 0.0, 0.0, notes)
+        self.start = Iteration(0, read_only(mesh.points), figures, 0.0, 0.0, notes, self._stages[0].smoother.power)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []

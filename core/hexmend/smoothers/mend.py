@@ -85,12 +85,18 @@ class Mend(Objective):
         200, low=1, high=10**6, help="Most iterations of conjugate gradients for a Newton step."
     )
 
+    @property
+    def power(self) -> Power:
+        """The highest p and the offset: the objective that a run ends with the optimum of."""
+        return Power(max(self.p, self.highest_p), self.offset)
+
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
         given, raises = mesh, self.goal != "shape"
         if self.slides and mesh.target is not None:
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
-        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, self.power), self.slides or raises)
+        first = Power(self.p, self.offset)
+        points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, first), self.slides or raises)
         places, sliding, limits = [mesh.points, points], None, None
         words: list[str] = []
         if self.slides:
@@ -98,7 +104,7 @@ class Mend(Objective):
             sliding = Sliding(mesh, self.feature_angle, SPARED * room if room else np.inf)
             freeing = Raising(sliding.mesh, points, sliding)
             yield from raise_least(freeing, SOUND, clusters=1)
-            energy = SlidingEnergy(sliding, self.power)
+            energy = SlidingEnergy(sliding, first)
             points, outcome = yield from self._shaped(sliding.mesh.with_points(freeing.points), energy, True)
             places += [freeing.points, points]
         if raises or self.slides:
@@ -122,7 +128,7 @@ class Mend(Objective):
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Untangle, then go to the optimum of shape; `more` where that is not the end."""
         locked = locked_corners(mesh)
-        energy = energy.but(self.power, locked)
+        energy = energy.but(energy.power, locked)
         points, left_out = yield from self._untangled(mesh, energy, locked)
         if left_out.any() and not self.slides:
             yield Step(points, decision=what_is_left(left_out, locked), more=True)
@@ -136,10 +142,10 @@ class Mend(Objective):
         harmed = any(fallen) if self.guard else all(fallen)
         if self.goal != "shape":
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
-        p = max(self.p, self.highest_p)
+        p, offset = self.power
         with np.errstate(over="ignore"):  # beside the barrier
             before, after = (
-                np.power(figures.eta[~figures.inverted] + (1 - self.offset), p).sum() for figures in (start, now)
+                np.power(figures.eta[~figures.inverted] + (1 - offset), p).sum() for figures in (start, now)
             )
         return now.n_inverted, harmed, after > before
 

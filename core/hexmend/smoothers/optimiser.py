@@ -27,7 +27,7 @@ class Objective(SlidingSmoother):
 
     @property
     def power(self) -> Power:
-        """p and offset."""
+        """p and offset of the objective that it minimises."""
         return Power(self.p, self.offset)
 
 

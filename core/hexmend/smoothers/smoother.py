@@ -9,6 +9,7 @@ from typing import Any, ClassVar, TypeAlias, TypeVar
 
 import numpy as np
 
+from hexmend.energy.power import SQUARES, Power
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.parameters import Parametrised, declared
@@ -40,6 +41,14 @@ class Smoother(Parametrised, ABC):
     #: Bytes a hex that its run holds at most beside the open mesh, topology included: as `hexmend bench --only memory`
     #: measures it, and a fifth more. See `hexmend.run.memory`.
     bytes_per_hex: ClassVar[int] = 1000
+
+    @property
+    def power(self) -> Power:
+        """p and offset of the objective that is recorded of its runs: the one that it minimises.
+
+        A method that minimises nothing has the default ones.
+        """
+        return SQUARES
 
     @property
     def slides(self) -> bool:

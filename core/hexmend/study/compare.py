@@ -11,7 +11,7 @@ from hexmend.quality import Summary, summarise
 from hexmend.recipe import Recipe
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.study.row import Row, Watch, distribution, run_one
+from hexmend.study.row import Row, Watch, common_power, initial_record, run_one
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,13 +37,17 @@ class Comparison:
     interrupted: bool = False
 
     def record(self) -> dict[str, Any]:
-        """The comparison for other programs: what `hexmend.report` makes tables of."""
+        """The comparison for other programs: what `hexmend.report` makes tables of.
+
+        Its one objective is that of the first method that minimises one.
+        """
+        power = common_power(self.rows)
         return {
             "mesh": self.mesh.name,
             "stop": self.stop.values(),
             "interrupted": self.interrupted,
-            "initial": self.initial.to_dict() | {"distribution": distribution(self.mesh)},
-            "rows": [row.record() for row in self.rows],
+            "initial": initial_record(self.mesh, self.initial, power),
+            "rows": [row.record(power) for row in self.rows],
         }
 
 

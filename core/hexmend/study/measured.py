@@ -9,7 +9,7 @@ from typing import Any
 from hexmend.mesh import Mesh
 from hexmend.quality import Summary
 from hexmend.study.experiments import INITIAL, Experiment
-from hexmend.study.row import Row, distribution
+from hexmend.study.row import Row, common_power, initial_record
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,10 +40,10 @@ class Measured:
 
     def record(self) -> dict[str, Any]:
         """The experiment for other programs, ours under "columns" and the thesis's under "published"."""
-        one = self.experiment
-        columns = {name: row.record() for name, row in self.rows.items()}
+        one, power = self.experiment, common_power(self.rows.values())
+        columns = {name: row.record(power) for name, row in self.rows.items()}
         if one.start == INITIAL:
-            columns = {INITIAL: self.initial.to_dict() | {"distribution": distribution(self.mesh)}} | columns
+            columns = {INITIAL: initial_record(self.mesh, self.initial, power)} | columns
         return {
             "table": one.table,
             "thesis_mesh": one.thesis_mesh,

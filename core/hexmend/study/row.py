@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from hexmend.energy.power import SQUARES, Power
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Result, StageResult
-from hexmend.quality import Summary, measure, summarise
+from hexmend.quality import Summary, measure, objective, summarise
 from hexmend.recipe import Recipe
 from hexmend.run import Run, Stop, iterate
-from hexmend.smoothers import Smoother
+from hexmend.smoothers import METHODS, Smoother
 from hexmend.surface import SurfaceChange
 
 log = logging.getLogger(__name__)
@@ -79,9 +80,29 @@ class Row:
         per_iteration, nodes = self.seconds_per_iteration, self.after.free_nodes if self.after else 0
         return per_iteration / nodes if per_iteration is not None and nodes else None
 
-    def record(self) -> dict[str, Any]:
-        """The row for other programs: the method, its run, and the figures of `Summary` at its end."""
+    @property
+    def power(self) -> Power | None:
+        """p and offset of the objective that the method minimises; None of a method that minimises nothing.
+
+        Of a recipe those of its last stage that minimises something.
+        """
+        runs = [one for one in self.stages or (self,) if one.method in METHODS and METHODS[one.method].optimises]
+        return METHODS[runs[-1].method](**runs[-1].parameters).power if runs else None
+
+    def objective_by(self, power: Power) -> float | None:
+        """The objective of the smoothed mesh by some p and offset, at delta = 0; None while any hex is inverted."""
+        return objective_of(self.mesh, self.after, power) if self.after else None
+
+    def record(self, power: Power = SQUARES) -> dict[str, Any]:
+        """The row for other programs: the method, its run, and the figures of `Summary` at its end.
+
+        Parameters
+        ----------
+        power : Power
+            p and offset of the objective, which rows of one table have in common: `common_power`.
+        """
         figures = self.after.to_dict() if self.after else dict.fromkeys(Summary.__dataclass_fields__)
+        figures |= {"objective": self.objective_by(power), "objective_formula": power.formula}
         return {
             "method": self.method,
             "parameters": dict(self.parameters),
@@ -98,6 +119,33 @@ class Row:
             "distribution": distribution(self.mesh) if self.mesh else None,
             **({"surface": self.surface.to_dict()} if self.surface else {}),
         } | ({"stages": [stage.to_dict() for stage in self.stages]} if self.stages else {})
+
+
+def common_power(rows: Iterable[Row]) -> Power:
+    """p and offset of the one objective by which a table compares methods: those of the first that minimises one.
+
+    The default ones where no method minimises anything.
+    """
+    return next((power for row in rows if (power := row.power) is not None), SQUARES)
+
+
+def objective_of(mesh: Mesh, summary: Summary, power: Power) -> float | None:
+    """The objective of a mesh by some p and offset, at delta = 0; None while any hex is inverted.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    summary : Summary
+        Of this mesh.
+    power : Power
+    """
+    return summary.objective if power == SQUARES else objective(measure(mesh.points, mesh.hexes), *power)
+
+
+def initial_record(mesh: Mesh, summary: Summary, power: Power = SQUARES) -> dict[str, Any]:
+    """The mesh that the methods of a table began with, as `Row.record` has what they made of it."""
+    own = {"objective": objective_of(mesh, summary, power), "objective_formula": power.formula}
+    return summary.to_dict() | own | {"distribution": distribution(mesh)}
 
 
 def run_one(mesh: Mesh, smoother: Smoother | Recipe, stop: Stop, watch: Watch | None = None) -> tuple[Row, bool]:

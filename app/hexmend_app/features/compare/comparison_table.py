@@ -11,7 +11,7 @@ from PySide6.QtGui import QBrush, QColor, QFont
 
 from hexmend.figures import Figure
 from hexmend.quality import JUDGED
-from hexmend.report.comparison import LINES
+from hexmend.report.comparison import LINES, label
 from hexmend.smoothers import METHODS
 from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
 
@@ -222,7 +222,7 @@ class ComparisonModel(QAbstractTableModel):
             return None
         figure = LINES[section - _FIRST] if section >= _FIRST else None
         if role == _Role.DisplayRole:
-            return figure.label if figure else ("Method", "View")[section]
+            return label(figure, [one.record for one in self.entries]) if figure else ("Method", "View")[section]
         if role == _Role.TextAlignmentRole:
             return _RIGHT if figure and figure.key != "outcome" else _LEFT
         if role == _Role.ForegroundRole:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
+from hexmend.energy.power import Power
+from hexmend.quality import objective
 from hexmend.recipe import Stage
 from hexmend.report import markdown, table_of, write_comparison
 from hexmend.report.charts import ChartStyle
 from hexmend.report.comparison import LINES
 from hexmend.smoothers import METHODS
+from hexmend.study.row import common_power
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
 from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_of
@@ -88,7 +92,8 @@ class FeatureCompare(Feature):
         """Show what the methods reached, and what can be done with it."""
         comparison, views, session = self._comparison, self._views, self.session
         if self._seen.another("table", comparison.results, comparison.initial, views.all, comparison.busy):
-            entries = [self._initial(), *(self._entry(name, comparison.of(name)) for name in METHODS)]
+            power = common_power(one.row for one in comparison.results)
+            entries = [self._initial(power), *(self._entry(name, comparison.of(name), power) for name in METHODS)]
             self.panel.set_entries(entries, views.full, comparison.busy)
         runnable = session.editable and not comparison.busy  # two at once would spoil each other's times
         self.panel.set_state(runnable, session.editable, bool(views.all), views.wipe is not None)
@@ -103,20 +108,20 @@ class FeatureCompare(Feature):
 
     # The table
 
-    def _initial(self) -> Entry:
+    def _initial(self, power: Power) -> Entry:
         state = self._comparison.initial
         if state is None:
             return Entry(INITIAL, "The mesh as it is when the methods begin.", {})
         help = "The mesh as it was when the methods began."
-        return Entry(INITIAL, help, state.summary.to_dict(), True, self._views.shows(state))
+        return Entry(INITIAL, help, _figures(state, power), True, self._views.shows(state))
 
-    def _entry(self, name: str, compared: Compared | None) -> Entry:
+    def _entry(self, name: str, compared: Compared | None, power: Power) -> Entry:
         method = METHODS[name]
         if compared is None:
             return Entry(name, f"<b>{method.title}</b><br>{method.help}", {})
         row, state = compared.row, compared.state
         figures = {one.key: getattr(row, one.key, None) for one in LINES}
-        record = figures | (row.after.to_dict() if row.after else {}) | {"worse": row.worse}
+        record = figures | (_figures(state, power) if state is not None else {}) | {"worse": row.worse}
         shown = state is not None and self._views.shows(state)
         return Entry(name, f"<b>{method.title}</b><br>{row.message}", record, state is not None, shown)
 
@@ -192,3 +197,9 @@ class FeatureCompare(Feature):
         if written:
             self.session.commands.done.emit(Tabled(Path(path), names, title))
         return written
+
+
+def _figures(state: State, power: Power) -> dict[str, Any]:
+    """The figures of a mesh, its objective by the p and offset that the table compares by."""
+    own = {"objective": objective(state.figures, *power), "objective_formula": power.formula}
+    return state.summary.to_dict() | own

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.optimise.figures import objective_changes
 from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
 from hexmend_app.scene.palette import BLUE, KEPT, Role
 from hexmend_app.state.history import Record
@@ -28,6 +29,7 @@ class Columns:
     def __init__(self, record: Record):
         self.record = record
         self._known = 0
+        self._changes: list[int] = []
         self._rows = np.empty((64, len(_STORED) + 1))
 
     def grow(self) -> None:
@@ -41,6 +43,7 @@ class Columns:
         if self._known == 0 < newest:
             self._rows[0, _STORED.index("largest_move")] = np.nan  # where it begins, nothing has moved yet
         self._known = newest
+        self._changes = objective_changes(rows[:newest])
 
     def __len__(self) -> int:
         return self._known
@@ -55,6 +58,10 @@ class Columns:
         if key == STEP_SECONDS.key:
             return np.diff(self.seconds, prepend=np.nan)
         return self._rows[: self._known, _STORED.index(key)]
+
+    def breaks(self, key: str) -> list[int]:
+        """Iterations from which on a quantity is another figure: the objective of another stage."""
+        return self._changes if key == "objective" else []
 
     def told(self, key: str) -> bool:
         """Whether the method tells this at all."""
@@ -98,6 +105,11 @@ class Curve:
         if by_time:
             return self.begins[1] + self.columns.seconds
         return self.begins[0] + np.arange(len(self.columns))
+
+    def drawn(self, key: str, by_time: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Where a quantity's line goes, x and y, (k,) float64; nan is a gap, as where the objective becomes another."""
+        breaks = self.columns.breaks(key)
+        return np.insert(self.x(by_time), breaks, np.nan), np.insert(self.columns.of(key), breaks, np.nan)
 
     def nearest(self, x: float, by_time: bool) -> int:
         """Number of the iteration that is nearest to a place on the axis."""

@@ -114,7 +114,7 @@ def _drawn(chart: Chart, curves: Sequence[Curve], by_time: bool, log: bool) -> D
     for curve in curves:
         for at, quantity in enumerate(chart.quantities):
             part = quantity.title if len(chart.quantities) > 1 else ""
-            x, y = curve.x(by_time), curve.columns.of(quantity.key)
+            x, y = curve.drawn(quantity.key, by_time)
             if np.isfinite(y).any():
                 name, colour = curve.record.name, colour_of(curve).light
                 drawn.append(DrawnCurve(name, colour, x.tolist(), y.tolist(), bool(at), curve.current, part))

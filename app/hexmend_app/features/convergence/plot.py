@@ -148,9 +148,11 @@ class ConvergencePlot(QWidget):
                 self.plot.addItem(item, ignoreBounds=True)
         how = (str(colour_of(curve)), curve.current, style)
         what = (curve.record, len(curve.columns), curve.begins, self._by_time, self.is_log, self.scale.floor)
-        line.draw(
-            how, what, lambda: thinned(curve.x(self._by_time), self.heights(curve.columns.of(quantity.key)), MOST)
-        )
+        line.draw(how, what, lambda: self._line(curve, quantity))
+
+    def _line(self, curve: Curve, quantity: Quantity) -> tuple[np.ndarray, np.ndarray]:
+        x, y = curve.drawn(quantity.key, self._by_time)
+        return thinned(x, self.heights(y), MOST)
 
     def heights(self, values: np.ndarray) -> np.ndarray:
         """Where values lie on the axis."""

@@ -79,7 +79,8 @@ def _line(chart: Chart, curve: Curve, number: int, by_time: bool) -> str:
             text = figure(int(value)) if quantity.whole else _significant(float(value))
         else:
             text = "infinite" if quantity.key == "objective" else "not told"
-        figures.append(f"{quantity.title} {text}")
+        formula = curve.record.rows[number].get("objective_formula") if quantity.key == "objective" else None
+        figures.append(f"{quantity.title} {formula} {text}" if formula else f"{quantity.title} {text}")
     kept = curve.kept()
     nearest = int(kept[np.abs(kept - number).argmin()])
     gone = "" if nearest == number else f" (nearest kept: {nearest})"

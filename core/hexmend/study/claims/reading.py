@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from hexmend.energy.power import SQUARES
 from hexmend.optimise import Outcome
-from hexmend.quality import measure
 from hexmend.smoothers import METHODS
 from hexmend.study.measured import Measured
 from hexmend.study.row import Row
@@ -58,12 +58,8 @@ def optimised(row: Row) -> bool:
 
 
 def objective(row: Row) -> float | None:
-    """What an optimiser minimises, with the offset that its run had, at delta = 0; None while a hex is inverted."""
-    offset = row.parameters.get("offset", 1)
-    if offset == 1 or row.after.objective is None:
-        return row.after.objective
-    eta = measure(row.mesh.points, row.mesh.hexes).eta + 1  # of `measure` it is (B.20), less 1
-    return float(np.square(eta - offset).sum())
+    """What an optimiser minimises, with p and offset of its run, at delta = 0; None while a hex is inverted."""
+    return row.objective_by(row.power or SQUARES)
 
 
 def near_best(one: Measured, row: Row, share: float = SAME) -> bool:

@@ -145,13 +145,31 @@ def test_the_iteration_shown_is_marked_on_its_branch(panel):
     assert not panel.drawn[0].here.isVisible()
 
 
+def test_the_line_of_the_objective_ends_where_a_stage_has_another_one(panel):
+    stages = record("recipe", 9)
+    for row in stages.rows:
+        row["objective_formula"] = "Σ η²" if row["iteration"] < 5 else "Σ η⁴, offset 0"
+    one = curve(stages, kept=range(9))
+    x, y = one.drawn("objective", by_time=False)
+    assert len(x) == len(y) == 10
+    assert np.flatnonzero(np.isnan(x)).tolist() == [5]
+    assert np.isnan(y[5])
+    assert len(one.drawn("q_min", by_time=False)[0]) == 9
+    assert describe(CHARTS["objective"], [one], 4, by_time=False) == "recipe 4: objective Σ η² 250.000"
+    assert describe(CHARTS["objective"], [one], 5, by_time=False) == "recipe 5: objective Σ η⁴, offset 0 200.000"
+    panel.set_curves([one])
+    turn()
+    _, y = panel.plots["objective"].lines[0, "objective"].curve.getData()
+    assert np.isnan(y[5])
+
+
 def test_what_is_under_the_mouse_is_told_and_what_was_thinned_out(panel):
     said = describe(CHARTS["quality"], BOTH, 9.8, by_time=False)
     assert said.splitlines() == [
         "getme 10: q min 0.2381, q mean 0.9000 (nearest kept: 8)",
         "local-sd 2: q min 0.1111, q mean 0.9000 (nearest kept: 0)",
     ]
-    assert describe(CHARTS["objective"], BOTH[:1], 0, by_time=False) == "getme 0: objective Σ η² infinite"
+    assert describe(CHARTS["objective"], BOTH[:1], 0, by_time=False) == "getme 0: objective infinite"
     assert describe(CHARTS["delta"], BOTH[:1], 4, by_time=False) == "getme 4: delta not told"
     assert describe(CHARTS["inverted"], BOTH, 40, by_time=False) == ""
     paused = record("mend", 5)

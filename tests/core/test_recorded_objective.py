@@ -1,0 +1,109 @@
+"""The objective that runs record, show and stop by is the one that the method at work minimises."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from hexmend.energy import Power, energies
+from hexmend.gallery import make
+from hexmend.optimise import Outcome, Stop
+from hexmend.optimise.figures import objective_changes
+from hexmend.quality import measure, objective
+from hexmend.recipe import Recipe, Stage
+from hexmend.report import comparison_rows, table_of
+from hexmend.report.run_figures import write_convergence
+from hexmend.run import iterate, smooth
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.optimiser import Objective
+from hexmend.study.compare import compare
+
+OPTIMISERS = [name for name, cls in METHODS.items() if issubclass(cls, Objective)]
+POWERS = [Power(p, offset) for p in (1.0, 2.0, 4.0) for offset in (0.0, 1.0)]
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return make("five-side", size=300, scramble=0.3)
+
+
+def of_points(mesh, points, power):
+    """The objective as the kernels of the optimisers have it."""
+    return np.power(energies(points, mesh.hexes, offset=power.offset), power.p).sum()
+
+
+@pytest.mark.parametrize("power", POWERS, ids=lambda power: power.formula)
+@pytest.mark.parametrize("name", OPTIMISERS)
+def test_the_recorded_objective_is_that_of_the_method_and_never_rises(mesh, name, power):
+    method = METHODS[name](p=power.p, offset=power.offset)
+    run = iterate(mesh, method, Stop(max_iterations=25))
+    values = []
+    for it in run:
+        if it.figures.n_inverted == 0:
+            assert it.objective == pytest.approx(of_points(mesh, it.points, power), rel=1e-12)
+            values.append(run.history[-1]["objective"])
+    assert len(values) > 2
+    assert values[-1] < values[0]
+    assert all(later <= before * (1 + 1e-12) for before, later in pairwise(values))
+
+
+@pytest.mark.parametrize("name", [name for name in METHODS if name not in OPTIMISERS])
+def test_methods_that_minimise_nothing_record_the_default_objective(mesh, name):
+    result = smooth(mesh, name, Stop(max_iterations=3, keep_last=True))
+    assert result.history[-1]["objective"] == result.after.objective
+
+
+def test_mend_that_raises_p_records_the_objective_of_the_highest():
+    mesh = make("five-side", size=150)
+    result = smooth(mesh, METHODS["mend"](p=2.0, highest_p=8.0))
+    figures = measure(result.mesh.points, mesh.hexes)
+    assert result.history[-1]["objective"] == pytest.approx(objective(figures, 8.0), rel=1e-12)
+    assert result.history[-1]["objective_formula"] == "Σ η⁸"
+
+
+def test_the_figures_before_and_after_keep_the_objective_that_all_meshes_have(mesh):
+    result = smooth(mesh, METHODS["local-sd"](p=4.0, offset=0.0), Stop(max_iterations=5))
+    assert result.after.objective == objective(measure(result.mesh.points, mesh.hexes))
+    assert result.after.objective != result.history[-1]["objective"]
+
+
+@pytest.mark.parametrize("power", POWERS, ids=lambda power: power.formula)
+def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(power):
+    mesh = make("five-side", size=300)
+    stop = Stop(tolerance=1.0)  # every step is short enough: only the objective keeps it going
+    result = smooth(mesh, METHODS["local-sd"](p=power.p, offset=power.offset), stop)
+    assert result.outcome is Outcome.CONVERGED
+    least = power.least * mesh.n_hexes
+    values = [row["objective"] - least for row in result.history]
+    falls = [
+        before - now > max(1e-3 * before, 1e-2 * (power.of(1.0) - power.least)) for before, now in pairwise(values)
+    ]
+    assert falls == [True] * (len(falls) - 1) + [False]
+
+
+def test_stages_record_an_objective_each_and_are_not_compared(mesh, tmp_path):
+    first, second = METHODS["local-sd"](), METHODS["local-sd"](p=4.0, offset=0.0)
+    recipe = Recipe.of(Stage(first, Stop(max_iterations=4)), Stage(second, Stop(max_iterations=4)))
+    result = smooth(mesh, recipe)
+    formulas = [row["objective_formula"] for row in result.history]
+    assert formulas == ["Σ η²"] * 5 + ["Σ η⁴, offset 0"] * 4
+    assert objective_changes(result.history) == [5]
+    write_convergence(tmp_path / "a.svg", {"recipe": result.history}, title="two stages", width_mm=120)
+    assert result._repr_html_().count("<polyline") > smooth(mesh, first, Stop(max_iterations=8))._repr_html_().count(
+        "<polyline"
+    )
+
+
+def test_a_table_compares_methods_by_one_objective_and_names_it(mesh):
+    methods = ["laplacian", METHODS["local-sd"](offset=0.0), METHODS["mend"](p=4.0)]
+    answer = compare(mesh, methods, Stop(max_iterations=10, keep_last=True))
+    record = answer.record()
+    power = Power(2.0, 0.0)  # of the first that minimises something
+    meshes = [mesh, *(row.mesh for row in answer.rows)]
+    for row, one in zip(comparison_rows(record), meshes, strict=True):
+        assert row["objective"] == objective(measure(one.points, one.hexes), *power)
+        assert row["objective_formula"] == "Σ η², offset 0"
+    table = table_of(record)
+    assert "objective Σ η², offset 0" in [line[0] for line in table.rows]
+    heuristics = table_of(compare(mesh, ["laplacian"], Stop(max_iterations=2)).record())
+    assert "objective Σ η²" in [line[0] for line in heuristics.rows]
