@@ -155,6 +155,7 @@ std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, st
     Solver<Real> solver(system, diagonal, damping, work);
     std::fill(x.begin(), x.end(), std::array<Real, 4>{});
     double square = solver.start(right);
+    if (square == 0) return {0, DONE};
     double goal = tolerance * tolerance * square, beta = 0;
     for (int count = 1; count <= most; ++count) {
         solver.turn(static_cast<Real>(beta));

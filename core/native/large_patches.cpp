@@ -6,13 +6,11 @@
 #include <numeric>
 
 #include "compressed.hpp"
+#include "line_search.hpp"
 #include "patch_system.hpp"
 
 namespace hexmend {
 namespace {
-
-// Less descent than this share of the value cannot be told from rounding, and shorter steps descend less.
-constexpr double ROUNDING = 4 * std::numeric_limits<double>::epsilon();
 
 // How often a Hessian's eigenvalues are raised, to what share of its largest entry first, and by what factor then.
 constexpr int RAISES = 10;
@@ -131,7 +129,7 @@ class LargePatch {
     // Algorithm A.5; 0 where no step descends enough.
     template <bool soft> double search(double value, double slope, Asked &asked) const {
         double alpha = how_.first;
-        for (int cut = 0; cut <= how_.cuts && -alpha * slope >= ROUNDING * value; ++cut, alpha *= how_.shrink) {
+        for (int cut = 0; cut <= how_.cuts && !lost_in_rounding(alpha, slope, value); ++cut, alpha *= how_.shrink) {
             asked.energies += hexes_.size();
             if (value_along<soft>(alpha) < value + how_.c1 * alpha * slope) return alpha;
         }

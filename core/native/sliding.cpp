@@ -11,8 +11,6 @@ namespace {
 constexpr double NEAR = 1e-5;
 // How many quads a thread looks at in one go.
 constexpr std::int64_t QUADS = 4096;
-// Less descent than this share of the value cannot be told from rounding.
-constexpr double ROUNDING = 1e-15;
 
 // One node on its patch, as a function of where it is on the surface.
 class Slider {
@@ -61,7 +59,7 @@ class Slider {
     template <bool soft>
     Point searched(const Visit &at, const V3<double> &d, double slope, const LocalStep &how, Mover &mover) const {
         double alpha = how.first;
-        for (int cut = 0; cut <= how.cuts && -alpha * slope > ROUNDING * at.value; ++cut, alpha *= how.shrink) {
+        for (int cut = 0; cut <= how.cuts && !lost_in_rounding(alpha, slope, at.value); ++cut, alpha *= how.shrink) {
             Point place = led(d, alpha);
             if (ground_.quads.turns(points_, ground_.slots[node_], place)) continue;
             patch_.aim(way(place));

@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "line_search.hpp"
 #include "local.hpp"
 #include "patch.hpp"
 
@@ -48,8 +49,8 @@ template <class T> inline Chosen choose(const Patch<T> &patch, const Visit &at, 
     return chosen;
 }
 
-// Algorithm A.5 along d: the accepted step; 0 if none of `cuts` + 1 trials descends enough. `hear` is
-// told of each trial.
+// Algorithm A.5 along d: the accepted step; 0 if none of `cuts` + 1 trials descends enough, or none can any more.
+// `hear` is told of each trial.
 template <bool soft, class T, class Hearer>
 inline double back_line_search(Patch<T> &patch, const Visit &at, const Chosen &chosen, const LocalStep &how,
                                Hearer &hear) {
@@ -60,6 +61,7 @@ inline double back_line_search(Patch<T> &patch, const Visit &at, const Chosen &c
         double bound = at.value + how.c1 * alpha * chosen.slope;
         hear.tries(patch.size(), alpha, trial, bound);
         if (trial < bound) return alpha;
+        if (lost_in_rounding(alpha, chosen.slope, at.value)) return 0;
     }
     return 0;
 }

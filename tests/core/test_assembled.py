@@ -159,6 +159,15 @@ def test_the_solution_descends_whatever_the_curvature(seed, shift, precision):
     assert hessian.assembled(precision).solve(right, 1e-3, 50).x @ right > 0
 
 
+@pytest.mark.parametrize("precision", [np.float32, np.float64])
+def test_the_solution_for_nothing_is_nothing_at_once(precision):
+    hessian = hessian_of(scrambled(grid(4), 0.15, 3))
+    solved = hessian.assembled(precision).solve(np.zeros(hessian.shape[0]), 1e-3, 50)
+    assert not solved.negative_curvature
+    assert solved.iterations == 0
+    assert not solved.x.any()
+
+
 def test_how_a_solve_ended_is_told():
     hessian = hessian_of(scrambled(grid(5), 0.15, 3))
 

@@ -50,6 +50,16 @@ def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scram
     assert result.after.objective == pytest.approx(sound.after.objective, rel=1e-5, abs=1e-9)
 
 
+@pytest.mark.parametrize("p", [1.0, 2.0, 4.0])
+@pytest.mark.parametrize("offset", [0.0, 1.0])
+@pytest.mark.parametrize("how", [{}, {"boundary": "slide"}, {"highest_p": 16.0}], ids=str)
+@pytest.mark.parametrize("scramble", [0.0, 0.3])
+def test_a_mesh_of_cubes_ends_as_converged(p, offset, how, scramble):
+    result = smooth(make("cube", size=27, scramble=scramble), Mend(p=p, offset=offset, **how))
+    assert result.outcome is Outcome.CONVERGED
+    assert result.after.q_min == pytest.approx(1, abs=1e-4)  # with a high p, cubes are where the energy is very flat
+
+
 @settings(max_examples=25)
 @given(
     seed=st.integers(0, 2**32 - 1),

@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.energy import Power, objective
 from hexmend.gallery import make
-from hexmend.run import Stop, smooth
+from hexmend.run import Stop, iterate, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.optimiser import Objective, Optimiser
 from tests.core.grids import grid, scrambled
@@ -77,3 +77,10 @@ def test_moves_are_lengths_or_changes_of_a_coordinate():
     }
     assert iterations["coordinate"] == 1
     assert iterations["length"] > 1
+
+
+@pytest.mark.parametrize("name", ["local-sd", "local-nr", "local-mnr"])
+def test_nodes_that_have_converged_cost_few_evaluations(name):
+    run = iterate(make("five-side", size=150), METHODS[name](), Stop(max_iterations=400, tolerance=0))
+    sweeps = [step.notes["energies"] / step.notes["derivatives"] for step in run]
+    assert max(sweeps[-50:]) < 3  # where rounding hides what a shorter step would gain, none is tried

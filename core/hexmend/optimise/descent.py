@@ -147,4 +147,4 @@ def perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
     """Whether every hex is a cube but for rounding, so that gradient and Hessian are nothing but noise."""
     eps, hexes = np.finfo(float).eps, energy.mesh.n_hexes
     least = energy.least if delta == 0 else 0.0  # softened, a hex may have less energy than a cube
-    return value <= (1 + ROUNDING * eps) * least + hexes * eps**2
+    return value <= (1 + ROUNDING * eps) * least + hexes * eps ** min(energy.power.p, 2.0)

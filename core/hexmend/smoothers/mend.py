@@ -255,5 +255,5 @@ def _swept(
 
 def _end(taken: Descent | None) -> Outcome:
     """How it ended where no step descended: at the optimum what a step would gain is less than rounding."""
-    at_rounding = taken is not None and -taken.slope < 1e-10 * taken.value
+    at_rounding = taken is not None and -taken.slope <= 1e-10 * taken.value  # both are 0 where all hexes are cubes
     return Outcome.CONVERGED if at_rounding else Outcome.NO_DESCENT
