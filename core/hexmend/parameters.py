@@ -28,7 +28,10 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter as declared: name, type, default, bounds (inclusive), choices, unit and a sentence of help."""
+    """One parameter as declared: name, type, default, bounds (inclusive), choices, unit and a sentence of help.
+
+    A number that is a limit may have a word for no limit, which is then a value as well.
+    """
 
     name: str
     type: type
@@ -38,6 +41,7 @@ class Parameter:
     choices: tuple[str, ...] | None
     unit: str
     help: str
+    no_limit: str = ""
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
@@ -56,6 +60,8 @@ class Parameter:
             return value
         if self.type is str:
             return str(value)
+        if self.no_limit and value in (self.no_limit, math.inf):
+            return self.no_limit
         try:
             number = self.type(value)
             if isinstance(value, bool) or math.isnan(number) or number != float(value):
@@ -74,14 +80,14 @@ class Parameter:
             return f"one of {', '.join(self.choices)}"
         if self.type is bool:
             return "true or false"
-        kind = "a whole number" if self.type is int else "a number"
+        words = "a whole number" if self.type is int else "a number"
         if self.low is not None and self.high is not None:
-            return f"{kind} from {self.low:g} to {self.high:g}"
-        if self.low is not None:
-            return f"{kind} of at least {self.low:g}"
-        if self.high is not None:
-            return f"{kind} of at most {self.high:g}"
-        return kind
+            words += f" from {self.low:g} to {self.high:g}"
+        elif self.low is not None:
+            words += f" of at least {self.low:g}"
+        elif self.high is not None:
+            words += f" of at most {self.high:g}"
+        return f"{words}, or {self.no_limit}" if self.no_limit else words
 
     def parse(self, text: str) -> Any:
         """The value that a word of the command line or of a recipe stands for; raises `ParameterError` for none."""
@@ -128,12 +134,14 @@ def parameter(
     choices: tuple[str, ...] | None = None,
     unit: str = "",
     help: str,
+    no_limit: str = "",
 ) -> Any:
-    """Declare a dataclass field as a parameter; its type is the field's annotation."""
-    return dataclasses.field(
-        default=default,
-        metadata={"parameter": {"low": low, "high": high, "choices": choices, "unit": unit, "help": help}},
-    )
+    """Declare a dataclass field as a parameter; its type is the field's annotation.
+
+    `no_limit` is the word that may stand for a number that is a limit, where there is to be none.
+    """
+    own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
+    return dataclasses.field(default=default, metadata={"parameter": own})
 
 
 def declared(kind: type | Any) -> tuple[Parameter, ...]:

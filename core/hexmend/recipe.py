@@ -2,7 +2,7 @@
 
 As a file a recipe is TOML::
 
-    format = 1
+    format = 2
     title = "GETMe, then mend"
 
     [[stage]]
@@ -27,10 +27,11 @@ from hexmend.errors import ParameterError
 from hexmend.optimise import Stop
 from hexmend.parameters import from_values, hint
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.smoothers.sliding_smoother import UNLIMITED
 from hexmend.toml_text import parsed
 
 #: The number of the format that is written; lower ones can be read.
-FORMAT = 1
+FORMAT = 2
 
 _HEAD = "# A recipe: hexmend smooth MESH -o OUT --recipe THIS-FILE\n"
 
@@ -122,8 +123,7 @@ def from_toml(text: str) -> Recipe:
     ParameterError
         Naming line and column where it is no TOML, else the stage, the key and what was expected there.
     """
-    data = parsed(text, "a recipe")
-    check_format(data)
+    data = in_this_format(parsed(text, "a recipe"))
     check_keys("the recipe", data, ("format", "title", "stage"))
     title, stages = data.get("title", ""), data.get("stage", [])
     if not isinstance(title, str):
@@ -133,15 +133,44 @@ def from_toml(text: str) -> Recipe:
     return Recipe.of(*(read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
 
 
-def check_format(data: Mapping[str, Any]) -> None:
-    """Raise `ParameterError` where a recipe does not say of which format it is, or is of a newer one."""
+def in_this_format(data: dict[str, Any]) -> dict[str, Any]:
+    """A recipe as data of the format that is written.
+
+    Raises
+    ------
+    ParameterError
+        Where it does not say of which format it is, or is of a newer one.
+    """
     number = data.get("format")
     if number is None:
         raise ParameterError(f"the recipe has no format: expected  format = {FORMAT}  as its first line")
     if type(number) is not int or number < 1:
         raise ParameterError(f"format = {number!r} is no format of a recipe: expected {FORMAT}")
     if number > FORMAT:
-        raise ParameterError(f"format = {number} is newer than this version of Hexmend, which reads {FORMAT}")
+        raise ParameterError(f"format = {number} is newer than this version of Hexmend, which reads up to {FORMAT}")
+    return data if number > 1 else without_zero_for_no_limit(data)
+
+
+def without_zero_for_no_limit(data: Any) -> Any:
+    """Data of a file from the time when a surface tolerance of 0 meant that there is no limit, as it is read now.
+
+    >>> without_zero_for_no_limit({"stage": [{"parameters": {"surface_tolerance": 0.0, "p": 2.0}}]})
+    {'stage': [{'parameters': {'surface_tolerance': 'unlimited', 'p': 2.0}}]}
+    """
+    if isinstance(data, list):
+        return [without_zero_for_no_limit(one) for one in data]
+    if not isinstance(data, dict):
+        return data
+    now = {key: without_zero_for_no_limit(one) for key, one in data.items()}
+    if "surface_tolerance" in now:
+        given = now["surface_tolerance"]
+        several = [UNLIMITED if _is_zero(one) else one for one in (given if isinstance(given, list) else [given])]
+        now["surface_tolerance"] = several if isinstance(given, list) else several[0]
+    return now
+
+
+def _is_zero(value: Any) -> bool:
+    return type(value) in (int, float) and value == 0
 
 
 def read_stage(number: int, data: Mapping[str, Any]) -> Stage:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import pytest
 
 from hexmend.errors import ParameterError
-from hexmend.parameters import Parametrised, declared, from_strings, parameter
+from hexmend.parameters import Parametrised, declared, from_strings, from_values, parameter
 from hexmend.registry import Registry
 
 
@@ -15,10 +15,11 @@ class Sample(Parametrised):
     count: int = parameter(3, low=1, help="A number.")
     kind: str = parameter("a", choices=("a", "b"), help="A choice.")
     strict: bool = parameter(False, help="A switch.")
+    most: float = parameter(2.0, low=0, high=10, help="A limit.", no_limit="unlimited")
 
 
 def test_declarations_are_read_off_the_class():
-    rho, count, kind, strict = declared(Sample)
+    rho, count, kind, strict, _ = declared(Sample)
     assert (rho.name, rho.type, rho.default, rho.low, rho.high, rho.unit, rho.help) == (
         "rho",
         float,
@@ -36,7 +37,18 @@ def test_declarations_are_read_off_the_class():
 def test_values_come_from_words():
     sample = from_strings(Sample, {"rho": "1e-1", "count": "4", "kind": "b", "strict": "yes"})
     assert sample == Sample(rho=0.1, count=4, kind="b", strict=True)
-    assert sample.values() == {"rho": 0.1, "count": 4, "kind": "b", "strict": True}
+    assert sample.values() == {"rho": 0.1, "count": 4, "kind": "b", "strict": True, "most": 2.0}
+
+
+def test_a_limit_may_have_a_word_for_none():
+    assert from_strings(Sample, {"most": "unlimited"}).most == Sample(most=float("inf")).most == "unlimited"
+    assert from_values(Sample, {"most": "unlimited"}) == Sample(most="unlimited")
+    assert Sample(most=0).most == 0
+    for wrong in ("none", 11, "nan"):
+        with pytest.raises(ParameterError, match="expected a number from 0 to 10, or unlimited"):
+            Sample(most=wrong)
+    with pytest.raises(ParameterError, match=r"rho = 'unlimited' is not a number: expected a number from 0 to 1$"):
+        Sample(rho="unlimited")
 
 
 def test_numbers_take_their_declared_type():

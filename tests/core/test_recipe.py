@@ -15,7 +15,7 @@ from hexmend.parameters import declared
 from hexmend.recipe import Recipe, Stage, from_toml, to_toml
 from hexmend.smoothers import METHODS
 
-HEAD = 'format = 1\ntitle = "T"\n'
+HEAD = 'format = 2\ntitle = "T"\n'
 
 
 def values(one):
@@ -26,7 +26,8 @@ def values(one):
         return st.booleans()
     if one.type is int:
         return st.integers(one.low, one.high)
-    return st.floats(one.low, one.high)
+    numbers = st.floats(one.low, one.high)
+    return numbers | st.just(one.no_limit) if one.no_limit else numbers
 
 
 def made(cls):
@@ -54,6 +55,16 @@ def test_every_value_of_every_method_is_written(name):
 def test_what_a_file_does_not_name_has_its_default():
     recipe = from_toml(HEAD + '[[stage]]\nmethod = "local-sd"\nparameters.p = 4\n[[stage]]\nmethod = "mend"')
     assert recipe == Recipe.of(METHODS["local-sd"](p=4), "mend", title="T")
+
+
+@pytest.mark.parametrize(("number", "written", "read"), [
+    (1, "0", "unlimited"), (1, "0.0", "unlimited"), (1, "0.3", 0.3), (2, "0", 0.0), (2, '"unlimited"', "unlimited"),
+])  # fmt: skip
+def test_a_surface_tolerance_of_0_was_no_limit_in_the_first_format(number, written, read):
+    stage = f'[[stage]]\nmethod = "mend"\nparameters = {{ boundary = "slide", surface_tolerance = {written} }}'
+    recipe = from_toml(f"format = {number}\n{stage}")
+    assert recipe.stages[0].smoother.surface_tolerance == read
+    assert from_toml(to_toml(recipe)) == recipe
 
 
 def test_a_file_is_written_and_read(tmp_path):
@@ -84,9 +95,9 @@ STAGE = '[[stage]]\nmethod = "getme"\n[[stage]]\n'
     ('format = 1\ntitle = "', "is not TOML: unterminated string (at line 2, column 10, the end)"),
     ("n = " + "9" * 5000, "is not TOML"),
     ("a = " + "[" * 5000, "nested too deeply"),
-    ('title = "T"', "the recipe has no format: expected  format = 1"),
-    ("format = 2", "format = 2 is newer than this version of Hexmend, which reads 1"),
-    ('format = "1"', "format = '1' is no format of a recipe: expected 1"),
+    ('title = "T"', "the recipe has no format: expected  format = 2"),
+    ("format = 3", "format = 3 is newer than this version of Hexmend, which reads up to 2"),
+    ('format = "1"', "format = '1' is no format of a recipe: expected 2"),
     (HEAD, "has no stage: expected [[stage]]"),
     (HEAD + "stage = 3", "has no stage: expected [[stage]]"),
     (HEAD + "stages = 3", "the recipe has no key 'stages': did you mean stage?"),

@@ -38,7 +38,7 @@ def test_no_step_turns_a_quad_over(name, solid, amplitude, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
     sliding = Sliding(mesh)
     before = sides(mesh.points, sliding)
-    method = METHODS[name](boundary="slide", surface_tolerance=0.0)
+    method = METHODS[name](boundary="slide", surface_tolerance="unlimited")
     for step in itertools.islice(method.steps(mesh), 8):
         after = sides(step.points, sliding)
         if not step.detour:
@@ -64,7 +64,7 @@ def test_a_node_beyond_its_neighbour_finds_its_way_back(name):
     node = int(np.flatnonzero((cube.points == [2, 2, 0]).all(axis=1))[0])
     points[node, 0] += 1.4  # two quads lie over each other, none is turned as a whole
     mesh = cube.with_points(points)
-    result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=0.0), Stop(max_iterations=200))
+    result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance="unlimited"), Stop(max_iterations=200))
     assert (sides(result.mesh.points, Sliding(cube)) > 0.5).all()
     assert np.linalg.norm(result.mesh.points[node] - cube.points[node]) < 0.5
     np.testing.assert_array_equal(result.mesh.points[:, 2][cube.points[:, 2] == 0], 0)
@@ -97,6 +97,27 @@ def test_the_boundary_stays_in_its_room_both_ways(name, solid, amplitude, tolera
 def test_the_room_costs_little_of_what_is_reached(name):
     mesh = slid(wavy(grid(4), 0.3), 0.5, seed=2)
     stop = Stop(max_iterations=20, keep_last=True)
-    free, held = (smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=room), stop) for room in (0.0, 0.1))
+    free, held = (
+        smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=room), stop) for room in ("unlimited", 0.1)
+    )
     assert free.surface.max > 0.1 >= held.surface.max * (1 - 1e-6)
     assert held.after.q_mean - held.before.q_mean > 0.3 * (free.after.q_mean - free.before.q_mean)
+
+
+@settings(max_examples=40)
+@given(name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.0, 0.3, 0.8]), seed=SEED)
+def test_with_a_tolerance_of_0_the_boundary_stays_on_its_surface(name, solid, amplitude, seed):
+    mesh = slid(SOLIDS[solid](), amplitude, seed)
+    method = METHODS[name](boundary="slide", surface_tolerance=0)
+    result = smooth(mesh, method, Stop(max_iterations=10, keep_last=True))
+    assert result.surface.max < 1e-7
+    assert abs(result.surface.volume_change) < 1e-7
+
+
+@pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "global-nr", "mend"])
+def test_with_a_tolerance_of_0_nodes_slide_where_the_surface_is_flat(name):
+    mesh = slid(grid(4), 0.3, seed=1)
+    result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=0), Stop(max_iterations=50))
+    on = result.mesh.points[Sliding(mesh).nodes]
+    assert np.abs(on - np.round(on)).max() < 0.05  # where the nodes of a grid of cubes are
+    assert result.surface.max < 1e-9

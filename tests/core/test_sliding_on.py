@@ -123,6 +123,10 @@ def test_the_command_line_takes_it(tmp_path, capsys):
     said = json.loads(report.read_text())
     assert said["parameters"]["boundary"] == "slide"
     assert said["parameters"]["surface_tolerance"] == 0.2
+    assert main([*words, "--method", "local-nr", "--boundary", "slide", "--surface-tolerance", "unlimited"]) in (0, 4)
+    assert json.loads(report.read_text())["parameters"]["surface_tolerance"] == "unlimited"
+    assert main([*words, "--method", "local-nr", "--boundary", "slide", "--surface-tolerance", "0"]) in (0, 4)
+    assert json.loads(report.read_text())["surface"]["max"] < 1e-7
     recipe = tmp_path / "recipe.toml"
     recipe.write_text('format = 1\n[[stage]]\nmethod = "laplacian"\nparameters = { boundary = "slide" }\n')
     assert main([*words, "--recipe", str(recipe), "--surface", str(stl)]) in (0, 4)

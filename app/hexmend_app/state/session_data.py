@@ -15,6 +15,7 @@ from hexmend.io.session import SUFFIX, KeptSession, is_session, read_session, wr
 from hexmend.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
+from hexmend.recipe import without_zero_for_no_limit
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.state.chain import ChainData
@@ -38,6 +39,8 @@ from hexmend_app.state.views import ViewsData
 _HEAD = 64
 #: What fields are called in files from before they were renamed.
 _FORMER = {Advice: {"limiting": "holding"}}
+#: The last version in which a surface tolerance of 0 meant that there is no limit.
+_ZERO_FOR_NO_LIMIT = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +179,8 @@ def read(path: Path) -> SessionData:
         KeptCameras: Own(_none, lambda data: table.made(KeptCameras, data, ("cameras",))),
     }, stored.version, _FORMER)  # fmt: skip
     try:
-        data = plain.value(stored.window, SessionData, "the window")
+        window = stored.window if stored.version > _ZERO_FOR_NO_LIMIT else without_zero_for_no_limit(stored.window)
+        data = plain.value(window, SessionData, "the window")
         data.history.check()
         return data
     except (Misfit, MeshError, ValueError) as error:

@@ -68,11 +68,11 @@ class NumberBox(QAbstractSpinBox):
         line.setTextMargins(0, 0, width, 0)
         self.setMinimumWidth(width + self.fontMetrics().horizontalAdvance("0.00000") + 34)
 
-    def value(self) -> float | int:
-        """The last admitted value."""
+    def value(self) -> float | int | str:
+        """The last admitted value: a number, or the declaration's word for no limit."""
         return self._value
 
-    def set_value(self, value: float | int) -> None:
+    def set_value(self, value: float | int | str) -> None:
         """Show a value, without a signal.
 
         Raises
@@ -81,18 +81,18 @@ class NumberBox(QAbstractSpinBox):
             Where the declaration does not admit it.
         """
         self._value = self._settled = self._declaration.check(value)
-        self.lineEdit().setText(short_number(self._value))
+        self.lineEdit().setText(_text(self._value))
         self._mark("")
 
     def _read(self, text: str) -> None:
         try:
             value = self._declaration.parse(text.strip())
-            if not math.isfinite(value):
+            if not isinstance(value, str) and not math.isfinite(value):
                 raise ParameterError(f"{text} is not finite")
         except ParameterError:
             # Not the value of what was typed so far: on the way to 1e-3 that is 1.
             self._value = self._settled
-            expected, kept = self._declaration.range, short_number(self._value)
+            expected, kept = self._declaration.range, _text(self._value)
             self._mark(f"Expected {expected}. {kept} stays in use until this is corrected.")
         else:
             self._value = value
@@ -110,7 +110,10 @@ class NumberBox(QAbstractSpinBox):
         self.setPalette(palette)
 
     def stepBy(self, steps: int) -> None:
-        """Step a whole number by one, any other by one in its leading digit; stop at the bounds."""
+        """Step a whole number by one, any other by one in its leading digit; stop at the bounds.
+
+        Beyond the upper bound is no limit, where the declaration has a word for that.
+        """
         value = self._value
         for _ in range(abs(steps)):
             value = self._neighbour(value, 1 if steps > 0 else -1)
@@ -119,9 +122,13 @@ class NumberBox(QAbstractSpinBox):
             self.changed.emit()
         self.lineEdit().selectAll()
 
-    def _neighbour(self, value: float, sign: int) -> float:
+    def _neighbour(self, value: float | str, sign: int) -> float | str:
         low = -math.inf if self._declaration.low is None else self._declaration.low
         high = math.inf if self._declaration.high is None else self._declaration.high
+        if isinstance(value, str):
+            return value if sign > 0 else high
+        if sign > 0 and value >= high and self._declaration.no_limit:
+            return self._declaration.no_limit
         if self._declaration.type is int:
             return int(min(max(value + sign, low), high))
         magnitude = abs(value) or abs(self._declaration.default) or 0.1
@@ -134,9 +141,10 @@ class NumberBox(QAbstractSpinBox):
     def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:
         """Which arrows lead anywhere."""
         flags = QAbstractSpinBox.StepEnabledFlag.StepNone
-        if self._declaration.high is None or self._value < self._declaration.high:
+        unlimited, high, low = isinstance(self._value, str), self._declaration.high, self._declaration.low
+        if not unlimited and (high is None or self._value < high or self._declaration.no_limit):
             flags |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
-        if self._declaration.low is None or self._value > self._declaration.low:
+        if unlimited or low is None or self._value > low:
             flags |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
         return flags
 
@@ -151,6 +159,10 @@ class NumberBox(QAbstractSpinBox):
         # An admitted value is written in its shortest form once the user is done with it.
         if not self.problem:
             self.set_value(self._value)
+
+
+def _text(value: float | int | str) -> str:
+    return value if isinstance(value, str) else short_number(value)
 
 
 def _enabled(role: QPalette.ColorRole, colour: Role, palette: QPalette | None = None) -> QPalette:

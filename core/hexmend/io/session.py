@@ -17,7 +17,7 @@ from hexmend.io.format import FORMATS, Format
 from hexmend.mesh import Mesh
 
 #: The suffix of sessions, and the number of what is written; lower ones can be read.
-SUFFIX, VERSION = ".hexmend", 3
+SUFFIX, VERSION = ".hexmend", 4
 #: Meshes of one session: changes, runs and what they are compared with.
 MOST = 10_000
 

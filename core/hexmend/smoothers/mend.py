@@ -100,8 +100,8 @@ class Mend(Objective):
         places, sliding, limits = [mesh.points, points], None, None
         words: list[str] = []
         if self.slides:
-            room = self.surface_tolerance * mesh.mean_edge_length
-            sliding = Sliding(mesh, self.feature_angle, SPARED * room if room else np.inf)
+            room = self.room(mesh)
+            sliding = Sliding(mesh, self.feature_angle, SPARED * room)
             freeing = Raising(sliding.mesh, points, sliding)
             yield from raise_least(freeing, SOUND, clusters=1)
             energy = SlidingEnergy(sliding, first)
@@ -113,7 +113,8 @@ class Mend(Objective):
             if raises or raising.corners.least < SOUND:
                 outcome = Outcome.NO_IMPROVEMENT
                 limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
-                if self.slides and room and raising.corners.lowest < (AIM if raises else SOUND):
+                may_leave = self.slides and 0 < room < np.inf
+                if may_leave and raising.corners.lowest < (AIM if raises else SOUND):
                     raising, limit = yield from lifted(Raising(at, places[1], sliding), room, raising, limit)
                 points = raising.points
                 if raises:

@@ -15,6 +15,9 @@ from hexmend.surface import Sliding
 
 T = TypeVar("T")
 
+#: The word for a surface tolerance that sets no limit: nodes slide, wherever the boundary between them goes.
+UNLIMITED = "unlimited"
+
 #: Sweeps in which a node would leave the room around the surface before it is not tried any more.
 PATIENCE = 3
 
@@ -35,7 +38,9 @@ class SlidingSmoother(Smoother):
         low=0,
         high=10,
         unit="mean edge length",
-        help="How far the boundary may leave the surface; 0: nodes slide, without a limit.",
+        help="How far the boundary may leave the surface: 0 keeps it there, so that nodes slide where it is flat "
+        "alone; unlimited sets no limit to what sliding nodes leave between them.",
+        no_limit=UNLIMITED,
     )
 
     @property
@@ -50,7 +55,11 @@ class SlidingSmoother(Smoother):
         """What the nodes of a mesh's boundary slide on; None where they stay."""
         if not self.slides:
             return None
-        return Sliding(mesh, self.feature_angle, self.surface_tolerance * mesh.mean_edge_length or np.inf)
+        return Sliding(mesh, self.feature_angle, self.room(mesh))
+
+    def room(self, mesh: Mesh) -> float:
+        """How far the boundary may leave the surface, in the mesh's unit of length."""
+        return np.inf if self.surface_tolerance == UNLIMITED else self.surface_tolerance * mesh.mean_edge_length
 
 
 class Sweeps:

@@ -54,11 +54,14 @@ class Room:
     target : Skin or None
         The surface; None where it is the boundary as it was.
     room : float
-        How far the two may be from each other, in the mesh's unit.
+        How far the two may be from each other, in the mesh's unit; 0 for no further than rounding leaves them apart.
     """
 
     def __init__(self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: Skin | None, room: float):
-        self.points, self.room, self._faces, self._start, self._given = points, room, faces, start, target
+        self.points, self._faces, self._start, self._given = points, faces, start, target
+        corners = points[faces.ravel()]
+        size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
+        self.room = max(room, _ROUNDING * size)
 
     @cached_property
     def skin(self) -> Skin:
@@ -142,8 +145,7 @@ class Room:
         return np.unique(np.concatenate([one.ravel() for one in (off.nodes, behind.nodes, nodes[behind.which])]))
 
     def _most(self, at_first: np.ndarray) -> np.ndarray:
-        least = _ROUNDING * float(np.linalg.norm(np.ptp(self.points[self.skin.nodes], axis=0)))
-        return np.maximum(np.maximum(at_first, self.room) * (1 + _ROUNDING), least)
+        return np.maximum(at_first, self.room) * (1 + _ROUNDING)
 
     @cached_property
     def _samples(self) -> np.ndarray:

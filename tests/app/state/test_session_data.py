@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from hexmend.io import session
+from hexmend.recipe import Stage
+from hexmend.smoothers import METHODS
 from hexmend_app.state import session_data
 
 _FILES = Path(__file__).parent / "files"
@@ -27,3 +31,14 @@ def test_a_session_that_is_read_is_written_as_it_was(tmp_path):
     again = session_data.read(tmp_path / "again.hexmend")
     assert again.history.records[0].advice.why == data.history.records[0].advice.why
     np.testing.assert_array_equal(again.document.now.mesh.points, data.document.now.mesh.points)
+
+
+@pytest.mark.parametrize(("version", "read"), [(3, "unlimited"), (4, 0.0)])
+def test_a_surface_tolerance_of_0_was_no_limit_up_to_version_3(tmp_path, monkeypatch, version, read):
+    data = session_data.read(_FILES / "version_2.hexmend")
+    stage = Stage(METHODS["mend"](boundary="slide", surface_tolerance=0))
+    data = dataclasses.replace(data, order=dataclasses.replace(data.order, stage=stage))
+    monkeypatch.setattr(session, "VERSION", version)
+    session_data.write(tmp_path / "old.hexmend", data)
+    monkeypatch.undo()
+    assert session_data.read(tmp_path / "old.hexmend").order.stage.smoother.surface_tolerance == read

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLabel, QToolButton, QWidget
 
 from hexmend.errors import ParameterError
-from hexmend.parameters import Parametrised, declared, parameter
+from hexmend.parameters import Parameter, Parametrised, declared, parameter
 from hexmend_app.widgets.number_box import NumberBox
 from hexmend_app.widgets.parameter_form import ParameterForm
 from tests.app.driving import named
@@ -255,6 +255,20 @@ def test_stepping_down_from_one_passes_through_tenths(qapp):
     assert box.value() == 0.9
     box.stepBy(1)
     assert box.value() == 1.0
+
+
+def test_beyond_the_upper_bound_is_the_word_for_no_limit(qapp):
+    box = NumberBox(Parameter("room", float, 0.3, 0.0, 10.0, None, "", "", "unlimited"))
+    box.set_value(9.0)
+    box.stepBy(3)
+    assert box.value() == box.text() == "unlimited"
+    assert not box.stepEnabled() & QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
+    box.stepBy(-1)
+    assert box.value() == 10
+    type_into(box, "unlimited")
+    assert (box.value(), box.problem) == ("unlimited", "")
+    type_into(box, "none")
+    assert "or unlimited" in box.problem
 
 
 def test_in_a_narrow_form_no_word_of_a_name_is_cut_off(form):

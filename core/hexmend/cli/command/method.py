@@ -65,7 +65,8 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--surface-tolerance",
         metavar="X",
-        help="how far the boundary may leave the surface, in mean edge lengths; as --set surface_tolerance=X",
+        help="how far the boundary may leave the surface, in mean edge lengths, 0 to stay on it, or the word "
+        "unlimited; as --set surface_tolerance=X",
     )
 
 

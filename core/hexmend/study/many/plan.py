@@ -17,7 +17,7 @@ from hexmend.errors import ParameterError
 from hexmend.io.recipes import read_recipe
 from hexmend.io.toml_files import read_toml
 from hexmend.parameters import declared, from_values
-from hexmend.recipe import check_format, check_keys, table_in
+from hexmend.recipe import check_keys, in_this_format, table_in
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend.study.many.case import Case, Limits
@@ -86,7 +86,7 @@ def plan_of(text: str, folder: Path, title: str = "Study") -> Plan:
     Examples
     --------
     >>> plan = plan_of('''
-    ... format = 1
+    ... format = 2
     ... methods = ["laplacian"]
     ... [[method]]
     ... method = "local-sd"
@@ -96,8 +96,7 @@ def plan_of(text: str, folder: Path, title: str = "Study") -> Plan:
     >>> [case.name for case in plan.cases][:3]
     ['laplacian', 'local-sd p=2 max_iterations=50', 'local-sd p=2 max_iterations=100']
     """
-    data = parsed(text, "a recipe")
-    check_format(data)
+    data = in_this_format(parsed(text, "a recipe"))
     check_keys("the study", data, ("format", "title", "methods", "method", "stop", "task", "boundary"))
     if not isinstance(title := data.get("title", title), str):
         raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
