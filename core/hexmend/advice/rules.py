@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hexmend.advice.limits import longer, to_the_last
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
 from hexmend.optimise import Outcome, Stop
@@ -87,7 +88,8 @@ def go_on(now: Situation) -> Suggestion | None:
     """An optimiser that was cut short while it still gained."""
     if not now.cut_short or not now.smoother.optimises or (now.loose.size and not _is_mend(now)) or not now.improving:
         return None
-    stop, more = _longer(now)
+    stop, more = longer(now)
+    stop, keeping = to_the_last(now, stop)
     gain = "inverted" if now.loose.size else now.aim
     gained = {
         "inverted": "fewer hexes were inverted",
@@ -95,7 +97,7 @@ def go_on(now: Situation) -> Suggestion | None:
         "energy": "nodes moved down the energy",
         "q_norm": "the quality rose",
     }
-    text = f"Run the same again{more}: it goes on from here, and {gained[gain]} until its last iterations."
+    text = f"Run the same again{more}: it goes on from here, and {gained[gain]} until its last iterations.{keeping}"
     return Suggestion("Go on", text, gain, now.smoother, stop)
 
 
@@ -105,7 +107,7 @@ def begin_again(now: Situation) -> Suggestion | None:
     detours = _is_mend(now) and (now.smoother.slides or now.smoother.goal != "shape")
     if not (limited and detours) or go_on(now) is not None:
         return None
-    stop, more = _longer(now)
+    stop, more = longer(now)
     return Suggestion(
         "The same from before the run, longer",
         f"Begin the same again from before the run{more}: it was cut short before it had raised the worst corners, and "
@@ -136,12 +138,14 @@ def tighten(now: Situation) -> Suggestion | None:
         return None
     if now.stop.tolerance <= usual or not now.improving:
         return None
+    stop, keeping = to_the_last(now, replace(now.stop, tolerance=usual))
     return Suggestion(
         "Tighter tolerance",
-        f"Run the same again with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: it still gained.",
+        f"Run the same again with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: it still gained."
+        f"{keeping}",
         now.aim,
         now.smoother,
-        replace(now.stop, tolerance=usual),
+        stop,
     )
 
 
@@ -216,18 +220,6 @@ RULES: tuple[Rule, ...] = (
     unpin, untangle, slide, soften, undo_harm, go_on, begin_again, faster, tighten, guard, optimum, lift_the_worst,
     raise_p,
 )  # fmt: skip
-
-
-def _longer(now: Situation) -> tuple[Stop, str]:
-    """Limits that let it go on for longer, and the words for that."""
-    stop = now.stop
-    if now.result.outcome is Outcome.MAX_ITERATIONS:
-        stop = replace(stop, max_iterations=min(max(2 * stop.max_iterations, 100), 1_000_000))
-        return stop, f" with a limit of {stop.max_iterations:,} iterations"
-    if now.result.outcome is Outcome.MAX_SECONDS:
-        stop = replace(stop, max_seconds=min(2 * stop.max_seconds, 1e7))
-        return stop, f" with a limit of {stop.max_seconds:g} s"
-    return stop, ""
 
 
 def _is_mend(now: Situation) -> bool:
