@@ -14,6 +14,9 @@ from hexmend.kernels import conjugate_gradients as kernels
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
+#: A right-hand side with larger numbers than this is scaled: its squares would leave the range of single precision.
+_LARGE = 1e15
+
 
 @dataclass(frozen=True, eq=False)
 class Solved:
@@ -80,7 +83,7 @@ class Assembled(SymmetricOperator):
         """Solution by conjugate gradients, preconditioned by symmetric Gauss-Seidel.
 
         What has been reached before a direction of negative curvature is returned, or, if it is the first, that
-        direction: one of descent for right = -gradient either way.
+        direction: one of descent for right = -gradient either way. It is 0 for a right-hand side that is not finite.
 
         Parameters
         ----------
@@ -92,12 +95,16 @@ class Assembled(SymmetricOperator):
         damping : float
             The diagonal blocks, made positive definite, are added this many times.
         """
-        b = self._slotted(right)
+        size = float(np.abs(right).max(initial=0.0))
+        if not np.isfinite(size):
+            return Solved(np.zeros(right.size), 0, False)
+        unit = 1.0 if size < _LARGE else 2.0 ** np.frexp(size)[1]  # a power of two, by which x keeps its bits
+        b = self._slotted(right / unit)
         x = np.empty_like(b)
         count, end = kernels.solve(
             *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x, self._work
         )
-        return Solved(x[self.order, :3].astype(np.float64).ravel(), count, end == kernels.NEGATIVE_CURVATURE)
+        return Solved(unit * x[self.order, :3].astype(np.float64).ravel(), count, end == kernels.NEGATIVE_CURVATURE)
 
     @property
     def own_blocks(self) -> np.ndarray:

@@ -109,7 +109,8 @@ class MeshEnergy:
         """Sum of eta(H)^p at points x (n, 3); +inf at delta = 0 while any hex is inverted."""
         p, offset = self.power
         eta = energies(x, self.mesh.hexes, delta, self.left_out, offset)
-        return float((np.square(eta) if p == 2 else np.power(eta, p)).sum())
+        with np.errstate(over="ignore"):  # beside the barrier, and with a node far away: then it is infinite, too
+            return float((np.square(eta) if p == 2 else np.power(eta, p)).sum())
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Derivative of `value` by the free nodes, (k, 3): (B.3), (B.21), (C.2)."""

@@ -61,7 +61,7 @@ def descend(
     search: BackLineSearch,
     reach: float = np.inf,
 ) -> Descent | None:
-    """Take one step from x (n, 3); None where the energy is infinite.
+    """Take one step from x (n, 3); None where the energy or its gradient is infinite.
 
     A direction that does not descend is replaced by steepest descent.
 
@@ -76,10 +76,15 @@ def descend(
         return None
     gradient = energy.gradient(x, delta)
     length = norm(gradient)
+    if not np.isfinite(length):
+        return None
     if perfect(energy, value, delta):
         return Descent(x, value, 0.0, length, Found(np.zeros_like(gradient)), 0.0, 0)
     hessian = energy.hessian(x, delta)
     found = find(value, gradient, hessian)  # A.2, A.3, A.4
+    if not np.isfinite(found.p).all():
+        found = steepest_descent(value, gradient, hessian)
+    shorten_to_range(found.p, energy.unit)
     if np.isfinite(reach):
         ring = energy.mesh.topology.rings
         shorten(found.p, x, ring.start, ring.items, energy.nodes, reach)
@@ -87,6 +92,7 @@ def descend(
     slope = energy.descending(x, delta, found.p, gradient)
     if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
+        shorten_to_range(found.p, energy.unit)
         if np.isfinite(reach):
             restrain(energy, x, delta, found.p)
         slope = energy.descending(x, delta, found.p, gradient)
@@ -99,6 +105,18 @@ def descend(
         found.p[strayed[energy.nodes]] *= 0.5 if trial < TRIALS // 2 else 0.0
         slope, search = energy.descending(x, delta, found.p, gradient), replace(search, first=alpha)
     return Descent(x, value, slope, length, found, 0.0, cuts)
+
+
+#: The longest coordinate of a step, in the mesh's own unit of length: squares of what is further leave the range of
+#: numbers.
+LONGEST = 1e100
+
+
+def shorten_to_range(step: np.ndarray, unit: float) -> None:
+    """Shorten a step (k, 3), in lengths of so many units of the mesh, where it leads out of the range of numbers."""
+    size = float(np.abs(step).max(initial=0.0))
+    if size > LONGEST / unit:
+        step *= LONGEST / unit / size
 
 
 #: How often nodes that stray are held back before there is no step; half of these times their way is halved, then they

@@ -25,7 +25,8 @@ def minres(
         b.
     tolerance : float
     iterations : int
-        Limit, after which the solution so far is returned: no other in the Krylov space has a smaller residual.
+        Limit, after which the solution so far is returned: no other in the Krylov space has a smaller residual. So it
+        is where A or b leave the range of numbers.
 
     Returns
     -------
@@ -42,7 +43,7 @@ def minres(
     x = np.zeros(right.size)
     beta = residual = goal = norm(right)
     goal *= tolerance
-    if residual == 0:
+    if residual == 0 or not np.isfinite(residual):
         return x, 0
     last, now = np.zeros(right.size), right / beta  # Lanczos's vectors
     before, way = np.zeros(right.size), np.zeros(right.size)  # columns of V R^-1
@@ -56,6 +57,8 @@ def minres(
         alpha = dot(now, following)
         following -= alpha * now
         beta = norm(following)
+        if not np.isfinite(beta):  # the matrix has left the range of numbers: no iterate after this one has any
+            return x, count
         # A column of the tridiagonal matrix becomes one of R = Q T.
         upper, delta, gamma = epsilon, c * off + s * alpha, s * off - c * alpha
         epsilon, off = s * beta, -c * beta

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.errors import MeshError
 from hexmend.kernels import sliding as kernels
 from hexmend.mesh import Mesh
 from hexmend.surface.bends import sliding_boundary
@@ -15,7 +16,7 @@ from hexmend.surface.change import NEAR
 from hexmend.surface.features import DEGREES, given_corners
 from hexmend.surface.room import NOBODY, Room
 from hexmend.surface.surface import Surface
-from hexmend.surface.trees import Closest, triangulated
+from hexmend.surface.trees import FARTHEST, Closest, triangulated
 from hexmend.surface.vectors import unit, vertex_normals
 from hexmend.topology import Rows
 
@@ -211,7 +212,15 @@ class Sliding(Room):
         return points
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
-        return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
+        try:
+            return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
+        except MeshError:
+            row = np.flatnonzero(~(np.abs(x) < FARTHEST).all(axis=1))[0]
+            node = int((self.nodes if nodes is None else nodes)[row])
+            raise MeshError(
+                f"node {node} cannot slide: no place of the surface is closest to {x[row].tolist()}; expected finite "
+                f"coordinates below {FARTHEST:g}. Correct its place, or pin it."
+            ) from None
 
 
 def _across(normals: np.ndarray) -> np.ndarray:

@@ -10,6 +10,9 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.kernels import closest
 
+#: Coordinates from which on distances leave the range of numbers.
+FARTHEST = 1e150
+
 
 @dataclass(frozen=True, eq=False)
 class Closest:
@@ -83,7 +86,7 @@ class Trees:
         closest.closest(self.points, self.pieces, self.boxes, self.links, x, roots, enough, piece, places, weights)
         if len(piece) and piece.min() < 0:
             wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
-            raise MeshError(f"nothing is closest to the point {wrong}: expected finite numbers, below 1e150")
+            raise MeshError(f"nothing is closest to the point {wrong}: expected finite numbers, below {FARTHEST:g}")
         return Closest(places, piece, weights)
 
 

@@ -1,0 +1,86 @@
+"""A node that is absurdly far away: no method warns, gives coordinates that are no numbers, or moves what is fixed."""
+
+import numpy as np
+import pytest
+
+from hexmend.advice import advise
+from hexmend.cli.main import main
+from hexmend.errors import MeshError
+from hexmend.io import read, write
+from hexmend.quality import summarise
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS
+from hexmend.surface import Sliding
+from tests.core.grids import grid
+
+#: Of a grid of 4 x 4 x 4 hexes: a node inside, one within a side, and a corner.
+PLACES = {"inside": [2, 2, 2], "side": [2, 2, 0], "corner": [0, 0, 0]}
+
+
+def with_far_node(place, far):
+    mesh = grid(4)
+    points = mesh.points.copy()
+    (node,) = np.flatnonzero((points == PLACES[place]).all(axis=1))
+    points[node, 0] = far
+    return mesh.with_points(points), node
+
+
+@pytest.mark.parametrize("far", [1e15, 1e30, -1e70])
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+@pytest.mark.parametrize("name", METHODS)
+def test_every_method_ends_with_finite_coordinates(name, boundary, place, far):
+    mesh, _ = with_far_node(place, far)
+    result = smooth(mesh, METHODS[name](boundary=boundary), Stop(max_iterations=6))
+    assert np.isfinite(result.mesh.points).all()
+    assert result.after.inverted <= result.before.inverted
+    if boundary == "fixed":
+        np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
+    assert advise(result).why
+
+
+@pytest.mark.parametrize("p", [8.0, 32.0])
+@pytest.mark.parametrize("name", [name for name, cls in METHODS.items() if "p" in cls().values()])
+def test_energies_beyond_the_range_of_numbers_are_infinite(name, p):
+    mesh, _ = with_far_node("inside", 1e30)
+    result = smooth(mesh, METHODS[name](p=p), Stop(max_iterations=6))
+    assert np.isfinite(result.mesh.points).all()
+    assert all(row["objective"] is None or np.isfinite(row["objective"]) for row in result.history)
+
+
+def test_mend_brings_an_inner_node_back_and_leaves_a_fixed_one_where_it_is():
+    mesh, _ = with_far_node("inside", 1e30)
+    assert smooth(mesh, "mend").after.q_min == pytest.approx(1)
+    mesh, node = with_far_node("side", 1e30)
+    result = smooth(mesh, "mend")
+    assert result.mesh.points[node].tolist() == [1e30, 2, 0]
+    assert result.after.inverted <= result.before.inverted
+
+
+@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+@pytest.mark.parametrize("name", ["global-nr", "global-mnr", "mend"])
+def test_the_command_line_says_nothing_on_standard_error(tmp_path, capsys, name, boundary):
+    path, out = tmp_path / "far.vtk", tmp_path / "out.vtk"
+    write(path, with_far_node("inside", 1e30)[0])
+    assert main(["info", str(path)]) == 0
+    assert main(["smooth", str(path), "-o", str(out), "--method", name, "--boundary", boundary]) in (0, 4)
+    said = capsys.readouterr()
+    assert "Warning" not in said.err
+    assert "closest" not in said.err
+    assert np.isfinite(read(out).points).all()
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, 1e200])
+def test_a_node_that_cannot_slide_is_named(wrong):
+    sliding = Sliding(grid(2))
+    x = sliding.mesh.points[sliding.nodes].copy()
+    x[3, 1] = wrong
+    said = rf"node {sliding.nodes[3]} cannot slide: no place of the surface is closest to \[.*{wrong}.*pin it\."
+    with pytest.raises(MeshError, match=said.replace("+", r"\+")):
+        sliding.put_back(x)
+
+
+def test_its_figures_are_numbers():
+    for place in PLACES:
+        figures = summarise(with_far_node(place, 1e30)[0]).to_dict()
+        assert all(value is None or np.isfinite(value) for value in figures.values())
