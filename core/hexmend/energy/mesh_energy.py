@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import threading
 from functools import cached_property
 
 import numpy as np
@@ -57,7 +58,7 @@ class MeshEnergy:
         self.left_out = np.zeros(mesh.n_hexes, np.uint8) if left_out is None else left_out
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
-        self._shares = np.empty((mesh.n_hexes, 8, 3))
+        self._scratch = threading.local()
 
     @cached_property
     def slots(self) -> np.ndarray:
@@ -78,6 +79,8 @@ class MeshEnergy:
 
     def but(self, power: Power, left_out: np.ndarray) -> MeshEnergy:
         """The energy with another power and other corners left out; what depends on the mesh alone is shared.
+
+        Both may be used by several threads at once.
 
         Parameters
         ----------
@@ -128,6 +131,13 @@ class MeshEnergy:
     def strayed(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
         """Which nodes may not go from x (n, 3) to `there`, whatever their energy, (n,) bool; None where all may."""
         return None
+
+    @property
+    def _shares(self) -> np.ndarray:
+        """Scratch for what each hex contributes at its corners, (m, 8, 3): each thread has its own."""
+        if not hasattr(self._scratch, "shares"):
+            self._scratch.shares = np.empty((self.mesh.n_hexes, 8, 3))
+        return self._scratch.shares
 
     def _gathered(self) -> np.ndarray:
         """What the shares of the hexes come to at each free node, (k, 3)."""

@@ -79,10 +79,11 @@ class SlidingEnergy(MeshEnergy):
 
     def projectors(self, x: np.ndarray) -> np.ndarray:
         """What takes displacements of sliding nodes at x, all nodes' (n, 3), along the surface, (k, 3, 3) symmetric."""
-        if self._seen is None or self._seen[0] is not x:
+        seen = self._seen  # another thread may put its own there
+        if seen is None or seen[0] is not x:
             bases = self.sliding.bases(x[self.sliding.nodes] * self.unit)
-            self._seen = x, bases @ bases.transpose(0, 2, 1)
-        return self._seen[1]
+            seen = self._seen = x, bases @ bases.transpose(0, 2, 1)
+        return seen[1]
 
     @cached_property
     def touched(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
