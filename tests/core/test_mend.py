@@ -13,6 +13,7 @@ from hexmend.optimise import Outcome
 from hexmend.quality import corner_determinants, measure, summarise
 from hexmend.run import Stop, iterate, smooth
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
+from hexmend.smoothers.tangled import locked_corners
 from tests.core.grids import grid, scrambled
 
 Mend = METHODS["mend"]
@@ -58,6 +59,25 @@ def test_a_mesh_of_cubes_ends_as_converged(p, offset, how, scramble):
     result = smooth(make("cube", size=27, scramble=scramble), Mend(p=p, offset=offset, **how))
     assert result.outcome is Outcome.CONVERGED
     assert result.after.q_min == pytest.approx(1, abs=1e-4)  # with a high p, cubes are where the energy is very flat
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_local_sweeps_leave_the_nodes_of_hexes_that_are_left_out(seed):
+    """A local energy would count the corners that the energy of all leaves out."""
+    mesh = with_locked_corner(make("five-side", size=300, scramble=1.5, seed=seed))
+    locked = np.zeros(mesh.n_nodes, dtype=bool)
+    locked[mesh.hexes[locked_corners(mesh) != 0]] = True
+    assert (locked & mesh.free).any()
+    before, sweeps = mesh.points, 0
+    for step in Mend().steps(mesh):
+        if "sweeps" in step.notes:
+            moved = (step.points != before).any(axis=1)
+            assert not moved[locked].any()
+            sweeps += moved.any()
+        before = step.points
+        if step.notes.get("delta") == 0:
+            break
+    assert sweeps
 
 
 @settings(max_examples=25)

@@ -202,3 +202,16 @@ def test_a_spoilt_hex_holds_back_its_own_nodes_alone():
     assert np.count_nonzero(~kept[near]) > 0
     assert not kept[thrown]
     np.testing.assert_allclose(step[thrown] / before[thrown], (step[thrown] / before[thrown])[0])
+
+
+def test_a_line_search_takes_the_first_step_that_descends_enough():
+    """Armijo's condition: the share c1 of what the slope promises."""
+    tried = []
+
+    def along(alpha):
+        tried.append(alpha)
+        return 1.0 - 0.02 * alpha if alpha > 0.3 else 1.0 - 0.5 * alpha
+
+    assert BackLineSearch(1.0, 0.5, 0.1)(along, 1.0, -1.0) == (0.25, 2)
+    assert tried == [1.0, 0.5, 0.25]
+    assert BackLineSearch(1.0, 0.5, 0.01)(along, 1.0, -1.0) == (1.0, 0)

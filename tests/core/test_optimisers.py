@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.energy import Power, objective
+from hexmend.energy import SQUARES, Power, objective
 from hexmend.gallery import make
+from hexmend.kernels import local
 from hexmend.run import Stop, iterate, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.optimiser import Objective, Optimiser
@@ -77,6 +78,44 @@ def test_moves_are_lengths_or_changes_of_a_coordinate():
     }
     assert iterations["coordinate"] == 1
     assert iterations["length"] > 1
+    shorter = Stop(
+        tolerance=0.99 * coordinate, move="coordinate"
+    )  # the node that moves furthest counts, not the others
+    assert smooth(mesh, "laplacian", shorter).iterations > 1
+
+
+@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+@pytest.mark.parametrize("name", OPTIMISERS)
+def test_a_step_that_descends_too_little_for_armijo_is_cut(name, boundary):
+    mesh = scrambled(grid(4), 0.15, 4)
+    trials = []
+    for c1 in (1e-6, 0.5):
+        # One and a half times Newton's step gains three eighths of what the slope promises.
+        method = METHODS[name](c1=c1, first_step=1.5, boundary=boundary)
+        run = iterate(mesh, method, Stop(max_iterations=1, tolerance=0))
+        trials.append(sum(step.notes["energies" if "energies" in step.notes else "cuts"] for step in run))
+    assert trials[0] < trials[1]
+
+
+@pytest.mark.parametrize("direction", [local.STEEPEST_DESCENT, local.NEWTON, local.MODIFIED_NEWTON])
+@pytest.mark.parametrize("c1", [1e-4, 0.5])
+def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
+    mesh = make("five-side", size=150, scramble=0.5, seed=3)
+    corners, hexes, cut = mesh.topology.node_corners, mesh.hexes, 0
+    first = 30.0 if direction == local.STEEPEST_DESCENT else 1.5  # far enough to gain too little
+    for node in np.flatnonzero(mesh.free):
+        star = corners[node]
+        _, value, _, _ = local.look(mesh.points, hexes, star, 0.0, 0.05, SQUARES)
+        _, _, slope, _, _, alpha, _, trials = local.visit(
+            mesh.points, hexes, star, direction, 0.05, SQUARES, first, 0.7, c1, 100
+        )
+        if alpha:
+            steps, reached, _ = np.reshape(trials, (-1, 3)).T
+            enough = reached < value + c1 * steps * slope
+            assert steps[-1] == alpha
+            assert enough.tolist() == [False] * (len(steps) - 1) + [True]
+            cut += (reached[:-1] < value).any()  # it descended, but not enough
+    assert cut or c1 < 0.1
 
 
 @pytest.mark.parametrize("name", ["local-sd", "local-nr", "local-mnr"])
