@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 CORE = [
     {"arrays", "cells", "errors", "hexahedron", "shape_functions"},
     {"figures", "mesh_checks", "parameters", "registry", "second_order", "showing", "toml_text"},
+    {"mesh_fields"},
     {"kernels"},
     {"edge_length", "topology"},
     {"mesh"},
@@ -27,9 +28,9 @@ CORE = [
     {"optimise"},
     {"smoothers"},
     {"recipe"},
+    {"io"},
     {"node_step", "run"},
     {"advice"},
-    {"io"},
     {"notebook", "report", "study"},
     {"cli"},
     {"__main__"},

@@ -1,25 +1,39 @@
-"""Arrays as kernels take them, and sums over long ones that are the same with any number of threads."""
+"""Arrays that do not change, and sums over long ones that are the same with any number of threads."""
 
 from __future__ import annotations
 
 import numpy as np
 
 
-def as_points(points: np.ndarray) -> np.ndarray:
-    """(n, 3) float64, contiguous; the same array where it is that already."""
-    return np.ascontiguousarray(points, np.float64)
+def immutable(array: np.ndarray) -> bool:
+    """True where nobody can write to an array: neither it nor any array that it is a view of is writable.
+
+    >>> values = np.zeros(2)
+    >>> immutable(values), immutable(frozen(values))
+    (False, True)
+    """
+    owner: object = array
+    while isinstance(owner, np.ndarray):
+        if owner.flags.writeable:
+            return False
+        owner = owner.base
+    return owner is None or isinstance(owner, bytes)
 
 
-def as_hexes(hexes: np.ndarray) -> np.ndarray:
-    """(m, 8) int32, contiguous; the same array where it is that already."""
-    return np.ascontiguousarray(hexes, np.int32)
+def frozen(array: np.ndarray) -> np.ndarray:
+    """The array if it is immutable, otherwise a contiguous read-only copy of it; the given array stays as it is."""
+    if immutable(array):
+        return array
+    copy = np.array(array, order="C", copy=True)
+    copy.flags.writeable = False
+    return copy
 
 
-def read_only(array: np.ndarray) -> np.ndarray:
-    """A read-only view of an array of any shape, for positions that are handed out and never changed afterwards."""
-    view = array.view()
-    view.flags.writeable = False
-    return view
+def freeze(array: np.ndarray) -> np.ndarray:
+    """The array made read-only in place, for one that the caller has made and gives up; of a view a read-only copy."""
+    if array.base is None:
+        array.flags.writeable = False
+    return frozen(array)
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> float:

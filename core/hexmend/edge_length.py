@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.hexahedron import EDGES
 from hexmend.kernels import elements
+from hexmend.mesh_checks import as_hexes, as_points
 
 #: By what factor the longest edges may raise the mean length of all.
 SPOILED = 4.0
@@ -30,6 +31,10 @@ def mean_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
     >>> mean_edge_length(2 * UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
     2.0
     """
+    points = as_points(points)
+    hexes = as_hexes(hexes, len(points))
+    if not len(hexes):
+        return 0.0
     mean = elements.mean_edge_length(points, hexes)
     usual = _usual(points, hexes)
     return usual if mean > SPOILED * usual > 0 else mean

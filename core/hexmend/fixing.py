@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.hexahedron import FACES
 from hexmend.mesh import Mesh
+from hexmend.mesh_fields import members
 
 
 def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
@@ -22,7 +23,7 @@ def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = 
 
     Raises
     ------
-    IndexError
+    MeshError
         For a node that does not exist.
 
     Examples
@@ -33,7 +34,7 @@ def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = 
     (8, 6)
     """
     pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
-    pinned[nodes] = on
+    pinned[members(np.atleast_1d(nodes), "nodes", mesh.n_nodes)] = on
     return mesh.replace(pinned=pinned)
 
 
@@ -75,7 +76,7 @@ def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
 
     Raises
     ------
-    IndexError
+    MeshError
         For a hex that does not exist.
     """
     region = np.zeros(mesh.n_nodes, dtype=bool)

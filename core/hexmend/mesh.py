@@ -6,15 +6,18 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from importlib import import_module
 from typing import Protocol
 
 import numpy as np
 
+from hexmend.arrays import freeze, frozen
 from hexmend.cells import Cells
 from hexmend.edge_length import mean_edge_length
 from hexmend.errors import MeshError
-from hexmend.mesh_checks import check_finite, check_node_numbers, check_size
-from hexmend.second_order import check_mid_nodes, following
+from hexmend.mesh_checks import as_hexes, as_points, check_finite, check_size, points_like, switches
+from hexmend.mesh_fields import checked
+from hexmend.second_order import following
 from hexmend.showing import html_of
 from hexmend.topology import Topology
 
@@ -33,6 +36,9 @@ class Target(Protocol):
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """A hexahedral mesh. Immutable: `with_points` returns a copy that shares everything else.
+
+    Arrays are copied unless nobody can change them, so that the caller's own stay writable, and what becomes of them
+    later does not change the mesh.
 
     Parameters
     ----------
@@ -63,7 +69,8 @@ class Mesh:
     Raises
     ------
     MeshError
-        Where a coordinate is no finite number, a node number is out of range, or an array has the wrong shape.
+        Where a coordinate is no finite number, a node number is not whole or out of range, a set names what does not
+        exist, or an array has the wrong shape or type. Numbers that are switches, complex or text are refused.
 
     Examples
     --------
@@ -89,31 +96,21 @@ class Mesh:
     topology: Topology = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        points = np.array(self.points, dtype=np.float64, order="C", copy=True)
-        numbers = np.asarray(self.hexes)
-        if points.ndim != 2 or points.shape[1] != 3:
-            raise MeshError(f"points have shape {points.shape}: expected (n, 3)")
-        if numbers.ndim != 2 or numbers.shape[1] != 8 or numbers.shape[0] == 0:
-            raise MeshError(f"hexes have shape {numbers.shape}: expected (m, 8) with at least one hex")
+        points = as_points(self.points)
         check_finite(points)
         check_size(points)
-        check_node_numbers(numbers, len(points))
-        self._set(points=_frozen(points), hexes=_frozen(np.array(numbers, dtype=np.int32, order="C", copy=True)))
-        self._check_carried()
+        hexes = as_hexes(self.hexes, len(points))
+        if not len(hexes):
+            raise MeshError("hexes have shape (0, 8): expected (m, 8) with at least one hex")
+        self._set(points=frozen(points), hexes=frozen(hexes))
+        self._carry({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
         self._set(topology=Topology(self.hexes, len(points)))
 
-    def _check_carried(self) -> None:
-        if self.pinned is not None:
-            pinned = np.array(self.pinned, dtype=bool, copy=True)
-            if pinned.shape != (self.n_nodes,):
-                raise MeshError(f"pinned has shape {pinned.shape}: expected ({self.n_nodes},)")
-            self._set(pinned=_frozen(pinned))
-        if self.mid_nodes is not None:
-            self._set(mid_nodes=_frozen(check_mid_nodes(self.mid_nodes, self.n_hexes, self.n_nodes)))
-        for kind, data, length in (("node", self.node_data, self.n_nodes), ("hex", self.hex_data, self.n_hexes)):
-            for name, values in data.items():
-                if len(values) != length:
-                    raise MeshError(f"{kind} data {name!r} has {len(values)} rows: expected {length}")
+    def _carry(self, values: Mapping[str, object]) -> None:
+        """Check the values of some fields and keep them; points and hexes stay."""
+        for name, value in values.items():
+            if name not in ("points", "hexes"):
+                self._set(**{name: checked(name, value, self.n_nodes, self.n_hexes)})
 
     def _set(self, **values: object) -> None:
         for name, value in values.items():
@@ -133,17 +130,25 @@ class Mesh:
     def fixed(self) -> np.ndarray:
         """True for each node that no method moves: boundary, pinned, and nodes that no hex uses; (n,) bool."""
         fixed = self.topology.boundary | ~self.topology.used
-        return _frozen(fixed if self.pinned is None else fixed | self.pinned)
+        return freeze(fixed if self.pinned is None else fixed | self.pinned)
 
     @cached_property
     def free(self) -> np.ndarray:
         """True for each node that methods may move, (n,) bool."""
-        return _frozen(~self.fixed)
+        return freeze(~self.fixed)
 
     @cached_property
     def mean_edge_length(self) -> float:
         """Mean length of the hexes' edges, each counted once a hex; see `hexmend.edge_length`."""
         return mean_edge_length(self.points, self.hexes)
+
+    def quality(self, metric: str = "q") -> np.ndarray:
+        """The values of a metric of `hexmend.METRICS`, (m,) float64: see `hexmend.quality.values`."""
+        return import_module("hexmend.quality").values(self, metric)
+
+    def worst(self, count: int = 10, metric: str = "q") -> np.ndarray:
+        """The numbers of the worst hexes by a metric, the worst first: see `hexmend.quality.worst_hexes`."""
+        return import_module("hexmend.quality").worst_hexes(self, count, metric)
 
     def _repr_html_(self) -> str:
         """What a notebook shows of it."""
@@ -157,24 +162,20 @@ class Mesh:
         Parameters
         ----------
         points : (n, 3) float64
-            Taken as it is, not copied, and made read-only.
+            Copied, unless nobody can change them, as those of another mesh or of an iteration.
 
         Raises
         ------
         MeshError
-            For another shape, or where a coordinate is no finite number.
+            For another shape or type, or where a coordinate is no finite number.
         """
-        points = np.asanyarray(points)
-        if points.dtype != np.float64 or not points.flags.c_contiguous:  # else NumPy may make another view of it
-            points = np.ascontiguousarray(points, dtype=np.float64)
-        if points.shape != self.points.shape:
-            raise MeshError(f"points have shape {points.shape}: expected {self.points.shape}")
+        points = points_like(points, self.points.shape)
         check_finite(points)
         if self.mid_nodes is not None:
-            points = following(self.points, points, self.hexes, self.mid_nodes)
-        copy = self._copy("fixed", "free")
-        copy._set(points=_frozen(points))
-        return copy
+            points = freeze(following(self.points, points, self.hexes, self.mid_nodes))
+        mesh = self._copy("fixed", "free")
+        mesh._set(points=frozen(points))
+        return mesh
 
     @property
     def surface(self) -> np.ndarray:
@@ -220,9 +221,14 @@ class Mesh:
         Parameters
         ----------
         fixed : (n,) bool
+
+        Raises
+        ------
+        MeshError
+            For another length or type.
         """
         copy = self._copy()
-        copy._set(fixed=_frozen(np.array(fixed, dtype=bool)), _surface=self.surface)
+        copy._set(fixed=frozen(switches(fixed, "fixed", self.n_nodes)), _surface=self.surface)
         return copy
 
     def replace(self, **changes: object) -> Mesh:
@@ -241,8 +247,7 @@ class Mesh:
         if unknown:
             raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")
         copy = self._copy()
-        copy._set(**changes)
-        copy._check_carried()
+        copy._carry(changes)
         return copy
 
     def rebuilt(self, **changes: object) -> Mesh:
@@ -259,8 +264,3 @@ class Mesh:
         names = ("_surface", "_target", *known)
         copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__})
         return copy
-
-
-def _frozen(array: np.ndarray) -> np.ndarray:
-    array.flags.writeable = False
-    return array

@@ -10,6 +10,7 @@ import numpy as np
 
 from hexmend.kernels import corner_values
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import points_like
 from hexmend.quality import METRICS, ElementFigure, ElementQuality
 from hexmend.surface import Skin
 
@@ -165,6 +166,10 @@ class Movement:
     points: np.ndarray
     figures: ElementQuality
     _known: dict[str, np.ndarray] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for points in (self.before.points, self.points):
+            points_like(points, self.mesh.points.shape)
 
     def until(self, points: np.ndarray, figures: ElementQuality) -> Movement:
         """From the same moment to where the nodes are elsewhere, (n, 3) float64."""

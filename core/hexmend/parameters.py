@@ -63,12 +63,15 @@ class Parameter:
         if self.no_limit and value in (self.no_limit, math.inf):
             return self.no_limit
         try:
+            if isinstance(value, bool | complex):
+                raise ValueError
             number = self.type(value)
-            if isinstance(value, bool) or math.isnan(number) or number != float(value):
+            if math.isnan(number) or number != float(value):
                 raise ValueError
         except (TypeError, ValueError, OverflowError):
             kind = "a whole number" if self.type is int else "a number"
-            raise ParameterError(f"{self.name} = {value!r} is not {kind}: expected {self.range}") from None
+            said = " ".join(repr(value).split())[:80]
+            raise ParameterError(f"{self.name} = {said} is not {kind}: expected {self.range}") from None
         if (self.low is not None and number < self.low) or (self.high is not None and number > self.high):
             raise ParameterError(f"{self.name} = {value} is out of range: expected {self.range}")
         return number

@@ -8,7 +8,10 @@ import numpy as np
 
 from hexmend.kernels import large_patches as kernels
 from hexmend.mesh import Mesh
+from hexmend.parameters import Parameter
 from hexmend.topology import Rows
+
+_SIZES = tuple(Parameter(name, int, 1, low, 2**31 - 1, None, "", "") for name, low in (("size", 1), ("overlap", 0)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +58,7 @@ def grown(mesh: Mesh, size: int, overlap: int) -> Patches:
     overlap : int
         Rings of free nodes around those, that a patch moves too.
     """
+    size, overlap = (one.check(value) for one, value in zip(_SIZES, (size, overlap), strict=True))
     corners = mesh.topology.node_corners
     node_start, nodes, hex_start, chosen, slots = kernels.grow(
         mesh.hexes, corners.start, corners.items, mesh.free, size, overlap

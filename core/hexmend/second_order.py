@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.errors import MeshError
 from hexmend.hexahedron import FACES, UNIT_CUBE
 from hexmend.shape_functions import lagrange, serendipity
 
@@ -102,22 +101,3 @@ def jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> n
                 least = np.minimum(least, scaled)
             answer[some] = least
     return answer
-
-
-def check_mid_nodes(mid_nodes: np.ndarray, hexes: int, nodes: int) -> np.ndarray:
-    """The nodes of second order of so many hexes, numbers below `nodes`, as (m, 19) int32.
-
-    Raises
-    ------
-    MeshError
-        Where the shape is another, or a node does not exist.
-    """
-    numbers = np.asarray(mid_nodes)
-    if numbers.shape != (hexes, len(MID_PLACES)):
-        raise MeshError(f"mid_nodes have shape {numbers.shape}: expected ({hexes}, {len(MID_PLACES)})")
-    if numbers.size and (numbers.min() < -1 or numbers.max() >= nodes):
-        h = int(np.nonzero(((numbers < -1) | (numbers >= nodes)).any(axis=1))[0][0])
-        raise MeshError(
-            f"hex {h} (counted from 0) has mid-nodes {numbers[h].tolist()}: expected numbers up to {nodes - 1}"
-        )
-    return np.array(numbers, dtype=np.int32, order="C", copy=True)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.mesh import Mesh
+from hexmend.mesh_fields import members
 
 
 def tagged(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
@@ -20,6 +21,11 @@ def tagged(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = 
     hexes : (k,) int
     on : bool
 
+    Raises
+    ------
+    MeshError
+        For a hex that does not exist.
+
     Examples
     --------
     >>> from hexmend.gallery import make
@@ -28,7 +34,8 @@ def tagged(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = 
     ([0, 3], [])
     """
     sets = dict(mesh.hex_sets)
-    before = np.asarray(sets.get(name, ()), dtype=np.int64)
+    before = sets.get(name, np.empty(0, dtype=np.int64))
+    hexes = members(hexes, f"hex set {name!r}", mesh.n_hexes)
     sets[name] = np.union1d(before, hexes) if on else np.setdiff1d(before, hexes)
     if not len(sets[name]):
         del sets[name]

@@ -10,6 +10,8 @@ import numpy as np
 
 from hexmend.hexahedron import FACES
 from hexmend.kernels import incidence, structure, visiting
+from hexmend.mesh_checks import as_hexes, switches
+from hexmend.mesh_fields import members
 
 
 @dataclass(frozen=True)
@@ -53,10 +55,15 @@ class Topology:
         Corner nodes, numbered as in `hexmend.hexahedron`.
     n : int
         Number of nodes, used by a hex or not.
+
+    Raises
+    ------
+    MeshError
+        Where the hexes are no (m, 8) whole numbers from 0 to n - 1.
     """
 
     def __init__(self, hexes: np.ndarray, n: int):
-        self.hexes = hexes
+        self.hexes = as_hexes(hexes, n)
         self.n = n
 
     @cached_property
@@ -118,13 +125,10 @@ class Topology:
 
         Raises
         ------
-        IndexError
+        MeshError
             For a hex that does not exist.
         """
-        chosen = np.fromiter(hexes, dtype=np.int64)
-        wrong = chosen[(chosen < 0) | (chosen >= len(self.hexes))]
-        if len(wrong):
-            raise IndexError(f"there is no hex {wrong[0]}: expected numbers from 0 to {len(self.hexes) - 1}")
+        chosen = members(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.hexes))
         rows = self.node_corners
         return incidence.around(self.hexes, rows.start, rows.items, chosen.astype(np.int32), rings)
 
@@ -191,8 +195,13 @@ class Topology:
         Parameters
         ----------
         chosen : (n,) bool
+
+        Raises
+        ------
+        MeshError
+            For an array of another length or type.
         """
-        rows = self.node_corners
+        rows, chosen = self.node_corners, switches(chosen, "chosen", self.n)
         colour = incidence.greedy_colours(rows.start, rows.items, chosen)
         count = int(colour.max(initial=-1)) + 1
         return Rows(*incidence.grouped(colour, count))
@@ -207,9 +216,14 @@ class Topology:
         ----------
         sequence : (k,) int32
             Each node at most once.
+
+        Raises
+        ------
+        MeshError
+            For a node that does not exist.
         """
-        rows = self.node_corners
-        return Rows(*visiting.wavefronts(rows.start, rows.items, sequence))
+        rows, nodes = self.node_corners, members(sequence, "sequence", self.n)
+        return Rows(*visiting.wavefronts(rows.start, rows.items, np.ascontiguousarray(nodes, np.int32)))
 
     def levels(self, start: np.ndarray) -> np.ndarray:
         """How many edges lie between each node and the nearest of some, breadth first, (n,) int32.
@@ -219,6 +233,11 @@ class Topology:
         Parameters
         ----------
         start : (n,) bool
+
+        Raises
+        ------
+        MeshError
+            For an array of another length or type.
         """
         rings = self.rings
-        return visiting.levels(rings.start, rings.items, start)
+        return visiting.levels(rings.start, rings.items, switches(start, "start", self.n))

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from hexmend.errors import MeshError
 from hexmend.hexahedron import EDGES, FACES
 from hexmend.mesh import Mesh
 from hexmend.topology import Topology
@@ -152,5 +153,5 @@ def test_rings_are_hexes_that_share_nodes_again_and_again(topology, rings, data)
 
 @pytest.mark.parametrize("wrong", [-1, 8])
 def test_there_is_no_ring_of_a_hex_that_does_not_exist(wrong):
-    with pytest.raises(IndexError, match=f"no hex {wrong}: expected numbers from 0 to 7"):
+    with pytest.raises(MeshError, match=f"has {wrong} at .*: expected numbers from 0 to 7"):
         grid(2).topology.ring_of([0, wrong], 1)

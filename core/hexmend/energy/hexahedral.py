@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.arrays import as_hexes, as_points
 from hexmend.energy.power import SQUARES, Power
+from hexmend.errors import MeshError
 from hexmend.kernels import objective as kernels
+from hexmend.mesh_checks import as_hexes, as_points
 
 
 def energies(
@@ -40,10 +41,27 @@ def energies(
     >>> energies(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
     array([0.])
     """
+    points = as_points(points)
+    hexes = as_hexes(hexes, len(points))
     eta = np.empty(len(hexes))
-    out = np.zeros(len(hexes), np.uint8) if left_out is None else left_out
-    kernels.energies(as_points(points), as_hexes(hexes), float(delta), float(offset), out, eta)
+    out = corners_left_out(left_out, len(hexes))
+    kernels.energies(points, hexes, float(delta), float(offset), out, eta)
     return eta
+
+
+def corners_left_out(left_out: np.ndarray | None, hexes: int) -> np.ndarray:
+    """Which corner tetrahedra of so many hexes are left out, (m,) uint8; none without an array.
+
+    Raises
+    ------
+    MeshError
+        For an array of another length or type.
+    """
+    if left_out is None:
+        return np.zeros(hexes, np.uint8)
+    if not isinstance(left_out, np.ndarray) or left_out.shape != (hexes,) or left_out.dtype != np.uint8:
+        raise MeshError(f"left_out is no array ({hexes},) of type uint8: expected a byte for each hex")
+    return np.ascontiguousarray(left_out)
 
 
 def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: Power = SQUARES) -> float:

@@ -8,15 +8,17 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import as_points, dot
+from hexmend.arrays import dot
 from hexmend.energy.assembled import Assembled
 from hexmend.energy.couplings import Couplings
-from hexmend.energy.hexahedral import energies
+from hexmend.energy.hexahedral import corners_left_out, energies
 from hexmend.energy.operator import SymmetricOperator
 from hexmend.energy.power import SQUARES, Power
+from hexmend.errors import MeshError
 from hexmend.kernels import assembly, reach, threads
 from hexmend.kernels import objective as kernels
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import points_like, real_numbers
 
 
 class MeshEnergy:
@@ -55,7 +57,7 @@ class MeshEnergy:
     def __init__(self, mesh: Mesh, power: Power = SQUARES, left_out: np.ndarray | None = None):
         self.mesh = mesh
         self.power = power
-        self.left_out = np.zeros(mesh.n_hexes, np.uint8) if left_out is None else left_out
+        self.left_out = corners_left_out(left_out, mesh.n_hexes)
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
         self._scratch = threading.local()
@@ -89,35 +91,35 @@ class MeshEnergy:
             As of `MeshEnergy`.
         """
         other = copy.copy(self)
-        other.power, other.left_out = power, left_out
+        other.power, other.left_out = power, corners_left_out(left_out, self.mesh.n_hexes)
         return other
 
     def scaled(self, points: np.ndarray) -> np.ndarray:
         """Points in mean edge lengths, (n, 3)."""
-        return as_points(points) / self.unit
+        return self._places(points) / self.unit
 
     def placed(self, x: np.ndarray) -> np.ndarray:
         """Points in the mesh's own unit of length, (n, 3); fixed nodes to the last bit where they were."""
         points = self.mesh.points.copy()
-        np.multiply(x, self.unit, out=points, where=self.mesh.free[:, None])
+        np.multiply(self._places(x), self.unit, out=points, where=self.mesh.free[:, None])
         return points
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         """x (n, 3) with its free nodes displaced by alpha times step (k, 3)."""
-        there = np.empty(x.shape)
-        reach.displaced(x, self.nodes, step, alpha, there)
+        x, there = self._places(x), np.empty(x.shape)
+        reach.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, there)
         return there
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Sum of eta(H)^p at points x (n, 3); +inf at delta = 0 while any hex is inverted."""
         p, offset = self.power
-        eta = energies(x, self.mesh.hexes, delta, self.left_out, offset)
+        eta = energies(self._places(x), self.mesh.hexes, delta, self.left_out, offset)
         with np.errstate(over="ignore"):  # beside the barrier, and with a node far away: then it is infinite, too
             return float((np.square(eta) if p == 2 else np.power(eta, p)).sum())
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Derivative of `value` by the free nodes, (k, 3): (B.3), (B.21), (C.2)."""
-        kernels.gradient(x, self.mesh.hexes, delta, self.power, self.left_out, self._shares)
+        kernels.gradient(self._places(x), self.mesh.hexes, delta, self.power, self.left_out, self._shares)
         return self._gathered()
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
@@ -139,6 +141,10 @@ class MeshEnergy:
             self._scratch.shares = np.empty((self.mesh.n_hexes, 8, 3))
         return self._scratch.shares
 
+    def _places(self, x: np.ndarray) -> np.ndarray:
+        """Places of all nodes, (n, 3) float64; `MeshError` for an array of another shape or type."""
+        return points_like(x, self.mesh.points.shape, "places of nodes")
+
     def _gathered(self) -> np.ndarray:
         """What the shares of the hexes come to at each free node, (k, 3)."""
         corners = self.mesh.topology.node_corners
@@ -155,14 +161,17 @@ class Hessian(SymmetricOperator):
 
     def __init__(self, energy: MeshEnergy, x: np.ndarray, delta: float, shift: float = 0.0):
         super().__init__(3 * energy.nodes.size)
-        self.energy, self.x, self.delta, self.shift = energy, x, float(delta), float(shift)
+        self.energy, self.x, self.delta, self.shift = energy, energy._places(x), float(delta), float(shift)
 
     def shifted(self, shift: float) -> Hessian:
         """H + shift I."""
         return Hessian(self.energy, self.x, self.delta, self.shift + shift)
 
     def matvec(self, v: np.ndarray) -> np.ndarray:
-        energy, v = self.energy, np.ascontiguousarray(v, dtype=np.float64).reshape(-1, 3)
+        energy, v = self.energy, real_numbers(v, "the vector")
+        if v.size != self.shape[0]:
+            raise MeshError(f"the vector has {v.size} numbers: expected {self.shape[0]}")
+        v = v.reshape(-1, 3)
         kernels.hessian_product(
             self.x,
             energy.mesh.hexes,

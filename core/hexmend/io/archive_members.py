@@ -159,6 +159,5 @@ class Arrays:
             for at in range(0, left, _AT_ONCE):
                 part = member.read(min(_AT_ONCE, left - at))
                 into[at : at + len(part)] = np.frombuffer(part, np.uint8)
-            array = array.reshape(shape, order="F" if columns else "C")
             array.flags.writeable = False
-            return array
+            return array.reshape(shape, order="F" if columns else "C")

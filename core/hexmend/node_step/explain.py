@@ -6,6 +6,7 @@ from functools import singledispatch
 
 from hexmend.errors import MeshError
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import number
 from hexmend.node_step.local import local_step
 from hexmend.node_step.record import NodeStep, Verdict
 from hexmend.node_step.straight import straight_step
@@ -40,8 +41,7 @@ def explain(mesh: Mesh, smoother: Smoother, node: int) -> NodeStep:
     >>> step.verdict.name, step.trials[-1].alpha == step.alpha, step.trials[-1].energy < step.energy
     ('MOVED', True, True)
     """
-    if not 0 <= node < mesh.n_nodes:
-        raise MeshError(f"there is no node {node}: expected a number from 0 to {mesh.n_nodes - 1}")
+    node = number(node, mesh.n_nodes, "node")
     if mesh.fixed[node]:
         raise MeshError(f"node {node} is fixed, and no method moves it: name a free node")
     return explained(smoother, mesh, node)

@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend.kernels import local
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import number
 from hexmend.node_step.local import local_step
 from hexmend.node_step.record import NodeStep
 from hexmend.smoothers.local_descent import LocalDescent
@@ -73,6 +74,7 @@ class Sweep(Iterator[NodeStep]):
 
     def look(self, node: int) -> NodeStep:
         """What the method would do to a node if its turn were now."""
+        node = number(node, self.mesh.n_nodes, "node")
         return local_step(self.smoother, self.mesh, self._points, node, self.delta)
 
     def place(self, node: int) -> int:

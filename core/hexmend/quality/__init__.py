@@ -9,6 +9,7 @@ import pkgutil
 from hexmend.quality.element import Element, Node, element, node, worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked, measure
 from hexmend.quality.metric import METRICS, ElementFigure, Metric
+from hexmend.quality.of_mesh import values, worst_hexes
 from hexmend.quality.q import Q
 from hexmend.quality.scaled_jacobian import SCALED_JACOBIAN
 from hexmend.quality.second_order import SecondOrder, summarise_second_order
@@ -43,7 +44,9 @@ __all__ = [
     "spreads",
     "summarise",
     "summarise_second_order",
+    "values",
     "worse",
     "worse_in_words",
     "worst",
+    "worst_hexes",
 ]

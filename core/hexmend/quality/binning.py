@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.errors import MeshError
 from hexmend.kernels import binning
+from hexmend.mesh_checks import real_numbers, switches
 
 
 def bin_counts(
@@ -36,5 +38,9 @@ def bin_counts(
     """
     counts = np.empty(bins + 3, dtype=np.int64)
     low, high = ends
+    values = real_numbers(values, "values")
+    if values.ndim != 1:
+        raise MeshError(f"values have shape {values.shape}: expected (m,)")
+    inverted = switches(inverted, "inverted", len(values))
     binning.count(values, inverted, float(low), bins / (high - low), open_low, open_high, counts)
     return counts

@@ -6,9 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.errors import MeshError
 from hexmend.hexahedron import EDGES
 from hexmend.kernels.objective import gradient
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import number as checked_number
+from hexmend.mesh_checks import real_numbers
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure
 from hexmend.quality.metric import METRICS
 
@@ -49,6 +52,11 @@ class Element:
 def element(mesh: Mesh, number: int) -> Element:
     """Look at a hex of a mesh.
 
+    Raises
+    ------
+    MeshError
+        For a hex that does not exist.
+
     Examples
     --------
     >>> from hexmend.gallery import make
@@ -56,6 +64,7 @@ def element(mesh: Mesh, number: int) -> Element:
     >>> one.nodes.size, round(one.values["q"], 6), one.inverted
     (8, 1.0, False)
     """
+    number = checked_number(number, mesh.n_hexes, "hex")
     nodes = mesh.hexes[number]
     hexes = np.ascontiguousarray(nodes[None])
     figures = measure(mesh.points, hexes)
@@ -105,6 +114,11 @@ class Node:
 def node(mesh: Mesh, number: int) -> Node:
     """Look at a node of a mesh.
 
+    Raises
+    ------
+    MeshError
+        For a node that does not exist.
+
     Examples
     --------
     >>> from hexmend.gallery import make
@@ -112,6 +126,7 @@ def node(mesh: Mesh, number: int) -> Node:
     >>> one.kind, one.ring.size, round(one.energy, 9)
     ('free', 8, 0.0)
     """
+    number = checked_number(number, mesh.n_nodes, "node")
     corners = mesh.topology.node_corners
     places = corners.items[corners.start[number] : corners.start[number + 1]]
     ring = places // 8
@@ -147,7 +162,9 @@ def worst(values: np.ndarray, figures: ElementQuality, count: int, better: int =
     better : int
         +1 where a higher value is better, -1 where a lower one is.
     """
-    keys = better * np.asarray(values, dtype=np.float64)
+    keys = better * real_numbers(values, "values")
+    if keys.shape != figures.q.shape:
+        raise MeshError(f"values have shape {keys.shape}: expected {figures.q.shape}, one for each hex")
     keys[np.isnan(keys)] = -np.inf
     numbers = _least(keys, np.arange(keys.size), count, figures.scaled_jacobian)
     return numbers[np.lexsort((numbers, figures.scaled_jacobian[numbers], keys[numbers]))]

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from hexmend.errors import MeshError
 from hexmend.kernels import metrics
 from hexmend.quality.measure import ElementQuality
 from hexmend.quality.metric import METRICS, Metric, by_kernel
@@ -13,6 +14,8 @@ _at_centre = by_kernel(metrics.centre, rows=1, row=0, worst=-math.inf)
 
 def _least(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
     """At the corners it is sigma, to the last bit what `ElementQuality.inverted` judges by."""
+    if len(figures.sigma) != len(hexes):
+        raise MeshError(f"the figures are of {len(figures.sigma)} hexes: expected those of the same {len(hexes)}")
     return np.fmin(figures.sigma, _at_centre(points, hexes, figures))
 
 

@@ -7,9 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import as_hexes, as_points
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import elements
+from hexmend.mesh_checks import as_hexes, as_points, switches
+from hexmend.mesh_fields import members
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,14 +53,21 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
     points : (n, 3) float64
     hexes : (m, 8) int32
 
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a node that does not exist.
+
     Examples
     --------
     >>> from hexmend.hexahedron import UNIT_CUBE
     >>> measure(UNIT_CUBE, np.arange(8, dtype=np.int32)[None]).q
     array([1.])
     """
+    points = as_points(points)
+    hexes = as_hexes(hexes, len(points))
     q, sigma, jacobian, eta = np.empty((4, len(hexes)))
-    elements.measure(as_points(points), as_hexes(hexes), q, sigma, jacobian, eta)
+    elements.measure(points, hexes, q, sigma, jacobian, eta)
     return ElementQuality(q, sigma, jacobian, eta)
 
 
@@ -79,7 +87,9 @@ def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: n
     -------
     (m,) bool
     """
-    where = np.flatnonzero(inverted)
+    points = as_points(points)
+    hexes, fixed = as_hexes(hexes, len(points)), switches(fixed, "fixed", len(points))
+    where = np.flatnonzero(switches(inverted, "inverted", len(hexes)))
     held = fixed[hexes[where][:, CORNER_TETRAHEDRA]].all(axis=2)
     answer = np.zeros(len(hexes), dtype=bool)
     answer[where] = (held & ~(corner_determinants(points, hexes, where) > 0)).any(axis=1)
@@ -96,9 +106,12 @@ def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray
     which : (k,) int, optional
         Numbers of hexes; all without it.
     """
-    chosen = hexes if which is None else hexes[which]
+    points = as_points(points)
+    chosen = as_hexes(hexes, len(points))
+    if which is not None:
+        chosen = chosen[members(which, "which", len(chosen))]
     sigma = np.empty((len(chosen), 8))
-    elements.corner_determinants(as_points(points), as_hexes(chosen), sigma)
+    elements.corner_determinants(points, chosen, sigma)
     return sigma
 
 
@@ -118,7 +131,8 @@ def corner_qualities(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     >>> corner_qualities(UNIT_CUBE, np.arange(8)[None])
     array([[1., 1., 1., 1., 1., 1., 1., 1.]])
     """
-    x = points[hexes[:, CORNER_TETRAHEDRA]]  # (k, 8, 4, 3)
+    points = as_points(points)
+    x = points[as_hexes(hexes, len(points))[:, CORNER_TETRAHEDRA]]  # (k, 8, 4, 3)
     edges = x[:, :, 1:] - x[:, :, :1]
     sigma = np.maximum(np.linalg.det(edges), 0.0)
     square = np.square(edges).sum(axis=(2, 3))

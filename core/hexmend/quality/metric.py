@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.mesh_checks import as_hexes, as_points
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry, load_others
 
@@ -78,6 +79,8 @@ def by_kernel(kernel: Callable[..., None], rows: int, row: int, worst: float) ->
     """
 
     def of(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
+        points = as_points(points)
+        hexes = as_hexes(hexes, len(points))
         values = np.empty((rows, len(hexes)))
         kernel(points, hexes, *values)
         values[row][np.isnan(values[row])] = worst

@@ -8,8 +8,9 @@ from time import perf_counter
 
 import numpy as np
 
-from hexmend.arrays import as_points, read_only
+from hexmend.arrays import freeze
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import points_like
 from hexmend.optimise import Iteration, Limits, Outcome, StageResult, Stop
 from hexmend.quality import measure, objective
 from hexmend.recipe import Stage
@@ -104,7 +105,8 @@ class Leg:
             self.end(end.value or Outcome.FINISHED)
             return None
         seconds = self.last.seconds + perf_counter() - began
-        points, before = read_only(as_points(step.points)), self.at
+        before = self.at
+        points = freeze(points_like(step.points, before.points.shape, f"{self.smoother.name}: the points of a step"))
         moves = points - before.points
         move = float(np.sqrt(np.square(moves).sum(axis=1).max())) / self._unit
         if not np.isfinite(move):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from hexmend.arrays import read_only
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Outcome, Result, Stop
 from hexmend.quality import Summary, measure, summarise, worse, worse_in_words
@@ -55,7 +54,7 @@ class Run(Iterator[Iteration]):
         self._stages = _stages(smoother, stop)
         notes = {"stage": 1, "method": self._stages[0].smoother.name}
         figures = measure(mesh.points, mesh.hexes)
-        self.start = Iteration(0, read_only(mesh.points), figures, 0.0, 0.0, notes, self._stages[0].smoother.power)
+        self.start = Iteration(0, mesh.points, figures, 0.0, 0.0, notes, self._stages[0].smoother.power)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []

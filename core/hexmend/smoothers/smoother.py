@@ -64,8 +64,8 @@ class Smoother(Parametrised, ABC):
         """Yield the initial points once what the method prepares is ready, then the points after each step.
 
         The generator goes on until nobody asks for more, or returns the outcome where the method has no further step.
-        Yielded arrays are never changed afterwards; rows of nodes that it may not move stay as they are to the
-        last bit.
+        Yielded arrays are never changed afterwards, and a run makes them read-only; rows of nodes that it may not move
+        stay as they are to the last bit.
         """
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:

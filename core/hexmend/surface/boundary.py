@@ -7,7 +7,10 @@ from enum import IntEnum
 
 import numpy as np
 
+from hexmend.errors import MeshError
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import as_faces, as_points, check_node_numbers, whole_numbers
+from hexmend.mesh_fields import members
 from hexmend.surface.edges import Edges, chains, components
 from hexmend.surface.features import DEGREES, WHISKER, feature_edges, given_corners, given_edges, turns
 
@@ -90,8 +93,8 @@ def boundary_of(
     >>> [cube.count(kind) for kind in Kind], cube.n_curves, cube.n_patches
     ([8, 8, 24, 24], 12, 6)
     """
-    sharp = given_edges(mesh) if sharp is None else np.asarray(sharp)
-    corners = given_corners(mesh) if corners is None else np.asarray(corners)
+    sharp = given_edges(mesh) if sharp is None else sharp
+    corners = given_corners(mesh) if corners is None else corners
     return classify(
         mesh.points, mesh.topology.boundary_faces, degrees,
         turn=turn, whisker=whisker, sharp=sharp, corners=corners,
@@ -115,11 +118,12 @@ def classify(
     degrees, turn, whisker, sharp, corners
         See `boundary_of`.
     """
+    points = as_points(points)
     n = len(points)
-    kept = np.zeros(n, dtype=bool)
-    kept[np.asarray([] if corners is None else corners, dtype=np.int64)] = True
+    faces, kept = as_faces(faces, n), np.zeros(n, dtype=bool)
+    kept[members([] if corners is None else corners, "corners", n)] = True
     edges = Edges(faces, n)
-    given = np.isin(edges.key, edges.keys_of(np.empty((0, 2), int) if sharp is None else sharp))
+    given = np.isin(edges.key, edges.keys_of(_edges([] if sharp is None else sharp, n)))
     feature = feature_edges(points, edges, degrees, given, kept, whisker)
     segments = edges.nodes[feature]
     valence = np.bincount(segments.ravel(), minlength=n)
@@ -134,3 +138,14 @@ def classify(
     corner &= kind != Kind.INSIDE
     kind[corner], part[corner] = Kind.CORNER, -1
     return Boundary(kind, part, faces, patch_of_face, segments, curve_of_segment)
+
+
+def _edges(edges: np.ndarray, n: int) -> np.ndarray:
+    """Edges of nodes below n, (e, 2) int; `MeshError` where they are none."""
+    array = whole_numbers(edges, "sharp edges", ("edge", "end"))
+    if not array.size:
+        return array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise MeshError(f"sharp edges have shape {array.shape}: expected (e, 2)")
+    check_node_numbers(array, n, ("edge", "end"))
+    return array

@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import as_faces, as_points, points_like
 from hexmend.surface.boundary import boundary_of
 from hexmend.surface.edges import Edges
 from hexmend.surface.features import DEGREES, angles
@@ -101,16 +102,23 @@ class Skin:
     nodes : (b,) int64
         Nodes of the faces, ascending.
     edges : Edges
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a node that does not exist.
     """
 
     def __init__(self, points: np.ndarray, faces: np.ndarray, name: str = ""):
+        points = as_points(points)
+        faces = as_faces(faces, len(points))
         self.points, self.faces, self.name = points, faces, name
         self.nodes, self.edges = np.unique(faces), Edges(faces, len(points))
         self._trees = _one_tree(points, faces)
 
     def with_points(self, points: np.ndarray) -> Skin:
         """The same faces with their nodes elsewhere, at points (n, 3) float64."""
-        other = copy.copy(self)
+        other, points = copy.copy(self), points_like(points, self.points.shape)
         vertices, _, _ = triangulated(points, self.faces)
         other.points, other._trees = points, self._trees.with_points(vertices)
         return other

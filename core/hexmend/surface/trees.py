@@ -9,6 +9,8 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import closest
+from hexmend.mesh_checks import as_faces, as_points, points_like
+from hexmend.mesh_fields import members
 
 #: Coordinates from which on distances leave the range of numbers.
 FARTHEST = 1e150
@@ -49,9 +51,21 @@ class Trees:
         Where each piece, as `Closest.pieces` counts them, was in `pieces`.
     points, pieces, boxes, links, roots
         What `hexmend.kernels.closest` takes.
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a point that does not exist.
     """
 
     def __init__(self, points: np.ndarray, pieces: np.ndarray, group: np.ndarray):
+        points = as_points(points)
+        pieces = as_faces(pieces, len(points))
+        group = members(group, "group", len(pieces))
+        if pieces.shape[1] != 3 or len(group) != len(pieces):
+            raise MeshError(
+                f"pieces have shape {pieces.shape} and group {group.shape}: expected (k, 3), and a group for each"
+            )
         order = np.argsort(group, kind="stable")
         start = np.searchsorted(group[order], np.arange(group.max(initial=-1) + 2)).astype(np.int32)
         pieces = np.ascontiguousarray(pieces[order], dtype=np.int32)
@@ -60,7 +74,7 @@ class Trees:
 
     def with_points(self, points: np.ndarray) -> Trees:
         """The same pieces with their points (n, 3) elsewhere; the nearer to where they were, the faster it is."""
-        other = copy.copy(self)
+        other, points = copy.copy(self), points_like(points, self.points.shape)
         other.points, other.boxes = points, np.empty_like(self.boxes)
         closest.refit(points, self.pieces, self.links, other.boxes)
         return other
@@ -78,9 +92,12 @@ class Trees:
         Raises
         ------
         MeshError
-            For a point that is infinite or next to it.
+            For a point that is infinite or next to it, and for arrays of another shape or type.
         """
-        x = np.ascontiguousarray(x, dtype=np.float64)
+        x = as_points(x, "places")
+        group = members(group, "group", len(self.roots))
+        if len(group) != len(x):
+            raise MeshError(f"there are {len(group)} groups: expected one for each of {len(x)} places")
         piece, places, weights = np.empty(len(x), dtype=np.int32), np.empty_like(x), np.empty_like(x)
         roots = self.roots[group]
         closest.closest(self.points, self.pieces, self.boxes, self.links, x, roots, enough, piece, places, weights)

@@ -1,0 +1,154 @@
+"""Checks of what a mesh carries besides its points and hexes, field by field."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+import numpy as np
+
+from hexmend.arrays import frozen
+from hexmend.cells import CELL_KINDS, Cells
+from hexmend.errors import MeshError
+from hexmend.mesh_checks import as_array, check_node_numbers, place, switches, whole_numbers
+
+#: Nodes that a hex of second order may have besides its corners.
+MID_NODES = 19
+
+
+def checked(field: str, value: object, nodes: int, hexes: int) -> object:
+    """The value of a field of a mesh, checked, its arrays immutable; of a field without a check the value itself.
+
+    Parameters
+    ----------
+    field : str
+        The name of a field of `hexmend.Mesh`.
+    value : object
+    nodes, hexes : int
+        How many the mesh has.
+
+    Raises
+    ------
+    MeshError
+        Where it is of another type or shape, or names what does not exist.
+    """
+    check = _CHECKS.get(field)
+    return value if check is None else check(value, nodes, hexes)
+
+
+def check_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
+    """The nodes of second order of so many hexes, numbers below `nodes` or -1, as (m, 19) int32.
+
+    Raises
+    ------
+    MeshError
+        For another shape or type, and for a node that does not exist.
+    """
+    array = whole_numbers(mid_nodes, "mid_nodes", ("hex", "mid-node"))
+    if array.shape != (hexes, MID_NODES):
+        raise MeshError(f"mid_nodes have shape {array.shape}: expected ({hexes}, {MID_NODES})")
+    check_node_numbers(array, nodes, ("hex", "mid-node"), -1)
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def members(values: object, what: str, count: int) -> np.ndarray:
+    """A named set as an array of integers (k,), each from 0 to `count` - 1.
+
+    Raises
+    ------
+    MeshError
+        For another shape or type, and naming the first member that does not exist.
+    """
+    array = whole_numbers(values, what, ("member",))
+    if array.ndim != 1:
+        raise MeshError(f"{what} has shape {array.shape}: expected (k,)")
+    _check_members(array, what, ("member",), (count,))
+    return array
+
+
+def sides(values: object, what: str, hexes: int) -> np.ndarray:
+    """A named set of faces as an array of integers (k, 2): a hex, and the number of one of its six faces.
+
+    Raises
+    ------
+    MeshError
+        For another shape or type, and naming the first side that does not exist.
+    """
+    array = whole_numbers(values, what, ("side", "column"))
+    if not array.size:
+        return array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise MeshError(f"{what} has shape {array.shape}: expected (k, 2), a hex and one of its faces in each row")
+    _check_members(array, what, ("side", "column"), (hexes, 6))
+    return array
+
+
+def _check_members(array: np.ndarray, what: str, places: tuple[str, ...], counts: tuple[int, ...]) -> None:
+    for column, count in enumerate(counts):
+        numbers = array if array.ndim == 1 else array[:, column]
+        if numbers.size and (numbers.min() < 0 or numbers.max() >= count):
+            at = int(np.flatnonzero((numbers < 0) | (numbers >= count))[0])
+            raise MeshError(
+                f"{what} has {numbers[at]} at {place(places, (at, column))}: expected numbers from 0 to {count - 1}"
+            )
+
+
+def rows(values: object, what: str, count: int) -> np.ndarray:
+    """Data as an array of so many rows; `MeshError` where they are more or fewer."""
+    array = as_array(values, what)
+    if array.ndim == 0:
+        raise MeshError(f"{what} is a single value: expected {count} rows")
+    if len(array) != count:
+        raise MeshError(f"{what} has {len(array)} rows: expected {count}")
+    return array
+
+
+def check_cells(cells: Cells, nodes: int) -> None:
+    """Raise `MeshError` where cells that are no hexes have an unknown kind, or use a node which is none of `nodes`."""
+    if not isinstance(cells, Cells):
+        raise MeshError(f"cells hold a {type(cells).__name__}: expected hexmend.Cells")
+    if cells.kind not in CELL_KINDS:
+        raise MeshError(f"there is no kind of cells {cells.kind!r}: expected one of {', '.join(CELL_KINDS)}")
+    places, width = (cells.kind, "corner"), CELL_KINDS[cells.kind].nodes
+    array = whole_numbers(cells.nodes, f"{cells.kind} cells", places)
+    if array.ndim != 2 or array.shape[1] != width:
+        raise MeshError(f"{cells.kind} cells have shape {array.shape}: expected (k, {width})")
+    check_node_numbers(array, nodes, places)
+
+
+def _pinned(value: object, nodes: int, hexes: int) -> np.ndarray | None:
+    return None if value is None else frozen(switches(value, "pinned", nodes))
+
+
+def _mid_nodes(value: object, nodes: int, hexes: int) -> np.ndarray | None:
+    return None if value is None else frozen(check_mid_nodes(value, nodes, hexes))
+
+
+def _cells(value: Iterable[Cells], nodes: int, hexes: int) -> tuple[Cells, ...]:
+    every = tuple(value)
+    for cells in every:
+        check_cells(cells, nodes)
+    return every
+
+
+def _table(what: str, of_nodes: bool, check: Callable[[object, str, int], np.ndarray]) -> Callable[..., object]:
+    """A check of named arrays, each by a check that takes the array, what to call it, and how many nodes or hexes."""
+
+    def table(value: object, nodes: int, hexes: int) -> dict[str, np.ndarray]:
+        if not isinstance(value, Mapping):
+            raise MeshError(f"{what}s are of type {type(value).__name__}: expected a mapping of names to arrays")
+        count = nodes if of_nodes else hexes
+        return {name: frozen(check(array, f"{what} {name!r}", count)) for name, array in value.items()}
+
+    return table
+
+
+_CHECKS: dict[str, Callable[..., object]] = {
+    "pinned": _pinned,
+    "mid_nodes": _mid_nodes,
+    "cells": _cells,
+    "node_data": _table("node data", True, rows),
+    "hex_data": _table("hex data", False, rows),
+    "node_sets": _table("node set", True, members),
+    "hex_sets": _table("hex set", False, members),
+    "side_sets": _table("side set", False, sides),
+}

@@ -1,0 +1,167 @@
+"""Values of every wrong type, shape and size for everything of the core that takes arrays or numbers of nodes and hexes.
+
+Runs as a program of its own, since what it looks for would end the process: `python -m tests.core.hostile`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import hexmend as hx
+from hexmend.edge_length import mean_edge_length
+from hexmend.energy import MeshEnergy, energies
+from hexmend.errors import HexmendError
+from hexmend.fixing import with_pinned, with_region_free
+from hexmend.node_step import Sweep, explain
+from hexmend.patches import grown
+from hexmend.quality import METRICS, corner_determinants, corner_qualities, element, locked, node, worst
+from hexmend.quality.binning import bin_counts
+from hexmend.surface import Skin, Trees, boundary_of, classify
+from hexmend.tags import tagged
+from hexmend.topology import Topology
+from tests.core.grids import grid, scrambled
+
+MESH = scrambled(grid(3), 0.2)
+X, H, N, M = MESH.points, MESH.hexes, MESH.n_nodes, MESH.n_hexes
+FIGURES = hx.measure(X, H)
+INSIDE = np.flatnonzero(MESH.free)
+FACES = MESH.topology.boundary_faces
+ENERGY = MeshEnergy(MESH)
+SKIN = Skin(X, FACES)
+SD = hx.LocalSteepestDescent()
+
+
+@dataclass(frozen=True)
+class Yields(hx.Smoother):
+    """A method of somebody else that gives anything for points."""
+
+    name = "yields"
+    title = "Yields"
+    help = "Gives anything for points."
+    source = "nobody"
+    value: object = None
+
+    def steps(self, mesh):
+        yield hx.Step(mesh.points)
+        yield hx.Step(self.value)
+
+
+def run(value: object) -> None:
+    hx.smooth(MESH, Yields(value), max_iterations=2)
+
+
+#: What is called with a value that it should not be given.
+CALLS: dict[str, Callable[[object], object]] = {
+    "Mesh, points": lambda v: hx.Mesh(v, H),
+    "Mesh, hexes": lambda v: hx.Mesh(X, v),
+    "Mesh, both": lambda v: hx.Mesh(v, v),
+    "Mesh, pinned": lambda v: hx.Mesh(X, H, pinned=v),
+    "Mesh, mid_nodes": lambda v: hx.Mesh(X, H, mid_nodes=v),
+    "Mesh, cells": lambda v: hx.Mesh(X, H, cells=(hx.Cells("quad", v),)),
+    "Mesh, kind of cells": lambda v: hx.Mesh(X, H, cells=(v,)),
+    "Mesh, table": lambda v: hx.Mesh(X, H, node_sets=v),
+    **{
+        f"Mesh, {table}": lambda v, table=table: hx.Mesh(X, H, **{table: {"a": v}})
+        for table in ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets")
+    },
+    "with_points": MESH.with_points,
+    "with_fixed": MESH.with_fixed,
+    "rebuilt": lambda v: MESH.rebuilt(hexes=v),
+    "replace": lambda v: MESH.replace(hex_sets={"a": v}),
+    "quality": MESH.quality,
+    "worst": MESH.worst,
+    "smooth": hx.smooth,
+    "smooth, yielding": run,
+    "measure, points": lambda v: hx.measure(v, H),
+    "measure, hexes": lambda v: hx.measure(X, v),
+    "locked, fixed": lambda v: locked(X, H, v, FIGURES.inverted),
+    "locked, inverted": lambda v: locked(X, H, MESH.fixed, v),
+    "corner_determinants": lambda v: corner_determinants(X, v),
+    "corner_determinants, which": lambda v: corner_determinants(X, H, v),
+    "corner_qualities": lambda v: corner_qualities(X, v),
+    "worst, values": lambda v: worst(v, FIGURES, 3),
+    "bin_counts": lambda v: bin_counts(v, FIGURES.inverted, (0.0, 1.0), 5),
+    **{f"{name}, hexes": lambda v, of=one.of: of(X, v, FIGURES) for name, one in METRICS.items()},
+    **{f"{name}, points": lambda v, of=one.of: of(v, H, FIGURES) for name, one in METRICS.items()},
+    "mean_edge_length": lambda v: mean_edge_length(X, v),
+    "energies": lambda v: energies(X, v),
+    "energies, left out": lambda v: energies(X, H, left_out=v),
+    "MeshEnergy, left out": lambda v: MeshEnergy(MESH, left_out=v).value(ENERGY.scaled(X)),
+    "MeshEnergy.value": ENERGY.value,
+    "MeshEnergy.gradient": ENERGY.gradient,
+    "MeshEnergy.hessian": lambda v: ENERGY.hessian(v).assembled(),
+    "MeshEnergy.placed": ENERGY.placed,
+    "MeshEnergy.moved": lambda v: ENERGY.moved(ENERGY.scaled(X), v),
+    "Hessian": lambda v: ENERGY.hessian(ENERGY.scaled(X)).matvec(v),
+    "Topology": lambda v: Topology(v, N).node_corners,
+    "colouring": MESH.topology.colouring,
+    "wavefronts": MESH.topology.wavefronts,
+    "levels": MESH.topology.levels,
+    "ring_of": lambda v: MESH.topology.ring_of(v, 1),
+    "Skin, points": lambda v: Skin(v, FACES),
+    "Skin, faces": lambda v: Skin(X, v),
+    "Skin.closest": SKIN.closest,
+    "Skin.with_points": SKIN.with_points,
+    "Trees": lambda v: Trees(X, v, np.zeros(3, int)),
+    "Trees, group": lambda v: Trees(X, FACES[:, :3], v),
+    "classify": lambda v: classify(X, v),
+    "boundary_of, corners": lambda v: boundary_of(MESH, corners=v),
+    "boundary_of, sharp": lambda v: boundary_of(MESH, sharp=v),
+    "with_pinned": lambda v: with_pinned(MESH, v),
+    "with_region_free": lambda v: with_region_free(MESH, v),
+    "tagged": lambda v: tagged(MESH, "a", v),
+    "grown": lambda v: grown(MESH, v, 1),
+    "element": lambda v: element(MESH, v),
+    "node": lambda v: node(MESH, v),
+    "explain": lambda v: explain(MESH, SD, v),
+    "Sweep.look": lambda v: Sweep(MESH, SD).look(v),
+}
+
+SHAPES = st.sampled_from(
+    [(), (0,), (1,), (N,), (M,), (0, 8), (M, 8), (1, 8), (N, 3), (1, 3), (M, 19), (3, 4), (2, 2, 2)]
+)
+NUMBERS = st.sampled_from([0, 1, 2, -1, -2, 7.5, N, M, 2**31, -(2**40), 1e300, np.nan, np.inf, -np.inf])
+TYPES = st.sampled_from(
+    [bool, np.int8, np.int32, np.int64, np.uint64, np.float16, np.float64, complex, "U3", "S3", object]
+)
+
+
+@st.composite
+def arrays(draw: st.DrawFn) -> np.ndarray:
+    """An array of any shape and type: one number everywhere and another at one place."""
+    shape, number, odd, dtype = draw(SHAPES), draw(NUMBERS), draw(NUMBERS), draw(TYPES)
+    with np.errstate(all="ignore"):
+        array = np.full(shape, number, dtype=float)
+        if array.size:
+            array.flat[draw(st.integers(0, array.size - 1))] = odd
+        return array.astype(dtype) if dtype is not complex else array + 1j
+
+
+ODD = st.sampled_from(
+    [None, "mesh", "", b"x", {}, {"a": 1}, [[0, 1], [2]], [None] * 8, object(), 10**30, -1, N, M, True]
+)
+NEAR = st.sampled_from(
+    [np.where(np.arange(M)[:, None] == 5, odd, H) for odd in (np.nan, 7.5, -1, N, 2**31, 2**32, np.inf)]
+)
+
+
+@settings(max_examples=1500, deadline=None, derandomize=True, database=None)
+@given(st.sampled_from(sorted(CALLS)), st.one_of(arrays(), ODD, NEAR))
+def nothing_crashes(name: str, value: object) -> None:
+    """Every call takes the value, or says in one sentence what is wrong with it."""
+    try:
+        with np.errstate(all="ignore"):
+            CALLS[name](value)
+    except (HexmendError, TypeError) as error:
+        words = str(error)
+        assert words, f"{name} says nothing about {value!r}"
+        assert "\n" not in words, f"{name} of {value!r} says several lines: {words}"
+
+
+if __name__ == "__main__":
+    nothing_crashes()
