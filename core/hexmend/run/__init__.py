@@ -2,73 +2,131 @@
 
 from __future__ import annotations
 
+import dataclasses
+import os
 from collections.abc import Callable
 from typing import Any
 
+from hexmend.errors import ParameterError
 from hexmend.mesh import Mesh
 from hexmend.optimise import Iteration, Result, Stop
+from hexmend.parameters import declared, hint
 from hexmend.recipe import Recipe
 from hexmend.run.loop import Run
-from hexmend.smoothers import METHODS, Smoother
+from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 
 __all__ = ["Run", "Stop", "iterate", "smooth"]
 
 
-def iterate(mesh: Mesh, smoother: Smoother | Recipe | str, stop: Stop | None = None) -> Run:
+def iterate(
+    mesh: Mesh | str | os.PathLike[str],
+    smoother: Smoother | Recipe | str = DEFAULT_METHOD,
+    stop: Stop | None = None,
+    **settings: Any,
+) -> Run:
     """Run a smoother or a recipe step by step.
 
     Parameters
     ----------
-    mesh : Mesh
-        Stays as it is.
+    mesh : Mesh or path
+        A mesh, which stays as it is, or the file of one.
     smoother : Smoother, Recipe or str
         A smoother, or the name of one to be used with its defaults; or a recipe.
     stop : Stop, optional
         For a recipe: in place of the limits of every stage.
+    **settings
+        Parameters of the method and limits of `Stop` by their names, in place of those of `smoother` and `stop`:
+        `boundary="slide", max_iterations=50`. Of a recipe only limits, which hold for every stage.
 
     Returns
     -------
     Run
         An iterator of `Iteration`; leaving it early loses nothing.
 
+    Raises
+    ------
+    ParameterError
+        For a name that neither the method nor `Stop` has, and for a value out of bounds.
+    FileError, MeshError
+        Where the file cannot be read.
+
     Examples
     --------
     >>> import hexmend as hx
     >>> mesh = hx.gallery.make("cube", size=64, scramble=0.3)
-    >>> for it in hx.iterate(mesh, hx.LocalSteepestDescent(), hx.Stop(max_iterations=3)):
+    >>> for it in hx.iterate(mesh, hx.LocalSteepestDescent(), max_iterations=3):
     ...     print(it.number, it.figures.n_inverted == 0)
     1 True
     2 True
     3 True
     """
-    return Run(mesh, METHODS[smoother]() if isinstance(smoother, str) else smoother, stop)
+    smoother, stop = _configured(smoother, stop, settings)
+    return Run(_read(mesh), smoother, stop)
 
 
 def smooth(
-    mesh: Mesh,
-    smoother: Smoother | Recipe | str,
+    mesh: Mesh | str | os.PathLike[str],
+    smoother: Smoother | Recipe | str = DEFAULT_METHOD,
     stop: Stop | None = None,
     *,
     watch: Callable[[Iteration], Any] | None = None,
+    **settings: Any,
 ) -> Result:
     """Run a smoother or a recipe to its end.
 
     Parameters
     ----------
-    mesh, smoother, stop
+    mesh, smoother, stop, **settings
         As for `iterate`.
     watch : callable, optional
         Called with each iteration; the run ends as stopped where it returns False.
 
+    Raises
+    ------
+    ParameterError, FileError, MeshError
+        As `iterate`.
+
     Examples
     --------
     >>> import hexmend as hx
-    >>> result = hx.smooth(hx.gallery.make("cube", size=64, scramble=0.3), "local-sd")
+    >>> result = hx.smooth(hx.gallery.make("cube", size=64, scramble=0.3))
     >>> result.outcome.name, round(result.after.q_min, 3)
     ('CONVERGED', 1.0)
     """
-    run = iterate(mesh, smoother, stop)
+    run = iterate(mesh, smoother, stop, **settings)
     for iteration in run:
         if watch is not None and watch(iteration) is False:
             run.close()
     return run.result()
+
+
+def _read(mesh: Mesh | str | os.PathLike[str]) -> Mesh:
+    if isinstance(mesh, Mesh):
+        return mesh
+    if not isinstance(mesh, str | os.PathLike):
+        raise TypeError(f"{type(mesh).__name__} is no mesh: expected a hexmend.Mesh or the path of a file")
+    from hexmend.io import read  # who has a mesh does not wait for the formats
+
+    return read(mesh)
+
+
+def _configured(
+    smoother: Smoother | Recipe | str, stop: Stop | None, settings: dict[str, Any]
+) -> tuple[Smoother | Recipe, Stop | None]:
+    """A smoother or recipe and its limits, with settings in place of some of their values."""
+    if isinstance(smoother, str):
+        smoother = METHODS[smoother]()
+    if not isinstance(smoother, Smoother | Recipe):
+        raise TypeError(f"{type(smoother).__name__} is no method: expected a hexmend.Smoother, a Recipe or a name")
+    limits = {one.name for one in declared(Stop)}
+    own = [] if isinstance(smoother, Recipe) else [one.name for one in declared(smoother)]
+    for name in settings:
+        if name not in limits and name not in own:
+            raise ParameterError(f"{smoother.name} has no parameter {name!r}: {hint(name, [*own, *sorted(limits)])}")
+    wanted = {name: value for name, value in settings.items() if name in limits}
+    values = {name: value for name, value in settings.items() if name not in limits}
+    if values:
+        smoother = dataclasses.replace(smoother, **values)
+    if wanted and isinstance(smoother, Recipe) and stop is None:
+        return smoother.limited(**wanted), None
+    return smoother, dataclasses.replace(stop or Stop(), **wanted) if wanted else stop
