@@ -1,13 +1,64 @@
-"""The examples of docs/extending.md."""
+"""The Python of the pages: blocks by their headings, and whole pages run as a reader would run them.
 
+`python -m tests.examples PAGE` runs the blocks of a page one after another in the working folder.
+"""
+
+import os
 import re
+import subprocess
+import sys
+import types
+from importlib.util import find_spec
 from pathlib import Path
 
-_TEXT = (Path(__file__).resolve().parents[1] / "docs/extending.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).resolve().parents[1]
+#: The folder in which pages show files of the reader.
+HOME = "/home/me"
+
+#: A block that holds one of these words needs a library, and is left out where that is not installed.
+NEEDS = {"hx.view(": "trame_pyvista", "hexmend_app": "PySide6"}
+
+_BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
+
+
+def blocks(page):
+    """The Python blocks of a page as programs, each with as many empty lines before it as stand before it there."""
+    text = Path(page).read_text(encoding="utf-8")
+    return ["\n" * text.count("\n", 0, found.start(1)) + found[1] for found in _BLOCK.finditer(text)]
 
 
 def example(title):
-    """The program below a heading, which has one."""
-    (_, section) = _TEXT.split(f"\n## {title}\n")
-    (program,) = re.findall(r"```python\n(.*?)```", section.split("\n## ")[0], re.DOTALL)
+    """The program below a heading of docs/extending.md, which has one."""
+    (_, section) = (ROOT / "docs/extending.md").read_text(encoding="utf-8").split(f"\n## {title}\n")
+    (program,) = _BLOCK.findall(section.split("\n## ")[0])
     return program
+
+
+def run_page(page, folder):
+    """Run the blocks of a page in a process of its own, beside the meshes that they read; what it printed."""
+    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")]))
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-m", "tests.examples", str(page)],
+        cwd=folder, env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True, encoding="utf-8",
+    )  # fmt: skip
+    assert done.returncode == 0, f"{page.name}: {done.stderr}"
+    return done.stdout
+
+
+def _run(page):
+    import hexmend as hx
+
+    module = types.ModuleType("example")
+    sys.modules["example"] = module
+    for block in blocks(page):
+        if any(word in block and find_spec(library) is None for word, library in NEEDS.items()):
+            continue
+        program = block.replace(HOME, os.getcwd())
+        for name in re.findall(r"hx\.read\(\"(.+?)\"\)", program):
+            if not Path(name).exists():
+                hx.write(name, hx.gallery.make("bridge-sharp", size=500, scramble=0.4, seed=1))
+        exec(compile(program, str(page), "exec"), module.__dict__)
+
+
+if __name__ == "__main__":
+    _run(sys.argv[1])

@@ -8,6 +8,7 @@ import pytest
 
 from hexmend import io
 from hexmend.cli.main import main
+from tests.examples import blocks, run_page
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 PAGES = sorted(DOCS.glob("*.md"))
@@ -62,6 +63,23 @@ def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
     (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     exec(compile(program, "tutorial.md", "exec"), {})
     assert io.read("mended.vtu").n_hexes == io.read("bridge.vtu").n_hexes
+
+
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if blocks(page) and page.name != "tutorial.md"], ids=lambda page: page.name
+)
+def test_the_python_of_a_page_runs_as_it_stands(page, tmp_path):
+    """That of the tutorial is run by the test above, after its commands; that of the README by its own."""
+    run_page(page, tmp_path)
+
+
+def test_every_block_of_python_is_known_by_its_fence():
+    for page in (*PAGES, DOCS.parent / "README.md"):
+        text = page.read_text(encoding="utf-8")
+        assert not re.search(
+            r"^ *(```|~~~) *(py|pycon|python3|ipython)\b|^ *~~~ *python|^ +```python|^```python .", text, re.MULTILINE
+        ), page.name
+        assert text.count("```python") == len(blocks(page))
 
 
 @pytest.mark.parametrize("scene", re.findall(r"```toml\n(.*?)```", (DOCS / "figures.md").read_text("utf-8"), re.DOTALL))

@@ -4,16 +4,14 @@ import re
 from pathlib import Path
 
 from hexmend.cli.main import commands
+from tests.examples import run_page
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def test_the_example_runs(tmp_path, monkeypatch, capsys):
-    (program,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
-    monkeypatch.chdir(tmp_path)
-    exec(compile(program, "README.md", "exec"), {})
-    said = capsys.readouterr().out.splitlines()
+def test_the_example_runs(tmp_path):
+    said = run_page(ROOT / "README.md", tmp_path).splitlines()
     assert re.match(r"\d+ hexes were inverted, 0 are; q_min 0\.\d+", said[1])
     assert [line.split()[0] for line in said[2:]] == ["1", "2", "3"]
     assert (tmp_path / "mended.vtu").exists()

@@ -1,0 +1,98 @@
+"""What scripts rely on: a mesh or its file, settings by name, a metric's values, the worst hexes."""
+
+import re
+
+import numpy as np
+import pytest
+
+import hexmend as hx
+from hexmend.errors import FileError, MeshError, ParameterError
+from hexmend.quality import METRICS, element, worst_hexes
+
+MESH = hx.gallery.make("bridge-sharp", size=500, scramble=0.4, seed=1)
+
+
+def test_a_mesh_is_smoothed_by_the_default_method_where_none_is_named():
+    result = hx.smooth(MESH)
+    assert result.method == "mend"
+    assert result.after.inverted == 0 < result.before.inverted
+    assert next(hx.iterate(MESH)).number == 1
+
+
+def test_a_file_is_smoothed_with_settings_by_their_names(tmp_path):
+    hx.write(tmp_path / "in.inp", MESH)
+    by_name = hx.smooth(str(tmp_path / "in.inp"), max_iterations=3, boundary="slide")
+    assert by_name.parameters["boundary"] == "slide"
+    assert by_name.iterations <= 3
+    whole = hx.smooth(hx.read(tmp_path / "in.inp"), hx.Mend(boundary="slide"), hx.Stop(max_iterations=3))
+    np.testing.assert_array_equal(by_name.mesh.points, whole.mesh.points)
+
+
+def test_settings_go_before_what_the_method_and_the_limits_say():
+    method, stop = hx.LocalSteepestDescent(p=4, order="natural"), hx.Stop(max_iterations=9, tolerance=0)
+    run = hx.iterate(MESH, method, stop, p=3, max_iterations=2)
+    assert (run.smoother.p, run.smoother.order) == (3, "natural")
+    assert [it.number for it in run] == [1, 2]
+    assert run.result().stages[0].stop == hx.Stop(max_iterations=2, tolerance=0)
+    assert (method.p, stop.max_iterations) == (4, 9)
+
+
+def test_limits_by_name_hold_for_every_stage_of_a_recipe():
+    result = hx.smooth(MESH, hx.Recipe.of("laplacian", "local-sd"), max_iterations=1, keep_last=True)
+    assert [stage.iterations for stage in result.stages] == [1, 1]
+    assert all(stage.stop.keep_last for stage in result.stages)
+
+
+@pytest.mark.parametrize(("smoother", "settings", "words"), [
+    ("mend", {"max_itertions": 3}, "mend has no parameter 'max_itertions': did you mean max_iterations"),
+    ("laplacian", {"bounday": "slide"}, "laplacian has no parameter 'bounday': did you mean boundary"),
+    ("mend", {"boundary": "slid"}, "boundary = 'slid' is unknown: expected one of fixed, slide"),
+    ("mend", {"max_iterations": -1}, "max_iterations = -1 is out of range"),
+    (hx.Recipe.of("getme"), {"boundary": "slide"}, "recipe has no parameter 'boundary': known: keep_last, max_it"),
+    ("mendd", {}, "there is no method 'mendd': did you mean mend"),
+])  # fmt: skip
+def test_settings_that_nobody_has_are_refused(smoother, settings, words):
+    with pytest.raises(ParameterError, match=re.escape(words)):
+        hx.smooth(MESH, smoother, **settings)
+
+
+def test_what_is_no_mesh_or_no_method_is_said(tmp_path):
+    with pytest.raises(TypeError, match=r"int is no mesh: expected a hexmend.Mesh or the path of a file"):
+        hx.smooth(3)
+    with pytest.raises(TypeError, match=r"int is no method: expected a hexmend.Smoother, a Recipe or a name"):
+        hx.smooth(MESH, 3)
+    with pytest.raises(FileError, match=r"nowhere\.vtu"):
+        hx.smooth(tmp_path / "nowhere.vtu")
+
+
+def test_a_mesh_gives_the_values_of_every_metric():
+    figures = hx.measure(MESH.points, MESH.hexes)
+    for name, metric in METRICS.items():
+        np.testing.assert_array_equal(MESH.quality(name), metric.of(MESH.points, MESH.hexes, figures))
+    np.testing.assert_array_equal(MESH.quality("scaled_jacobian"), figures.scaled_jacobian)
+    np.testing.assert_array_equal(MESH.quality(), figures.q)
+    with pytest.raises(ParameterError, match="there is no metric 'colour'"):
+        MESH.quality("colour")
+
+
+@pytest.mark.parametrize("metric", ["q", "scaled_jacobian", "skew"])
+def test_the_worst_hexes_are_those_of_the_worst_values(metric):
+    values = METRICS[metric.replace("_", "-")].better * MESH.quality(metric)
+    worst = MESH.worst(7, metric)
+    np.testing.assert_array_equal(values[worst], np.sort(values)[:7])
+    assert len(MESH.worst()) == 10
+    assert len(MESH.worst(10**6)) == MESH.n_hexes
+    np.testing.assert_array_equal(MESH.worst(7, metric), worst_hexes(MESH, 7, metric))
+
+
+def test_worst_hexes_need_a_better_end_and_a_count():
+    with pytest.raises(ParameterError, match="of volume neither a high nor a low value is better"):
+        MESH.worst(3, "volume")
+    with pytest.raises(ParameterError, match="count = -1 is out of range"):
+        MESH.worst(-1)
+
+
+@pytest.mark.parametrize("number", [-1, MESH.n_hexes, 1.5, "a", None, True])
+def test_there_is_nothing_to_know_of_a_hex_or_node_that_does_not_exist(number):
+    with pytest.raises(MeshError, match="expected a whole number from 0 to"):
+        element(MESH, number)
