@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.errors import MeshError
 from hexmend.kernels import sides
+from hexmend.mesh_checks import as_hexes, as_points, real_numbers
 
 
 def centres_kept(
@@ -21,7 +23,13 @@ def centres_kept(
         A point lies beyond a plane where x . normal > offset.
     notch : bool
         Cut away what lies beyond all planes; else what lies beyond one of them.
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a node that does not exist.
     """
+    points, hexes, normals, offsets = _checked(points, hexes, normals, offsets)
     kept = np.empty(len(hexes), bool)
     sides.centres_kept(points, hexes, normals, offsets, notch, kept)
     return kept
@@ -36,6 +44,16 @@ def touched(points: np.ndarray, hexes: np.ndarray, normals: np.ndarray, offsets:
 
     Parameters are those of `centres_kept`.
     """
+    points, hexes, normals, offsets = _checked(points, hexes, normals, offsets)
     answer = np.empty((len(hexes), len(offsets)), bool)
     sides.touched(points, hexes, normals, offsets, notch, answer.ravel())
     return answer
+
+
+def _checked(
+    points: np.ndarray, hexes: np.ndarray, normals: np.ndarray, offsets: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    points, normals, offsets = as_points(points), as_points(normals, "normals"), real_numbers(offsets, "offsets")
+    if offsets.shape != (len(normals),):
+        raise MeshError(f"offsets have shape {offsets.shape}: expected ({len(normals)},), one for each plane")
+    return points, as_hexes(hexes, len(points)), normals, offsets

@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend.kernels import skin
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import as_points, check_node_numbers, switches
 
 #: Elements up to which all are drawn where they are shrunk; of more, those in sight. So many take 50 ms a frame without
 #: a graphics card.
@@ -42,7 +43,8 @@ class Faces:
         """Where the nodes are drawn, (u, 3), of a mesh whose nodes are at (n, 3) float64 `points`."""
         if not self.shrink:
             return points[self.nodes]
-        places = np.empty((len(self.nodes), 3))
+        places, points = np.empty((len(self.nodes), 3)), as_points(points)
+        check_node_numbers(self.nodes[:, None], len(points), ("place", "column"))
         skin.shrunk(points, self.nodes, self.shrink, places)
         return places
 
@@ -69,12 +71,12 @@ class Skin:
         keep : (m,) bool, optional
             None keeps all.
         """
-        keep = self._all if keep is None else keep
+        keep = self._kept(keep)
         return Faces(*skin.visible(self._n_nodes, self._hexes, self._neighbours, keep))
 
     def shrunk(self, shrink: float, keep: np.ndarray | None = None, fine: bool = True) -> Faces:
         """All six faces of kept hexes; of more than `WHOLE`, of those that have a visible face, and not `fine` that."""
-        keep = self._all if keep is None else keep
+        keep = self._kept(keep)
         if np.count_nonzero(keep) <= WHOLE:
             return Faces(*self._faces_of(keep, keep, True), shrink)
         outer = np.empty(len(keep), bool)
@@ -96,8 +98,12 @@ class Skin:
         inside = behind >= 0
         if len(faces.quads) == 6 * len(hexes):
             return inside.ravel()
-        keep = self._all if keep is None else keep
+        keep = self._kept(keep)
         return inside[~(inside & keep[behind])]
+
+    def _kept(self, keep: np.ndarray | None) -> np.ndarray:
+        """A byte for each hex; `MeshError` for an array of another length."""
+        return self._all if keep is None else switches(keep, "keep", len(self._hexes))
 
     def _faces_of(self, keep: np.ndarray, chosen: np.ndarray, hidden: bool) -> tuple[np.ndarray, ...]:
         return skin.faces_of(self._hexes, self._neighbours, keep, chosen, hidden)

@@ -7,8 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hexmend.errors import MeshError
 from hexmend.hexahedron import EDGES, FACES
 from hexmend.kernels import skin
+from hexmend_app.scene.sides import centres_kept, touched
 from hexmend_app.scene.skin import Skin
 from tests.core.grids import grid
 
@@ -102,3 +104,17 @@ def test_a_face_is_opened_where_the_mesh_goes_on_behind_it(size, seed, shrunk):
         nodes = mesh.hexes[faces.hexes[:, None], faces.quads % 8]
     expected = [frozenset(face) not in boundary for face in nodes.tolist()]
     np.testing.assert_array_equal(one.opened(faces, keep), np.array(expected, bool))
+
+
+def test_what_does_not_fit_the_mesh_is_refused_before_a_kernel_sees_it():
+    mesh = grid(2)
+    with pytest.raises(MeshError, match=r"keep has shape \(7,\): expected \(8,\)"):
+        Skin(mesh).visible(np.ones(7, bool))
+    with pytest.raises(MeshError, match="expected numbers from 0 to 4"):
+        Skin(mesh).shrunk(0.5).places(mesh.points[:5])
+    normals, offsets = np.eye(3), np.zeros(3)
+    for of in (centres_kept, touched):
+        with pytest.raises(MeshError, match="expected numbers from 0 to 4"):
+            of(mesh.points[:5], mesh.hexes, normals, offsets, False)
+        with pytest.raises(MeshError, match=r"offsets have shape \(2,\): expected \(3,\)"):
+            of(mesh.points, mesh.hexes, normals, offsets[:2], False)
