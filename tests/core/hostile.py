@@ -14,14 +14,14 @@ from hypothesis import strategies as st
 
 import hexmend as hx
 from hexmend.edge_length import mean_edge_length
-from hexmend.energy import MeshEnergy, energies
+from hexmend.energy import MeshEnergy, SlidingEnergy, energies
 from hexmend.errors import HexmendError
 from hexmend.fixing import with_pinned, with_region_free
 from hexmend.node_step import Sweep, explain
 from hexmend.patches import grown
 from hexmend.quality import METRICS, corner_determinants, corner_qualities, element, locked, node, worst
 from hexmend.quality.binning import bin_counts
-from hexmend.surface import Skin, Trees, boundary_of, classify
+from hexmend.surface import Skin, Sliding, Trees, boundary_of, classify
 from hexmend.tags import tagged
 from hexmend.topology import Topology
 from tests.core.grids import grid, scrambled
@@ -33,6 +33,7 @@ INSIDE = np.flatnonzero(MESH.free)
 FACES = MESH.topology.boundary_faces
 ENERGY = MeshEnergy(MESH)
 SKIN = Skin(X, FACES)
+SLIDING = Sliding(MESH)
 SD = hx.LocalSteepestDescent()
 
 
@@ -112,6 +113,9 @@ CALLS: dict[str, Callable[[object], object]] = {
     "classify": lambda v: classify(X, v),
     "boundary_of, corners": lambda v: boundary_of(MESH, corners=v),
     "boundary_of, sharp": lambda v: boundary_of(MESH, sharp=v),
+    "Sliding.put_back": SLIDING.put_back,
+    "Sliding.turned": lambda v: SLIDING.turned(X, v),
+    "SlidingEnergy.gradient": lambda v: SlidingEnergy(SLIDING).gradient(v),
     "with_pinned": lambda v: with_pinned(MESH, v),
     "with_region_free": lambda v: with_region_free(MESH, v),
     "tagged": lambda v: tagged(MESH, "a", v),

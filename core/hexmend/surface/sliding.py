@@ -10,6 +10,7 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding as kernels
 from hexmend.mesh import Mesh
+from hexmend.mesh_checks import points_like
 from hexmend.surface.bends import sliding_boundary
 from hexmend.surface.boundary import Kind, classify
 from hexmend.surface.change import NEAR
@@ -159,6 +160,7 @@ class Sliding(Room):
         ----------
         before, after : (n, 3) float64
         """
+        before, after = (points_like(points, self.mesh.points.shape) for points in (before, after))
         found = np.empty(len(self.boundary.faces), dtype=bool)
         kernels.turned(before, after, self.boundary.faces, self.outward, found)
         return np.flatnonzero(found)
