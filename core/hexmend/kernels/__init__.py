@@ -28,8 +28,9 @@ try:
     from hexmend.kernels import _processor
 except ImportError:
     raise InstallationError(
-        f"the kernels of Hexmend are not built for this Python ({sys.version.split()[0]}): run  pip install --editable .  "
-        "in its folder, which needs a C++ compiler and Python's headers (Debian: apt-get install g++ python3-dev)"
+        f"the kernels of Hexmend are not built for this Python ({sys.version.split()[0]}): run  "
+        "pip install --editable .  in its folder, which needs a C++ compiler and Python's headers (Debian: "
+        "apt-get install g++ python3-dev)"
     ) from None
 
 #: Builds, the newest first, that a processor of each level can run.
