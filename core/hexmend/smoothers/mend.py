@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.energy import MeshEnergy, Power, SlidingEnergy, energies
-from hexmend.kernels import local
 from hexmend.mesh import Mesh
 from hexmend.optimise import Outcome, Step
 from hexmend.optimise.descent import Descent, descend
@@ -17,6 +16,7 @@ from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.raising import Raising
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
+from hexmend.smoothers.local_sweeps import local_sweeps
 from hexmend.smoothers.optimiser import Objective
 from hexmend.smoothers.raised import AIM, CLUSTERS, SOUND, SPARED, lifted, limits_of, raise_least, what_limits
 from hexmend.smoothers.smoother import Steps, method
@@ -190,7 +190,7 @@ class Mend(Objective):
                 if not tangled:
                     break
             if tangled:
-                x = _swept(energy, x, figures.inverted, locked, delta, sweeps)
+                x = local_sweeps(energy, x, figures.inverted, locked, delta, sweeps)
                 points = energy.placed(x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True, figures=figures)
@@ -215,7 +215,7 @@ class Mend(Objective):
             while True:
                 poor = None if whole else energies(x, mesh.hexes, 0.0, left_out) > POOR
                 if poor is not None and poor.any():
-                    x = _swept(energy, x, poor, left_out, 0.0, POOR_SWEEPS)
+                    x = local_sweeps(energy, x, poor, left_out, 0.0, POOR_SWEEPS)
                 taken = descend(energy, x, 0.0, find, SEARCH, REACH)
                 if taken is None or (taken.alpha == 0 and (taken.slope < 0 or more)):
                     break
@@ -230,28 +230,6 @@ class Mend(Objective):
             if not rises:
                 return points, _end(taken)
             p = min(2 * p, self.highest_p)
-
-
-def _swept(
-    energy: MeshEnergy, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, sweeps: int
-) -> np.ndarray:
-    """Sweeps of local Newton steps over the nodes of some hexes and of their neighbours, those that slide left out.
-
-    Nodes at hexes of which corners are left out stay: a local energy would count these corners.
-    """
-    mesh = energy.mesh
-    near = np.zeros(mesh.n_nodes, dtype=bool)
-    near[mesh.hexes[around]] = True
-    near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
-    near[mesh.hexes[left_out != 0]] = False
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
-    swept = x.copy()
-    for _ in range(sweeps):
-        local.sweep(
-            swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            local.MODIFIED_NEWTON, delta, energy.power, 1.0, 0.7, 1e-4, 60,
-        )  # fmt: skip
-    return swept
 
 
 def _end(taken: Descent | None) -> Outcome:
