@@ -9,15 +9,6 @@ from hexmend.mesh import Mesh
 from tests.core.grids import grid
 
 
-def test_arrays_are_read_only_copies():
-    points = UNIT_CUBE.copy()
-    mesh = Mesh(points, [range(8)])
-    points[0] = 9
-    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
-    with pytest.raises(ValueError, match="read-only"):
-        mesh.points[0, 0] = 1
-
-
 def test_with_points_shares_topology_and_leaves_the_original():
     mesh = grid(3)
     _ = mesh.topology.face_neighbours, mesh.free
@@ -51,13 +42,6 @@ def test_replace_carries_and_does_not_move():
 def test_what_is_no_mesh_is_said(points, hexes, words):
     with pytest.raises(MeshError, match=words):
         Mesh(points, hexes)
-
-
-def test_data_must_have_a_row_a_node_or_hex():
-    with pytest.raises(MeshError, match="node data 'id' has 3 rows: expected 8"):
-        Mesh(UNIT_CUBE, [range(8)], node_data={"id": np.arange(3)})
-    with pytest.raises(MeshError, match="hex data 'id' has 3 rows: expected 1"):
-        Mesh(UNIT_CUBE, [range(8)], hex_data={"id": np.arange(3)})
 
 
 def test_fixed_are_boundary_pinned_and_unused():
