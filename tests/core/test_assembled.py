@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, Power
@@ -110,6 +110,7 @@ def test_parts_share_no_block_but_with_the_separators_between_them(parts, made):
 
 
 @pytest.mark.parametrize("parts", [1, 2, 3])
+@settings(max_examples=10)
 @given(seed=seeds)
 def test_parts_change_the_way_but_not_the_solution(parts, seed):
     hessian = hessian_of(scrambled(grid(14, 3, 3), 0.15, seed), shift=0.5)

@@ -68,7 +68,7 @@ def test_the_assembled_hessian_has_the_same_products_along_the_surface(solid, se
     )
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @cases
 def test_off_the_surface_nothing_is_coupled_and_no_eigenvalue_is_an_extreme(solid, seed, p):
     energy, x, _ = at(solid, seed, p)
