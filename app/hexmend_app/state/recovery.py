@@ -21,7 +21,9 @@ from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
 from hexmend.errors import HexmendError
 from hexmend.io.archive_members import DESCRIPTION
+from hexmend.io.atomic import replacing
 from hexmend.io.session import KeptSession
+from hexmend.io.temporary_files import flush_folder, make_folder
 from hexmend_app.state import session_data
 from hexmend_app.state.places import state_folder
 from hexmend_app.state.task import Task
@@ -127,7 +129,9 @@ class Recovery(QObject):
         place = state_folder() / _FOLDER
         folder = place / f"{os.getpid()}-{os.urandom(4).hex()}"
         try:
-            folder.mkdir(mode=0o700, parents=True)
+            make_folder(place)
+            folder.mkdir(mode=0o700)
+            flush_folder(place)
         except OSError as error:
             self.failed.emit(error)
             return
@@ -203,6 +207,7 @@ class Recovery(QObject):
         for name in (_SESSION, _ABOUT):
             with suppress(OSError):
                 os.replace(left.folder / name, self._folder / name)
+        flush_folder(self._folder)
         self.forget(left)
 
     def _give_up(self) -> None:
@@ -222,7 +227,8 @@ def _write(folder: Path, kept: KeptSession, data: session_data.SessionData, task
     """Write what is new of a session, with an account of it."""
     name = Path(data.document.path or data.document.now.mesh.name).name
     about = json.dumps({"name": name, "runs": len(data.history.records)})
-    (folder / _ABOUT).write_text(about, encoding="utf-8")
+    with replacing(folder / _ABOUT) as temporary:
+        temporary.write_text(about, encoding="utf-8")
     if (folder / _SESSION).is_file():
         os.replace(folder / _SESSION, folder / _EARLIER)
     session_data.keep(kept, data)

@@ -1,7 +1,8 @@
 """A tree of plain data and arrays as a folder, written again and again: of arrays that are there only once.
 
 Arrays come first, in files of their own; then the description, as a whole or not at all; then arrays that it does not
-name go. So the folder is at any moment the tree that was written last, whenever the writer is killed.
+name go. So the folder is at any moment the tree that was written last, whenever the writer is killed or the power is
+cut: new arrays are on the disk before the description names them.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from hexmend.errors import FileError
 from hexmend.io.archive import described, write_array
 from hexmend.io.archive_members import ARRAYS, DESCRIPTION, MEMBER
 from hexmend.io.atomic import replacing
+from hexmend.io.temporary_files import flush_file, flush_folder, make_folder
 
 
 class ArchiveFolder:
@@ -63,6 +65,10 @@ class ArchiveFolder:
             for array, at in fresh:
                 with open(self._file(at), "wb") as file:
                     write_array(file, array)
+            for _, at in fresh:  # after all of them are written, which lets the system write them together
+                flush_file(self._file(at))
+            if fresh:
+                flush_folder(self.path / ARRAYS)
             with replacing(self.path / DESCRIPTION) as temporary:
                 temporary.write_text(description, encoding="utf-8")
         except (OSError, FileError) as error:
@@ -76,7 +82,7 @@ class ArchiveFolder:
     def _begin(self) -> frozenset[int]:
         """Make the folder: the numbers there; of what another writer has left there, none is given again."""
         try:
-            (self.path / ARRAYS).mkdir(parents=True, exist_ok=True)
+            make_folder(self.path / ARRAYS)
             there = frozenset(self._numbers())
         except OSError as error:
             raise FileError(self.path, f"cannot be written: {error.strerror or error}", "Free the place.") from None

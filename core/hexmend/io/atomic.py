@@ -5,19 +5,21 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 from hexmend.errors import FileError
+from hexmend.io.temporary_files import TemporaryFile, flush_file, flush_folder
 
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path beside `path`, of the same suffix, which takes the place of `path` when the block ends well.
 
-    Where the block raises, the temporary file is removed and the old file stays as it was. A new file gets the
-    permissions that the user's umask grants; a replaced one keeps its own. A link is followed. What is no regular
-    file (a pipe, /dev/stdout) cannot be replaced and is written to directly.
+    Where the block raises, the temporary file is removed and the old file stays as it was. The content is on the disk
+    before the name changes, and the name before the block is left, so that a power cut leaves the old file or the new
+    one. A new file gets the permissions that the user's umask grants; a replaced one keeps its own. A link is followed.
+    What is no regular file (a pipe, /dev/stdout) cannot be replaced and is written to directly.
 
     Parameters
     ----------
@@ -35,26 +37,28 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         Where the folder is missing or cannot be written to, `path` is a folder or read-only, or the disk is full.
     """
     path = Path(path)
-    temporary: Path | None = None
+    temporary: TemporaryFile | None = None
     try:
         if path.exists() and not path.is_file() and not path.is_dir():
             yield path
             return
         target, mode = _writable(path)
-        temporary = target.with_name(f".hexmend-{os.urandom(4).hex()}{target.suffix}")
-        _create(temporary, mode)
-        yield temporary
-        os.replace(temporary, target)
+        temporary = TemporaryFile(target)
+        temporary.create(mode)
+        yield temporary.path
+        flush_file(temporary.path)
+        os.replace(temporary.path, target)
+        flush_folder(target.parent)
     except OSError as error:
-        if error.filename is not None and Path(error.filename) not in (path, temporary):
+        ours = (path,) if temporary is None else (path, temporary.path)
+        if error.filename is not None and Path(error.filename) not in ours:
             raise  # about another file, which the caller touched inside the block
         raise FileError(
             path, f"cannot be written: {error.strerror or error}", "Free the place or choose another."
         ) from None
     finally:
         if temporary is not None:
-            with suppress(OSError):
-                temporary.unlink()
+            temporary.remove()
 
 
 def check_writable(path: str | os.PathLike[str]) -> None:
@@ -62,16 +66,6 @@ def check_writable(path: str | os.PathLike[str]) -> None:
     path = Path(path)
     if not path.exists() or path.is_file() or path.is_dir():
         _writable(path)
-
-
-def _create(path: Path, mode: int | None) -> None:
-    """Make an empty file with the permissions of the one it replaces, from the first byte on."""
-    handle = os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666 if mode is None else 0o600)
-    try:
-        if mode is not None:
-            os.fchmod(handle, mode)
-    finally:
-        os.close(handle)
 
 
 def _writable(path: Path) -> tuple[Path, int | None]:

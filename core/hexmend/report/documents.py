@@ -10,6 +10,7 @@ from typing import Any
 from hexmend.errors import FileError
 from hexmend.io.atomic import replacing
 from hexmend.io.suffixes import suffix_for
+from hexmend.io.temporary_files import make_folder
 from hexmend.report.latex import latex
 from hexmend.report.markdown import markdown
 from hexmend.report.records import write_json
@@ -29,7 +30,7 @@ def made_folder(path: str | Path) -> Path:
     """
     folder = Path(path)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
     except OSError as error:
         problem = "is a file" if isinstance(error, FileExistsError) else f"cannot be made: {error.strerror or error}"
         raise FileError(folder, problem, "Name another folder.") from None

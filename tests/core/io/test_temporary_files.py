@@ -1,0 +1,212 @@
+"""Files are replaced safely: on the disk before they are renamed, without names shared, without leftovers."""
+
+import errno
+import fcntl
+import os
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+from hexmend import gallery, io
+from hexmend.errors import FileError
+from hexmend.io import temporary_files
+from hexmend.io.archive_folder import ArchiveFolder
+from hexmend.io.atomic import replacing
+from hexmend.report import made_folder
+
+#: Begins to write a file, says so, and waits.
+WRITER = """
+import sys, time
+from hexmend.io.atomic import replacing
+with replacing(sys.argv[1]) as temporary:
+    temporary.write_text("half")
+    print(temporary, flush=True)
+    time.sleep(600)
+"""
+
+
+def files(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.fixture
+def writer():
+    """Starts a process that writes a file; gives the process and its temporary file."""
+    started = []
+
+    def start(path):
+        process = subprocess.Popen([sys.executable, "-c", WRITER, str(path)], stdout=subprocess.PIPE, text=True)
+        started.append(process)
+        return process, process.stdout.readline().strip()
+
+    yield start
+    for process in started:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+
+
+@pytest.fixture
+def recorded(monkeypatch):
+    """Calls of `os.fsync` and `os.replace`, in order: the name of the file or the folder that each was about."""
+    calls, flush, replace = [], os.fsync, os.replace
+
+    def recorded_flush(handle):
+        calls.append(("fsync", os.path.basename(os.readlink(f"/proc/self/fd/{handle}"))))
+        flush(handle)
+
+    def recorded_replace(source, target):
+        calls.append(("replace", os.path.basename(source), os.path.basename(target)))
+        replace(source, target)
+
+    monkeypatch.setattr(os, "fsync", recorded_flush)
+    monkeypatch.setattr(os, "replace", recorded_replace)
+    return calls
+
+
+needs_proc = pytest.mark.skipif(not os.path.isdir("/proc/self/fd"), reason="no /proc")
+
+
+@needs_proc
+def test_a_file_is_on_the_disk_before_it_is_renamed_and_its_name_after(tmp_path, recorded):
+    io.write(tmp_path / "mesh.vtu", gallery.make("cube", size=8))
+    (_, temporary), *rest = recorded
+    assert temporary.endswith("-mesh.vtu")
+    assert rest == [("replace", temporary, "mesh.vtu"), ("fsync", tmp_path.name)]
+
+
+@needs_proc
+def test_only_new_arrays_of_a_folder_are_flushed_before_its_description_names_them(tmp_path, recorded):
+    folder, first = ArchiveFolder(tmp_path / "session"), np.arange(3)
+    folder.write("test", 1, [first])
+    recorded.clear()
+    folder.write("test", 1, [first, np.arange(4), np.arange(5)])
+    names = [call[1] for call in recorded]
+    temporary = names[3]
+    assert names == ["1.npy", "2.npy", "arrays", temporary, temporary, "session"]
+    assert recorded[4] == ("replace", temporary, "description.json")
+
+
+@needs_proc
+def test_new_folders_are_flushed_into_those_above_them(tmp_path, recorded):
+    made_folder(tmp_path / "a" / "b")
+    made_folder(tmp_path / "a" / "b")
+    assert recorded == [("fsync", "a"), ("fsync", tmp_path.name)]
+
+
+def test_a_disk_that_is_full_when_the_file_is_flushed_leaves_the_old_file(tmp_path, monkeypatch):
+    path = tmp_path / "mesh.vtk"
+    path.write_text("old")
+
+    def full(handle):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(FileError, match="No space left"), replacing(path) as temporary:
+        temporary.write_text("new")
+    assert path.read_text() == "old"
+    assert files(tmp_path) == ["mesh.vtk"]
+
+
+def test_a_file_system_that_cannot_flush_is_written_to(tmp_path, monkeypatch):
+    def cannot(handle):
+        raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
+
+    monkeypatch.setattr(os, "fsync", cannot)
+    with replacing(tmp_path / "mesh.vtk") as temporary:
+        temporary.write_text("new")
+    assert (tmp_path / "mesh.vtk").read_text() == "new"
+
+
+def test_two_writers_of_a_file_have_a_temporary_file_each(tmp_path):
+    path, barrier, temporaries = tmp_path / "mesh.vtk", threading.Barrier(2), []
+
+    def write(text):
+        with replacing(path) as temporary:
+            temporaries.append(temporary)
+            barrier.wait(60)
+            temporary.write_text(text)
+            barrier.wait(60)
+            assert temporary.read_text() == text
+
+    threads = [threading.Thread(target=write, args=(text,)) for text in ("one", "other")]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(set(temporaries)) == 2
+    assert path.read_text() in ("one", "other")
+    assert files(tmp_path) == ["mesh.vtk"]
+
+
+def test_the_next_writer_removes_what_a_killed_one_left_of_the_same_target(tmp_path, writer):
+    path, other = tmp_path / "mesh.vtk", tmp_path / "a-mesh.vtk"
+    for target in (path, other):
+        process, _ = writer(target)
+        process.kill()
+        process.wait()
+    assert len(files(tmp_path)) == 2
+    io.write(path, gallery.make("cube", size=8))
+    (left,) = set(files(tmp_path)) - {"mesh.vtk"}
+    assert left.endswith("-a-mesh.vtk")
+
+
+def test_the_file_of_a_writer_at_work_is_not_removed(tmp_path, writer):
+    path = tmp_path / "mesh.vtk"
+    _, temporary = writer(path)
+    io.write(path, gallery.make("cube", size=8))
+    assert os.path.exists(temporary)
+
+
+def test_leftovers_that_cannot_be_removed_are_ignored(tmp_path):
+    path = tmp_path / "mesh.vtk"
+    folder = temporary_files.TemporaryFile(path).path
+    folder.mkdir()
+    link = temporary_files.TemporaryFile(path).path
+    link.symlink_to(tmp_path / "elsewhere")
+    io.write(path, gallery.make("cube", size=8))
+    assert files(tmp_path) == sorted([folder.name, link.name, "mesh.vtk"])
+
+
+def test_a_file_system_without_locks_is_written_to_and_nothing_is_removed_from_it(tmp_path, monkeypatch):
+    def none(handle, how):
+        raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
+
+    monkeypatch.setattr(fcntl, "flock", none)
+    path = tmp_path / "mesh.vtk"
+    with replacing(path) as first, replacing(path) as second:
+        first.write_text("first")
+        second.write_text("second")
+    assert path.read_text() == "first"
+    assert files(tmp_path) == ["mesh.vtk"]
+
+
+@pytest.mark.parametrize("locked", [False, True])
+def test_a_file_that_another_process_removes_before_it_is_locked_is_made_again(tmp_path, monkeypatch, locked):
+    lock, met = fcntl.flock, []
+
+    def meet(handle, how):
+        if not met:
+            (taken,) = tmp_path.iterdir()
+            met.append(taken)
+            taken.unlink()
+            if locked:
+                raise BlockingIOError
+        lock(handle, how)
+
+    monkeypatch.setattr(fcntl, "flock", meet)
+    with replacing(tmp_path / "mesh.vtk") as temporary:
+        assert temporary not in met
+        temporary.write_text("new")
+    assert (tmp_path / "mesh.vtk").read_text() == "new"
+
+
+@pytest.mark.parametrize("name", ["m" * 251 + ".vtk", "é" * 125 + ".vtk", "m." + "s" * 253])
+def test_a_name_as_long_as_names_may_be_can_be_written(tmp_path, name):
+    with replacing(tmp_path / name) as temporary:
+        temporary.write_text("new")
+        assert temporary.suffix == (".vtk" if name.endswith(".vtk") else "")
+    assert (tmp_path / name).read_text() == "new"
