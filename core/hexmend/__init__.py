@@ -10,8 +10,6 @@ Names are imported when they are first used: a command that computes nothing doe
 `__all__` the class of every registered method is here under its own name, such as `hx.LocalSteepestDescent`.
 """
 
-import importlib as _importlib
-
 __version__ = "0.1.0"
 
 TYPE_CHECKING = False  # which type checkers take for true; `typing` alone would cost as much as `--version` does
@@ -87,16 +85,19 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
+    from importlib import import_module
+
     if name in ("energy", "gallery"):
-        return _importlib.import_module(f"hexmend.{name}")
+        return import_module(f"hexmend.{name}")
     if name in _HOME_OF:
-        return getattr(_importlib.import_module(f"hexmend.{_HOME_OF[name]}"), name)
-    for smoother in () if name.startswith("_") else _importlib.import_module("hexmend.smoothers").METHODS.values():
+        return getattr(import_module(f"hexmend.{_HOME_OF[name]}"), name)
+    for smoother in () if name.startswith("_") else import_module("hexmend.smoothers").METHODS.values():
         if smoother.__name__ == name:
             return smoother
     raise AttributeError(f"module 'hexmend' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    methods = _importlib.import_module("hexmend.smoothers").METHODS.values()
-    return sorted({*__all__, *(smoother.__name__ for smoother in methods)})
+    from hexmend.smoothers import METHODS
+
+    return sorted({*__all__, *(smoother.__name__ for smoother in METHODS.values())})

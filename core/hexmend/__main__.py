@@ -2,6 +2,10 @@
 
 import sys
 
-from hexmend.cli.main import main
+from hexmend.cli.interrupts import exit_on_signals
+
+exit_on_signals()
+
+from hexmend.cli.main import main  # noqa: E402
 
 sys.exit(main())

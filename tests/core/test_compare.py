@@ -95,6 +95,19 @@ def test_an_interrupt_while_a_method_is_prepared_keeps_the_others(mesh, monkeypa
     assert answer.rows[1].after == answer.initial
 
 
+def test_an_interrupt_between_two_methods_keeps_those_that_are_done(mesh, monkeypatch):
+    def run_one(mesh, smoother, stop, watch):
+        if smoother.name == "local-sd":
+            raise KeyboardInterrupt
+        return done, True
+
+    done = compare(mesh, ["laplacian"], FEW).rows[0]
+    monkeypatch.setattr("hexmend.study.compare.run_one", run_one)
+    answer = compare(mesh, ["laplacian", "local-sd"], FEW)
+    assert answer.interrupted
+    assert answer.rows == (done,)
+
+
 def test_a_method_that_fails_has_its_row_and_the_others_go_on(mesh, monkeypatch):
     def steps(self, mesh):
         raise np.linalg.LinAlgError("singular matrix")

@@ -24,8 +24,10 @@ sys.exit(main(sys.argv[1:]))
 SLOW_TO_WRITE = """
 import signal, sys, time
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
+from hexmend.cli.interrupts import FinishesWriting
 from hexmend.cli.main import main
 from hexmend.io import vtu
+FinishesWriting.grace = 0.1
 from hexmend.io.format import FORMATS
 whole = FORMATS["vtu"].write
 def write(path, mesh, encoding):

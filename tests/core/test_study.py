@@ -230,6 +230,15 @@ def test_a_study_that_is_interrupted_keeps_its_columns(tiny):
     json.dumps(study.record(), allow_nan=False)
 
 
+def test_a_study_that_is_interrupted_between_two_runs_keeps_what_was_measured(tiny):
+    def done(one):
+        raise KeyboardInterrupt
+
+    study = run_experiments(tiny, quick=True, done=done)
+    assert study.interrupted
+    assert len(study.measured) == 1
+
+
 def test_the_command_runs_a_table(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(mesh_figures, "entry_points", lambda group: [])  # without the viewer
     assert main(["study", "thesis", "--quick", "--only", "4.11", "-o", str(tmp_path)]) == 0

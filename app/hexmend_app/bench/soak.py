@@ -78,6 +78,8 @@ class Memory:
         from scipy.stats import theilslopes
 
         warm = self.warm
+        if len(warm) < 2:
+            return 0.0
         return float(theilslopes([one.mb for one in warm]).slope * (len(warm) - 1))
 
     @property

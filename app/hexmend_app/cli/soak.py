@@ -24,6 +24,7 @@ class Soak:
         parser.add_argument("--json", metavar="FILE", help="write the figures of every round")
 
     def run(self, args: argparse.Namespace) -> int:
+        from hexmend.cli.interrupts import EndsAfterIteration, FinishesWriting
         from hexmend.errors import HexmendError
         from hexmend.report import write_json
         from hexmend.study.section import resident_mb
@@ -40,12 +41,18 @@ class Soak:
         except OSError:
             raise HexmendError("soak needs a system that tells what a process holds in /proc, as Linux does") from None
         memory = Memory()
-        for sample in soak(args.mesh or [demo_mesh()], 60 * minutes):
-            memory.add(sample)
-            print(sample, flush=True)
-        print(memory.verdict)
-        if args.json:
-            write_json(args.json, memory.given())
+        with FinishesWriting():
+            with EndsAfterIteration("round") as signals:
+                for sample in soak(args.mesh or [demo_mesh()], 60 * minutes):
+                    memory.add(sample)
+                    print(sample, flush=True)
+                    if signals.asked:
+                        break
+            if args.json:
+                write_json(args.json, memory.given())
+            print(memory.verdict)
+        if signals.asked:
+            return 130
         return 0 if memory.level else 1
 
 

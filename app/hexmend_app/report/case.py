@@ -170,7 +170,11 @@ def run_methods(
             runs[:] = [run]
             return watch(run) if watch is not None else None
 
-        row, go_on = run_one(mesh, method, stop, seen)
+        try:
+            row, go_on = run_one(mesh, method, stop, seen)
+        except KeyboardInterrupt:  # after its last iteration
+            go_on = False
+            break
         if row.mesh is None:
             failed.append(row)
         else:

@@ -9,6 +9,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 from vtkmodules.vtkRenderingUI import vtkGenericRenderWindowInteractor
 
+from hexmend.uninterrupted import uninterrupted
+
 
 class Stage:
     """A window that nobody sees; to be closed, as by `with`.
@@ -37,6 +39,7 @@ class Stage:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    @uninterrupted  # VTK ends the process where its callbacks raise KeyboardInterrupt
     def picture(self, transparent: bool = False) -> np.ndarray:
         """Draw what is to be seen, (height, width, 3) uint8; (height, width, 4) without the ground."""
         self.window.Render()

@@ -18,6 +18,7 @@ from PySide6.QtCore import QCoreApplication, QTimer
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
+from hexmend.cli.interrupts import ENDING
 from hexmend_app.resources import demo_mesh, resource
 from hexmend_app.state.garbage import Garbage
 from hexmend_app.widgets.report import report_of
@@ -57,6 +58,9 @@ def open_window(mesh: str | None = None) -> int:
     window.furnished.connect(app.findChild(Garbage).spare)
     # A signal may come while something is painted: the window is closed after that.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
+    for number in ENDING:  # the others end it whatever it is at; what was kept is offered at the next start
+        if number != signal.SIGINT and signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
     alive = QTimer()  # lets Python see a Ctrl-C
     alive.start(250)
     alive.timeout.connect(lambda: None)

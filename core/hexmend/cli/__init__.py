@@ -1,0 +1,16 @@
+"""The command line: one module for each command.
+
+The script `hexmend` imports this package before anything that takes time: from here on Ctrl-C is no traceback.
+"""
+
+import os as _os
+import sys as _sys
+
+if _os.path.basename("".join(_sys.argv[:1])).lower() in ("hexmend", "hexmend.exe"):
+    try:
+        from hexmend.cli.interrupts import exit_on_signals as _exit_on_signals
+
+        _exit_on_signals()
+    except KeyboardInterrupt:  # while that is loaded
+        _os.write(2, b"hexmend: interrupted\n")
+        _os._exit(130)

@@ -33,6 +33,7 @@ class Compare:
         from hexmend.cli.command.method import with_boundary
         from hexmend.cli.command.printed import print_table
         from hexmend.cli.command.progress import Progress
+        from hexmend.cli.interrupts import FinishesWriting
         from hexmend.io import read, write, writer_for
         from hexmend.report import comparison_rows, made_folder, table_of, write_documents
         from hexmend.smoothers import METHODS
@@ -48,21 +49,21 @@ class Compare:
         suffix = Path(args.mesh).suffix
         if args.write_meshes:
             writer_for(folder / f"mesh{suffix}")
-        with Progress() as progress:
-            comparison = compare(mesh, smoothers, stop, watch=progress.show)
-        record = comparison.record()
-        table = table_of(record)
-        paths = write_documents(folder, "comparison", table, comparison_rows(record), record)
-        for row in comparison.rows if args.write_meshes else ():
-            if row.mesh is not None:
-                paths.append(folder / f"{mesh.name}-{re.sub(r'[^A-Za-z0-9]+', '-', row.method)}{suffix}")
-                write(paths[-1], row.mesh)
-        print_table(table)
-        print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
-        if comparison.interrupted:
-            print("Interrupted: the table holds what was done so far.", file=sys.stderr)
-            return 130
-        return 0
+        with FinishesWriting():
+            with Progress() as progress:
+                comparison = compare(mesh, smoothers, stop, watch=progress.show)
+            record = comparison.record()
+            table = table_of(record)
+            paths = write_documents(folder, "comparison", table, comparison_rows(record), record)
+            for row in comparison.rows if args.write_meshes else ():
+                if row.mesh is not None:
+                    paths.append(folder / f"{mesh.name}-{re.sub(r'[^A-Za-z0-9]+', '-', row.method)}{suffix}")
+                    write(paths[-1], row.mesh)
+            print_table(table)
+            print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
+            if comparison.interrupted:
+                print("Interrupted: the table holds what was done so far.", file=sys.stderr)
+        return 130 if comparison.interrupted else 0
 
 
 command = Compare()

@@ -14,8 +14,10 @@ import importlib
 import io
 import os
 import sys
+from contextlib import suppress
 
 from hexmend import __version__
+from hexmend.cli.interrupts import EndsCleanly, exit_interrupted, exit_on_signals
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -23,22 +25,35 @@ if TYPE_CHECKING:
 
     from hexmend.cli.command import Command
 
-_NOT_COMMANDS = {"main", "command", "tables"}
+_NOT_COMMANDS = {"main", "command", "interrupts", "tables", "terminal"}
 
 #: The command that a bare mesh, or nothing, stands for.
 _DEFAULT = "view"
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line and return its exit status."""
+    """Run the command line and return its exit status.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        The words of the command. Without them this is the program itself, and signals are its own.
+    """
+    if argv is None:
+        exit_on_signals()
     _speak_any_tongue()
     try:
         status = _main(list(sys.argv[1:] if argv is None else argv))
         sys.stdout.flush()
         return status
     except KeyboardInterrupt as interrupt:
-        print("hexmend: interrupted", file=sys.stderr)
-        return 128 + getattr(interrupt, "number", 2)
+        number = getattr(interrupt, "number", 2)
+        with suppress(OSError):  # the terminal may have gone
+            if argv is None:
+                sys.stdout.flush()
+                exit_interrupted(number)
+            print("hexmend: interrupted", file=sys.stderr)
+        return 128 + number
     except BrokenPipeError:  # the reader (head, less) has gone: nothing more to say
         _say_no_more()
         return 0
@@ -105,7 +120,6 @@ def _own_commands() -> dict[str, Callable[[], Command]]:
 def _run(load: Callable[[], Command], words: list[str]) -> int:
     import argparse
 
-    from hexmend.cli.command.interrupts import EndsCleanly
     from hexmend.errors import FileError, HexmendError, MeshError, ShortageError
     from hexmend.figures import printable
 
@@ -119,7 +133,7 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
             return int(leave.code or 0)
         if command.name == _DEFAULT:  # the window has a loop of its own
             return command.run(args)
-        with EndsCleanly():
+        with EndsCleanly(completes=True):
             return command.run(args)
     except HexmendError as error:
         print(f"hexmend: {printable(str(error))}", file=sys.stderr)

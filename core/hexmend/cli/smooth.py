@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hexmend.mesh import Mesh
+    from hexmend.optimise import Result
 
 
 class Smooth:
@@ -33,17 +38,13 @@ class Smooth:
         parser.add_argument("--history", metavar="FILE.csv", help="write a row an iteration")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.advice import advise
         from hexmend.cli.command.files import check_targets, say_diagnosis, say_left_out, say_notes
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
-        from hexmend.cli.command.suggested import command_of
-        from hexmend.cli.tables import print_summaries
+        from hexmend.cli.interrupts import FinishesWriting
         from hexmend.fixing import hexes_of, with_region_free, with_sets_fixed
         from hexmend.io import read, write_recipe, writer_for
-        from hexmend.quality import summarise_second_order
-        from hexmend.report import record, write_history, write_json
         from hexmend.run import iterate
 
         what, stop = chosen(args)
@@ -62,35 +63,46 @@ class Smooth:
         run = iterate(on_surface(args, mesh, what), what, stop)
         if args.save_recipe:
             write_recipe(args.save_recipe, run.recipe)
-        follow(run)
-        result = run.result()
-        write(args.output, result.mesh.replace(pinned=pins))
-        curved = {"before": summarise_second_order(mesh), "after": summarise_second_order(result.mesh)}
-        if args.json:
-            report = record(result)
-            for when, one in curved.items():
-                if one is not None:
-                    report[when]["second_order"] = one.to_dict()
-            write_json(args.json, report)
-        if args.history:
-            write_history(args.history, result)
-        print_summaries(f"{args.mesh}: {what.title}", ["before", "after"], [result.before, result.after])
-        print(result.message)
+        with FinishesWriting():
+            follow(run)
+            result = run.result()
+            write(args.output, result.mesh.replace(pinned=pins))
+            _report(args, mesh, what.title, result)
+        return 4 if result.after.inverted else 0
+
+
+def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) -> None:
+    """Write the reports that are asked for, and print what has become of the mesh."""
+    from hexmend.advice import advise
+    from hexmend.cli.command.suggested import command_of
+    from hexmend.cli.tables import print_summaries
+    from hexmend.quality import summarise_second_order
+    from hexmend.report import record, write_history, write_json
+
+    curved = {"before": summarise_second_order(mesh), "after": summarise_second_order(result.mesh)}
+    if args.json:
+        report = record(result)
         for when, one in curved.items():
             if one is not None:
-                print(f"Second order, {when}: {one.words}.")
-        if result.surface is not None:
-            print(result.surface.words)
-        print(f"Written to {args.output}.")
-        if not result.after.inverted:
-            return 0
-        advice = advise(result)
+                report[when]["second_order"] = one.to_dict()
+        write_json(args.json, report)
+    if args.history:
+        write_history(args.history, result)
+    advice = advise(result) if result.after.inverted else None
+    print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after])
+    print(result.message)
+    for when, one in curved.items():
+        if one is not None:
+            print(f"Second order, {when}: {one.words}.")
+    if result.surface is not None:
+        print(result.surface.words)
+    print(f"Written to {args.output}.")
+    if advice is not None:
         print(advice.left)
         for one in advice.suggestions:
             print(f"To try next: {one.text}")
             if line := command_of(one, args.mesh, args.output):
                 print(f"      {line}")
-        return 4
 
 
 command = Smooth()

@@ -85,6 +85,7 @@ class Study:
     def _thesis(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
+        from hexmend.cli.interrupts import FinishesWriting
         from hexmend.parameters import from_strings
         from hexmend.report import made_folder, write_experiment, write_outlook, write_study
         from hexmend.report.thesis import VERDICTS
@@ -111,18 +112,19 @@ class Study:
                 paths = write_experiment(folder, one.record())
             print(f"{said}: {paths[1].name}", flush=True)
 
-        with Progress() as progress:
-            study = run_experiments(thesis, quick=args.quick, watch=progress.show, done=done)
-        figures, missing = draw_figures(folder, study.measured)
-        record = {"machine": machine()} | study.record() | {"figures": figures, "missing": missing}
-        for claim in record["claims"]:
-            print(f"\n{claim['claim']} ({claim['section']}) {VERDICTS[claim['reproduced']]} {claim['figures']}")
-        if study.interrupted:
-            print("Interrupted: the report holds what was done so far.", file=sys.stderr)
-        if missing:
-            print(missing, file=sys.stderr)
-        write_study(folder, record)
-        print(f"\nWritten to {folder / 'study.md'}.")
+        with FinishesWriting():
+            with Progress() as progress:
+                study = run_experiments(thesis, quick=args.quick, watch=progress.show, done=done)
+            figures, missing = draw_figures(folder, study.measured)
+            record = {"machine": machine()} | study.record() | {"figures": figures, "missing": missing}
+            write_study(folder, record)
+            for claim in record["claims"]:
+                print(f"\n{claim['claim']} ({claim['section']}) {VERDICTS[claim['reproduced']]} {claim['figures']}")
+            if study.interrupted:
+                print("Interrupted: the report holds what was done so far.", file=sys.stderr)
+            if missing:
+                print(missing, file=sys.stderr)
+            print(f"\nWritten to {folder / 'study.md'}.")
         return 130 if study.interrupted else 0
 
 

@@ -86,9 +86,14 @@ def compare(
     stop = stop or Stop()
     smoothers = [METHODS[one]() if isinstance(one, str) else one for one in methods]
     rows: list[Row] = []
-    for smoother in smoothers:
-        row, go_on = run_one(mesh, smoother, stop, watch)
-        rows.append(row)
-        if not go_on:
-            return Comparison(mesh, summarise(mesh), stop, tuple(rows), interrupted=True)
-    return Comparison(mesh, summarise(mesh), stop, tuple(rows))
+    interrupted = False
+    try:
+        for smoother in smoothers:
+            row, go_on = run_one(mesh, smoother, stop, watch)
+            rows.append(row)
+            if not go_on:
+                interrupted = True
+                break
+    except KeyboardInterrupt:  # between two runs
+        interrupted = True
+    return Comparison(mesh, summarise(mesh), stop, tuple(rows), interrupted)

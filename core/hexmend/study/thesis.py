@@ -99,21 +99,24 @@ def run_experiments(
     """
     laboratory = _Laboratory(thesis, quick, watch)
     measured = []
-    for experiment in thesis.experiments:
-        measured.append(laboratory.measure(experiment))
-        if done is not None:
-            done(measured[-1])
-        if laboratory.interrupted:
-            break
     tried: list[Tried] = []
-    for outlook in () if laboratory.interrupted else thesis.outlooks:
-        one, go_on = try_outlook(outlook, lambda method: thesis.outlook_stop(method, quick), quick, watch)
-        tried.append(one)
-        if done is not None:
-            done(one)
-        if not go_on:
-            laboratory.interrupted = True
-            break
+    try:
+        for experiment in thesis.experiments:
+            measured.append(laboratory.measure(experiment))
+            if done is not None:
+                done(measured[-1])
+            if laboratory.interrupted:
+                break
+        for outlook in () if laboratory.interrupted else thesis.outlooks:
+            one, go_on = try_outlook(outlook, lambda method: thesis.outlook_stop(method, quick), quick, watch)
+            tried.append(one)
+            if done is not None:
+                done(one)
+            if not go_on:
+                laboratory.interrupted = True
+                break
+    except KeyboardInterrupt:  # between two runs
+        laboratory.interrupted = True
     seconds, own = (thesis.seconds["quick"], thesis.quick_seconds) if quick else (thesis.seconds["full"], {})
     return Study(tuple(measured), tuple(tried), quick, seconds, own, laboratory.interrupted)
 

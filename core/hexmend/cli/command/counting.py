@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import sys
+from contextlib import suppress
 from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 from hexmend.cli.command.progress import EVERY, drawn_line
+from hexmend.cli.terminal import redraws_lines
 
 if TYPE_CHECKING:
     from hexmend.study.many.studied import Count
@@ -20,7 +21,7 @@ class Counting:
     def __enter__(self) -> Self:
         self._line = None
         self._due = monotonic() + EVERY
-        if sys.stderr.isatty() or os.environ.get("FORCE_COLOR"):
+        if redraws_lines():
             self._line = drawn_line("{task.description}")
             self._line.start()
             self._task = self._line.add_task("", total=None)
@@ -28,7 +29,8 @@ class Counting:
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
         if self._line is not None:
-            self._line.stop()
+            with suppress(OSError):  # the terminal may have gone
+                self._line.stop()
 
     def show(self, count: Count) -> None:
         """Show how far it is."""
@@ -40,5 +42,6 @@ class Counting:
         if self._line is not None:
             self._line.update(self._task, description=words)
         elif monotonic() >= self._due:
-            print(words, file=sys.stderr, flush=True)
+            with suppress(OSError):
+                print(words, file=sys.stderr, flush=True)
             self._due = monotonic() + EVERY

@@ -15,11 +15,9 @@ def study_meshes(args: argparse.Namespace) -> int:
     """Do the study; return the exit status: 3 where a task has no result."""
     from hexmend import __version__
     from hexmend.cli.command.counting import Counting
-    from hexmend.errors import HexmendError, ParameterError
+    from hexmend.cli.interrupts import EndsCleanly, FinishesWriting
+    from hexmend.errors import ParameterError
     from hexmend.report import made_folder
-    from hexmend.report.many import cases_table, write_many, write_parquet
-    from hexmend.study.bench import machine
-    from hexmend.study.many.columns import COLUMNS
     from hexmend.study.many.plan import read_plan
     from hexmend.study.many.store import Store
     from hexmend.study.many.studied import study_many
@@ -31,17 +29,32 @@ def study_meshes(args: argparse.Namespace) -> int:
     folder = made_folder(args.output or Path(args.study).stem)
     store = Store(made_folder(folder / "tasks"))
     meshes_to = made_folder(folder / "meshes") if args.write_meshes else None
-    with Counting() as counting:
-        studied = study_many(
-            plan,
-            [Path(mesh) for mesh in args.meshes],
-            store,
-            workers,
-            version=__version__,
-            again=args.again,
-            meshes_to=meshes_to,
-            watch=counting.show,
-        )
+    with FinishesWriting():
+        with EndsCleanly(), Counting() as counting:
+            studied = study_many(
+                plan,
+                [Path(mesh) for mesh in args.meshes],
+                store,
+                workers,
+                version=__version__,
+                again=args.again,
+                meshes_to=meshes_to,
+                watch=counting.show,
+            )
+        _write(folder, studied)
+    if studied.interrupted:
+        return 130
+    return 3 if studied.count.failed else 0
+
+
+def _write(folder: Path, studied: Studied) -> None:
+    """Write the report, and print what was done."""
+    from hexmend.cli.command.printed import print_table
+    from hexmend.errors import HexmendError
+    from hexmend.report.many import cases_table, write_many, write_parquet
+    from hexmend.study.bench import machine
+    from hexmend.study.many.columns import COLUMNS
+
     record = studied.record()
     paths = write_many(folder, record, machine())
     try:
@@ -49,15 +62,11 @@ def study_meshes(args: argparse.Namespace) -> int:
         paths.append(folder / "study.parquet")
     except HexmendError as error:
         print(f"hexmend: {error}", file=sys.stderr)
-    from hexmend.cli.command.printed import print_table
-
     print_table(cases_table(record))
     _say(studied)
     print(f"Written to {folder}: {', '.join(path.name for path in paths)}.")
     if studied.interrupted:
         print("Interrupted: what is done is kept, and the same command goes on with it.", file=sys.stderr)
-        return 130
-    return 3 if studied.count.failed else 0
 
 
 def _workers(args: argparse.Namespace) -> Workers:

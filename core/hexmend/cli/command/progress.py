@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from hexmend.cli.command.interrupts import Asked
+from hexmend.cli.interrupts import EndsAfterIteration
+from hexmend.cli.terminal import redraws_lines
+from hexmend.uninterrupted import uninterrupted
 
 if TYPE_CHECKING:
     import rich.progress
@@ -25,40 +27,61 @@ AFTER = 0.4
 
 
 class Progress:
-    """Shows runs, one after another, while the block lasts.
+    """Shows runs, one after another, while the block lasts; the first signal within it only asks them to end.
 
     `show` is a `Watch`: call it with the run after each of its iterations.
     """
 
     def __enter__(self) -> Self:
-        self._display = _Live() if sys.stderr.isatty() or os.environ.get("FORCE_COLOR") else _Lines()
+        self._display: _Live | _Lines | None = _Live() if redraws_lines() else _Lines()
+        self.signals = EndsAfterIteration()
+        self.signals.__enter__()
         return self
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        self._display.close()
+        self.signals.__exit__(kind, error, trace)
+        if self._display is not None:
+            with suppress(OSError):
+                self._display.close()
 
-    def show(self, run: Run) -> None:
-        """Show where the run is."""
-        self._display.show(run)
+    def show(self, run: Run) -> bool:
+        """Show where the run is; return False once a signal has asked it to end."""
+        if self._display is not None:
+            try:
+                self._display.show(run)
+            except OSError:  # the terminal has gone, and the run has not
+                self._display = None
+        return not self.signals.asked
 
 
 def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: None) -> None:
     """Go through a run to its end and show where it is; a signal ends it with what was reached so far.
 
-    `watch` is called with every iteration.
+    Parameters
+    ----------
+    run : Run
+    watch : callable
+        Called with every iteration.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        Where it is interrupted before its first iteration.
     """
-    with Asked() as ending:
+    interrupted = False
+    with Progress() as progress:
         try:
-            with Progress() as progress:
-                for iteration in run:
-                    watch(iteration)
-                    progress.show(run)
-                    if ending.asked:
-                        break
+            for iteration in run:
+                watch(iteration)
+                if not progress.show(run):
+                    break
         except KeyboardInterrupt:
-            ending.asked = True
-        if ending.asked and run.outcome is None:
-            run.close()
+            if not run.last.number:
+                raise
+            interrupted = True
+    if (interrupted or progress.signals.asked) and run.outcome is None:
+        run.close()
+        with suppress(OSError):
             print("Interrupted: what was reached so far is kept.", file=sys.stderr)
 
 
@@ -86,6 +109,7 @@ class _Live:
         self._run: Run | None = None
         self._task = None
 
+    @uninterrupted  # a line that is drawn by halves could not be removed
     def show(self, run: Run) -> None:
         if self._line is None:
             if monotonic() < self._due:
