@@ -170,9 +170,11 @@ def test_smooth_and_compare_tell_other_programs(bridge, tmp_path, capsys, words)
 
 
 @pytest.mark.parametrize("words", [[], ["--keep-last"]])
+@pytest.mark.parametrize("term", ["xterm", "dumb"])
 @pytest.mark.parametrize("command", ["smooth", "compare"])
-def test_what_is_worse_is_red_where_there_are_colours(bridge, tmp_path, capsys, monkeypatch, command, words):
+def test_what_is_worse_is_red_where_there_are_colours(bridge, tmp_path, capsys, monkeypatch, command, term, words):
     monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", term)
     monkeypatch.delenv("NO_COLOR", raising=False)
     io.write(tmp_path / "bridge.vtu", bridge)
     which = ["--method" if command == "smooth" else "--methods", "laplacian"]

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from hexmend.cli.terminal import shows_colours
 from hexmend.figures import Worse, printable
 
 if TYPE_CHECKING:
@@ -48,7 +47,7 @@ def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> 
 
     On a terminal that has colours, a cell that is a `Worse` is red.
     """
-    red, plain = ("\x1b[31m", "\x1b[0m") if _coloured() else ("", "")
+    red, plain = ("\x1b[31m", "\x1b[0m") if shows_colours() else ("", "")
     every = [*([head] if head else []), *rows]
     widths = [max(map(len, column)) for column in zip(*every, strict=True)]
 
@@ -66,8 +65,3 @@ def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> 
         print(" " + "─" * (len(line(head)) - 1))
     print("\n".join(map(line, rows)))
     print()
-
-
-def _coloured() -> bool:
-    """Whether standard output shows colours, and may: as rich, which draws the other tables, decides."""
-    return not os.environ.get("NO_COLOR") and bool(os.environ.get("FORCE_COLOR") or sys.stdout.isatty())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from hexmend.cli.terminal import shows_colours
 from hexmend.figures import Worse
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def print_table(table: Table) -> None:
     from rich.table import Table as Drawn
     from rich.text import Text
 
-    console = Console(highlight=False)
+    console = Console(highlight=False, color_system="standard" if shows_colours() else None)
     if not console.is_terminal:
         console.width = _PIPE
     print(table.title)
