@@ -22,12 +22,15 @@ from hexmend.cli.command import progress
 progress.EVERY = progress.AFTER = 0.0
 sys.exit(main())
 """
-#: The signal comes as this module is imported.
+#: The signal comes as this module is imported; an exception there may be taken for another, and is none of ours.
 IMPORTS = """
 class Finder:
     def find_spec(name, path, target=None):
         if name == {name!r}:
-            send()
+            try:
+                send()
+            except KeyboardInterrupt:
+                os._exit(77)
 sys.meta_path.insert(0, Finder)
 """
 #: It comes as a method is called.
@@ -109,11 +112,18 @@ def ended(process):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("name", ["hexmend.cli.main", "argparse", "numpy", "hexmend.kernels", "hexmend.run.loop"])
+@pytest.mark.parametrize("name", ["hexmend.cli.main", "argparse", "numpy", "hexmend.run.loop"])
 def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
     status, said = ended(smooth(IMPORTS.format(name=name), number))
     assert (status, said) == (128 + number, ["hexmend: interrupted"])
     assert (tmp_path / "out.vtu").read_text() == "old"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_during_an_import_of_a_command_at_work_waits_for_its_end(smooth, number):
+    rests = "import time\nfrom hexmend.cli.command import files\nfiles.check_targets = lambda *_: time.sleep(100)\n"
+    status, said = ended(smooth(rests + IMPORTS.format(name="hexmend.fixing"), number))
+    assert (status, said) == (128 + number, ["hexmend: interrupted"])
 
 
 def test_a_signal_during_a_callback_is_one_line(smooth):
@@ -152,7 +162,7 @@ def test_a_second_signal_within_the_first_iteration_ends_without_a_result(smooth
 
 
 def test_a_second_signal_while_the_live_line_is_drawn_loses_nothing(smooth, tmp_path):
-    moment = CALLS.format(module="rich.live", kind="Live", name="start", count=2)
+    moment = CALLS.format(module="rich.console", kind="Console", name="push_render_hook", count=2)
     status, said = ended(smooth(moment, env={"FORCE_COLOR": "1"}))
     assert status == 0
     assert not any("Traceback" in line for line in said)
@@ -164,6 +174,16 @@ def test_a_signal_after_the_last_line_changes_nothing(smooth, tmp_path, number):
     status, said = ended(smooth(ENDS, number))
     assert status == 0
     assert "hexmend: interrupted" not in said
+    assert io.read(tmp_path / "out.vtu").n_hexes == 125
+
+
+def test_a_run_whose_progress_nobody_reads_any_more_is_written(smooth, tmp_path):
+    process = smooth("", most=3000)
+    process.stderr.readline()
+    process.stderr.close()
+    with process.stdout:
+        process.stdout.read()
+    process.wait(timeout=120)
     assert io.read(tmp_path / "out.vtu").n_hexes == 125
 
 
