@@ -150,8 +150,8 @@ class Host(Protocol):
 
     Attributes
     ----------
-    window : QWidget
-        Dialogs stand before it.
+    dialog_parent : QWidget
+        The window, before which dialogs stand.
     session : Session
         The window's state, in which features meet.
     canvas : Canvas or None
@@ -162,7 +162,7 @@ class Host(Protocol):
         Says what is going on, and offers a way out.
     """
 
-    window: QWidget
+    dialog_parent: QWidget
     session: Session
     canvas: Canvas | None
     messages: MessageBar
@@ -206,7 +206,7 @@ class Feature(QObject):
     order: ClassVar[int] = 50
 
     def __init__(self, host: Host):
-        super().__init__(host.window)
+        super().__init__(host.dialog_parent)
         self.host = host
         self.session = host.session
 

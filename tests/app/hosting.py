@@ -16,10 +16,10 @@ class PlainHost:
     """What a feature has of a window, without one: it remembers which panels were brought to the front."""
 
     def __init__(self, mesh, path=None):
-        self.window = QWidget()
-        self.session = Session(self.window)
+        self.dialog_parent = QWidget()
+        self.session = Session(self.dialog_parent)
         self.canvas = None
-        self.messages, self.busy = MessageBar(self.window), Busy(self.window)
+        self.messages, self.busy = MessageBar(self.dialog_parent), Busy(self.dialog_parent)
         self.stem = "mesh"
         self.fronted: list[str] = []
         self.session.document.replace(State.of(mesh), path)

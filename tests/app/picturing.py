@@ -34,7 +34,7 @@ def everything(window: QWidget) -> Counter[str]:
             lines[f"open: {type(one).__name__} {one.windowTitle()}"] += 1
     focus = QApplication.focusWidget()
     lines[f"focus: {type(focus).__name__} {focus.accessibleName() if focus else ''}"] += 1
-    for id, action in window.actions.items():
+    for id, action in window.window_actions.items():
         lines[f"action {id}: {action.isEnabled()} {action.isChecked()} {action.text()} {action.toolTip()}"] += 1
     for name, part in vars(window.session).items():
         if not name.startswith("_"):

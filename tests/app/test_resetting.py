@@ -63,7 +63,7 @@ def live(window, qtbot):
         window.show_panel(panel)
         window.refresh()
         fiddle(window)
-    for action in window.actions.values():
+    for action in window.window_actions.values():
         if action.isCheckable() and action.isEnabled():
             action.trigger()
     window.canvas.look_along("+x")

@@ -116,7 +116,7 @@ def _of_program(window: Window, panels: Sequence[Panel]) -> list[Action]:
 
 def _show_palette(window: Window, panels: Sequence[Panel]) -> None:
     window.refresh()
-    others = {id: action for id, action in window.actions.items() if id != "commands"}
+    others = {id: action for id, action in window.window_actions.items() if id != "commands"}
     entries = [*commands(others), *panels_in(window.docks, panels), *choices(window.session)]
     palette = CommandPalette(entries, window)
     palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

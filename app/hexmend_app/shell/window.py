@@ -148,12 +148,12 @@ class Window(QMainWindow):
     # What features have of it
 
     @property
-    def window(self) -> QWidget:
-        """Dialogs stand before it."""
+    def dialog_parent(self) -> QWidget:
+        """The window, before which dialogs stand."""
         return self
 
     @property
-    def actions(self) -> dict[str, QAction]:
+    def window_actions(self) -> dict[str, QAction]:
         """Every action by its id."""
         return self._menus.actions
 

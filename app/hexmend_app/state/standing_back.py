@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import sys
 import threading
 
 from hexmend.kernels import set_threads, threads
@@ -19,6 +20,6 @@ def stand_back() -> None:
     first kernel: the threads that help it have its priority as it was when they were made.
     """
     set_threads(max(1, threads() - 1))
-    if hasattr(os, "setpriority"):
-        with contextlib.suppress(OSError):  # where the system does not know priorities of threads
+    if sys.platform == "linux":  # elsewhere a thread's number is none of a process, or that of another process
+        with contextlib.suppress(OSError):
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)

@@ -71,11 +71,11 @@ def test_a_feature_reaches_menu_palette_keys_and_window(with_example, qtbot):
     menu = next(one for one in window.menuBar().findChildren(QMenu) if one.title().replace("&", "") == "Help")
     assert action in menu.actions()
     assert action.shortcut().toString() == "Ctrl+Alt+U"
-    palette = CommandPalette(commands(window.actions), window)
+    palette = CommandPalette(commands(window.window_actions), window)
     assert "Count up" in palette.found()
     palette.close()
     assert "| Count up | `Ctrl+Alt+U` | Count one more. |" in as_markdown(window.menus.declared())
-    assert "panel_count" in window.actions
+    assert "panel_count" in window.window_actions
     window.show_panel("count")
     assert window.features["counting"].panel.isVisible()
     assert window.in_front("count")

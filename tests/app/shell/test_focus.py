@@ -138,7 +138,7 @@ def test_tab_in_the_view_hides_all_panels_and_brings_them_back(window):
 
 def test_the_panels_are_hidden_by_key_from_anywhere(window):
     window.show_panel("histogram")
-    window.features["histogram"].panel.head.metric.setFocus()
+    window.features["histogram"].panel.head.metric_box.setFocus()
     for hidden in (True, False):
         key(window, Qt.Key.Key_Tab, Qt.KeyboardModifier.ControlModifier)
         assert window.docks.hidden is hidden

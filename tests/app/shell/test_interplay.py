@@ -37,7 +37,7 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
         window.features["open"].open(tmp_path / "small.vtu")
         before = window.session.document.now
         window.refresh()
-        assert not any(window.actions[id].isEnabled() for id in ("run", "step", "reset", "undo"))
+        assert not any(window.window_actions[id].isEnabled() for id in ("run", "step", "reset", "undo"))
         assert not window.features["smooth"].panel.isEnabled()
         window.features["smooth"].panel.run_requested.emit(Stage(METHODS["laplacian"](), Stop()))
         window.session.commands.tag("late", [8])
@@ -47,7 +47,7 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
     assert window.session.document.now is window.session.document.start
     assert window.session.document.now.mesh.n_hexes == 27
     window.refresh()
-    assert window.actions["run"].isEnabled()
+    assert window.window_actions["run"].isEnabled()
     assert window.features["smooth"].panel.isEnabled()
 
 

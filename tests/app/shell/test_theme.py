@@ -207,7 +207,7 @@ def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, alone, name, d
 def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     light = pixels(window)
     ground = light[5, 5]
-    window.actions["theme_dark"].trigger()
+    window.window_actions["theme_dark"].trigger()
     assert THEME.dark
     assert theming.chosen() is Choice.DARK
     assert QSettings().value("theme") == "dark"
@@ -217,9 +217,9 @@ def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     scene = Scene(page=Page(pixels=(400, 300)))
     report = np.asarray(draw_sheet(scene, [Subject.of(now.mesh)]).image())
     assert report[2, 2].tolist() == [255, 255, 255]  # paper, whatever is worn on the screen
-    on = [choice for choice in Choice if window.actions[f"theme_{choice.value}"].isChecked()]
+    on = [choice for choice in Choice if window.window_actions[f"theme_{choice.value}"].isChecked()]
     assert on == [Choice.DARK]
-    window.actions["theme_light"].trigger()
+    window.window_actions["theme_light"].trigger()
     assert not THEME.dark
     qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.light, timeout=PATIENCE)
     assert (np.abs(pixels(window) - light).sum(axis=2) > 60).mean() < 0.02
@@ -235,7 +235,7 @@ def test_the_theme_follows_the_desktop_until_one_is_chosen(window, monkeypatch):
     scheme = Qt.ColorScheme.Light
     hints.colorSchemeChanged.emit(scheme)
     assert not THEME.dark
-    window.actions["theme_light"].trigger()
+    window.window_actions["theme_light"].trigger()
     scheme = Qt.ColorScheme.Dark
     hints.colorSchemeChanged.emit(scheme)
     assert not THEME.dark

@@ -44,7 +44,7 @@ class FeatureCamera(Feature):
         super().__init__(host)
         self._seen = Seen()
         self._cameras = self.session.cameras
-        self._menu = CamerasMenu(self._cameras, host.window)
+        self._menu = CamerasMenu(self._cameras, host.dialog_parent)
         self._menu.chosen.connect(self.go)
         self.session.selection.visited.connect(self._fly)
         self.session.eye.now = self._stand
@@ -207,7 +207,7 @@ class FeatureCamera(Feature):
 
     def ask_name(self) -> None:
         """Ask what to call where the camera stands, and keep it."""
-        name = ask_camera_name(self.host.window, self._cameras.all)
+        name = ask_camera_name(self.host.dialog_parent, self._cameras.all)
         if name:
             self.keep(name)
 
@@ -230,7 +230,7 @@ class FeatureCamera(Feature):
 
     def cameras_dialog(self) -> CamerasDialog:
         """The dialog in which kept cameras are gone to, renamed and deleted."""
-        dialog = CamerasDialog(self._cameras, self.host.window)
+        dialog = CamerasDialog(self._cameras, self.host.dialog_parent)
         dialog.chosen.connect(self.go)
         return dialog
 

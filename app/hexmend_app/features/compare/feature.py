@@ -184,7 +184,7 @@ class FeatureCompare(Feature):
             return markdown(table_of(record, style.names, style.title))
 
         title = table_of(record).title
-        return TableDialog(text, "the table", proposed, _KINDS, self._style, title, names, self.host.window)
+        return TableDialog(text, "the table", proposed, _KINDS, self._style, title, names, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; whether it was."""

@@ -116,7 +116,7 @@ class FeatureConvergence(Feature):
         """The dialog that asks: sizes and names are as they were last."""
         deed = self._told(Path())
         chart, proposed = figure(*deed.given[1:], **deed.options), f"{self.host.stem}-convergence.svg"
-        return ChartDialog(chart, "the charts", proposed, _KINDS, self._style, self.host.window)
+        return ChartDialog(chart, "the charts", proposed, _KINDS, self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts as a figure, or the figures of all runs as CSV, by the suffix; whether it was done."""

@@ -53,7 +53,7 @@ class FeatureFigures(Feature):
 
     def ask(self) -> None:
         """Ask where the folder goes, and write into it."""
-        folder = ask_figures(self.host.window, self.host.stem)
+        folder = ask_figures(self.host.dialog_parent, self.host.stem)
         if folder:
             self.write(Path(folder))
 

@@ -67,13 +67,13 @@ class FeatureFilm(Feature):
         timeline = self.session.timeline
         view = self.canvas.width(), self.canvas.height()
         usual = self._choice or FilmChoice(rate=round(timeline.speed))
-        dialog = FilmDialog(usual, view, timeline.record.newest, self.host.window)
+        dialog = FilmDialog(usual, view, timeline.record.newest, self.host.dialog_parent)
         meant, choice = dialog.exec(), dialog.choice()
         dialog.deleteLater()
         if not meant:
             return
         self._choice = choice
-        path = ask_film(self.host.window, self.host.stem)
+        path = ask_film(self.host.dialog_parent, self.host.stem)
         if path:
             self.film(Path(path), self._choice)
 

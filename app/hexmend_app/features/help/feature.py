@@ -24,6 +24,6 @@ class FeatureHelp(Feature):
                 part=1,
                 help="Version, licence and sources.",
                 needs_mesh=False,
-                handle=lambda: show_about(self.host.window, __version__),
+                handle=lambda: show_about(self.host.dialog_parent, __version__),
             ),
         )

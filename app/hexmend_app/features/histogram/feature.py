@@ -142,7 +142,7 @@ class FeatureHistogram(Feature):
         """The dialog that asks: sizes and names are as they were last."""
         deed = self._told(Path())
         chart, proposed = figure(*deed.given[1:], **deed.options), f"{self.host.stem}-histogram.svg"
-        return ChartDialog(chart, "the histogram", proposed, _KINDS, self._style, self.host.window)
+        return ChartDialog(chart, "the histogram", proposed, _KINDS, self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as figure, or its counts as CSV, by the suffix; whether it was."""

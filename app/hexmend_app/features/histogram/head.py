@@ -43,16 +43,16 @@ class HistogramHead(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.metric = QComboBox()
-        let_shrink(self.metric, 9)
-        self.metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.metric.setMaximumWidth(240)
-        self.metric.addItem("", "")
+        self.metric_box = QComboBox()
+        let_shrink(self.metric_box, 9)
+        self.metric_box.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.metric_box.setMaximumWidth(240)
+        self.metric_box.addItem("", "")
         for metric in metrics_offered():
-            self.metric.addItem(metric.title, metric.name)
-            self.metric.setItemData(self.metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
-        self.metric.view().setMinimumWidth(220)
-        self.metric.activated.connect(lambda: self.metric_chosen.emit(self.metric.currentData()))
+            self.metric_box.addItem(metric.title, metric.name)
+            self.metric_box.setItemData(self.metric_box.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
+        self.metric_box.view().setMinimumWidth(220)
+        self.metric_box.activated.connect(lambda: self.metric_chosen.emit(self.metric_box.currentData()))
         self.scale = Segmented(
             "Scale of the counts",
             [
@@ -117,7 +117,7 @@ class HistogramHead(QWidget):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(6)
-        layout.addWidget(self.metric, 1)
+        layout.addWidget(self.metric_box, 1)
         layout.addStretch()
         for part in (self.scale, buttons[self.cumulative], self.bins, buttons[self.keep], self.more):
             layout.addWidget(part)
@@ -142,13 +142,13 @@ class HistogramHead(QWidget):
         """Show which metric is drawn, and whether it is that of the colours by itself; without a signal."""
         metric = METRICS[name]
         if as_colours:
-            self.metric.setItemText(0, f"{metric.title} (as colours)")
+            self.metric_box.setItemText(0, f"{metric.title} (as colours)")
         else:
-            self.metric.setItemText(0, "As colours")
-        self.metric.setItemData(0, "Show whatever metric the colours show.", Qt.ItemDataRole.ToolTipRole)
-        self.metric.setCurrentIndex(0 if as_colours else self.metric.findData(name))
-        explain(self.metric, "Metric of the histogram", described(metric))
-        self.metric.setToolTip(described(metric))
+            self.metric_box.setItemText(0, "As colours")
+        self.metric_box.setItemData(0, "Show whatever metric the colours show.", Qt.ItemDataRole.ToolTipRole)
+        self.metric_box.setCurrentIndex(0 if as_colours else self.metric_box.findData(name))
+        explain(self.metric_box, "Metric of the histogram", described(metric))
+        self.metric_box.setToolTip(described(metric))
 
     def set_offered(self, known: bool, full: bool) -> None:
         """Say whether there is something to keep or save, and whether as much is kept as can be."""
@@ -158,7 +158,7 @@ class HistogramHead(QWidget):
 
     def minimumSizeHint(self) -> QSize:
         """Without what can stand in the menu."""
-        parts = (self.metric, self.scale, self.more)
+        parts = (self.metric_box, self.scale, self.more)
         width = sum(part.minimumSizeHint().width() for part in parts) + 3 * self.layout().spacing()
         return QSize(width, max(part.minimumSizeHint().height() for part in parts))
 

@@ -212,13 +212,13 @@ class FeatureInspect(Feature):
 
     def ask(self) -> None:
         """Ask where the list of the worst goes and write it."""
-        path = ask_list(self.host.window, self.host.stem)
+        path = ask_list(self.host.dialog_parent, self.host.stem)
         if path:
             self.save(path)
 
     def save(self, path: str | Path) -> bool:
         """Write the list of the worst hexes as CSV; whether it was."""
-        deed = Wrote("worst hexes", write_worst, (Path(path), self._document.now, self.worst_list.metric))
+        deed = Wrote("worst hexes", write_worst, (Path(path), self._document.now, self.worst_list.chosen_metric))
         return self.host.said(
             "The list was not saved",
             lambda: self.session.commands.carry_out(deed),

@@ -108,7 +108,7 @@ class WorstList(QWidget):
 
     def choices(self) -> WorstChoices:
         """What is set."""
-        return WorstChoices(self.metric, self.isolates)
+        return WorstChoices(self.chosen_metric, self.isolates)
 
     def set_choices(self, choices: WorstChoices) -> None:
         """Set all of it."""
@@ -154,7 +154,7 @@ class WorstList(QWidget):
         self._walk(-1)
 
     @property
-    def metric(self) -> str:
+    def chosen_metric(self) -> str:
         """What the list is ordered by."""
         return self._metric.currentData()
 
@@ -178,7 +178,7 @@ class WorstList(QWidget):
         if mesh is None:
             self._text.setText("No mesh is open.")
             return
-        metric = METRICS[self.metric]
+        metric = METRICS[self.chosen_metric]
         found = Worst.of(mesh, figures, metric.name)
         self._model.title = metric.title
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")

@@ -30,7 +30,7 @@ class FeatureOpen(Feature):
         self._document, self._opener = host.session.document, host.session.opener
         self._restored: Restored | None = None
         self.recent = Recent(self)
-        self._menu = RecentMenu(self.recent, host.window)
+        self._menu = RecentMenu(self.recent, host.dialog_parent)
         self._menu.chosen.connect(self.open)
         self.welcome = Welcome(self.recent)
         self.welcome.open_requested.connect(self.ask)
@@ -44,8 +44,8 @@ class FeatureOpen(Feature):
         opener.ended.connect(self._on_ended)
         opener.cancelled.connect(self._on_cancelled)
         opener.failed.connect(self._on_failed)
-        host.window.setAcceptDrops(True)
-        host.window.installEventFilter(self)
+        host.dialog_parent.setAcceptDrops(True)
+        host.dialog_parent.installEventFilter(self)
 
     def actions(self) -> Sequence[Action]:
         """Open, the demo, and what was opened before."""
@@ -87,7 +87,7 @@ class FeatureOpen(Feature):
 
     def ask(self) -> None:
         """Ask which mesh, and open it."""
-        path = ask_mesh(self.host.window)
+        path = ask_mesh(self.host.dialog_parent)
         if path:
             self.open(path)
 
@@ -137,7 +137,7 @@ class FeatureOpen(Feature):
 
     def _find(self, wanting: Wanting) -> None:
         """Ask where the mesh of a picture is, and open it as the picture shows it."""
-        path = ask_mesh(self.host.window)
+        path = ask_mesh(self.host.dialog_parent)
         if path and self.host.may_leave():
             self._opener.open(path, wanting=wanting)
 

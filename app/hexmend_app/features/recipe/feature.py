@@ -123,7 +123,7 @@ class FeatureRecipe(Feature):
 
     def ask_load(self) -> None:
         """Ask which file, and go on with the recipe in it."""
-        path = ask_recipe(self.host.window)
+        path = ask_recipe(self.host.dialog_parent)
         if path:
             self.load(path)
 
@@ -139,7 +139,7 @@ class FeatureRecipe(Feature):
 
     def ask_save(self) -> None:
         """Ask where the recipe goes and write it."""
-        path = ask_recipe_target(self.host.window)
+        path = ask_recipe_target(self.host.dialog_parent)
         if path:
             self.save(path)
 

@@ -65,17 +65,22 @@ class FeatureSave(Feature):
         if not session.modified and not session.smoothing.busy:
             return True
         of_mesh = session.document.modified or session.smoothing.busy
-        answer = ask_unsaved(self.host.window, session.document.name, of_mesh)
+        answer = ask_unsaved(self.host.dialog_parent, session.document.name, of_mesh)
         if answer is Answer.SAVE:
             session.smoothing.end_now()
-            return self.ask_mesh()
+            return self._ask_before_leaving()
         return answer is Answer.DISCARD
 
     def ask_mesh(self) -> bool:
-        """Ask where the mesh goes and write it, or the session that was opened; whether it was."""
+        """Ask where the mesh goes and write it; whether it was."""
+        path = ask_target(self.host.dialog_parent, self.host.stem)
+        return bool(path) and self.mesh(path)
+
+    def _ask_before_leaving(self) -> bool:
+        """Ask where the mesh goes, or the session where one is open, and write it; whether it was."""
         opened = self.session.document.path
         ask = ask_session if opened is not None and opened.suffix.lower() == SUFFIX else ask_target
-        path = ask(self.host.window, self.host.stem)
+        path = ask(self.host.dialog_parent, self.host.stem)
         return bool(path) and self.mesh(path)
 
     def mesh(self, path: str | Path) -> bool:
@@ -102,14 +107,14 @@ class FeatureSave(Feature):
     def picture_dialog(self) -> PictureDialog:
         """The dialog that edits the scene of what is seen: page, lines, bar and axes are as they were last."""
         canvas, last = self.canvas, self._last
-        size = canvas.size() * self.host.window.devicePixelRatioF()
+        size = canvas.size() * self.host.dialog_parent.devicePixelRatioF()
         page = Page(pixels=(size.width(), size.height())) if last is None else last.page
         scene = canvas.scene(page, self.session.cameras.all)
         if last is not None:
             lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
             scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
-        dialog = PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.window)
+        dialog = PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
         dialog.scene_kept.connect(lambda *kept: self.session.commands.done.emit(Wrote("scene", write_scene, kept)))
         return dialog
 

@@ -96,7 +96,7 @@ class FeatureScript(Feature):
 
     def ask(self) -> None:
         """Ask where the script goes and write it."""
-        path = ask_script(self.host.window, self.host.stem)
+        path = ask_script(self.host.dialog_parent, self.host.stem)
         if path:
             self.save(path)
 

@@ -73,7 +73,7 @@ class FeatureSession(Feature):
 
     def ask(self) -> bool:
         """Ask where the session goes and write it; whether it was."""
-        path = ask_session(self.host.window, self.host.stem)
+        path = ask_session(self.host.dialog_parent, self.host.stem)
         return bool(path) and self.save(path)
 
     def save(self, path: str | Path) -> bool:

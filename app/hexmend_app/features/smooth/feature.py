@@ -172,7 +172,7 @@ class FeatureSmooth(Feature):
 
     def _agreed(self, short: Shortage) -> bool:
         part = "isolate a part and move only that (Hex menu)"
-        return ask_short_of_memory(self.host.window, short.problem, short.remedy(part, titled=True))
+        return ask_short_of_memory(self.host.dialog_parent, short.problem, short.remedy(part, titled=True))
 
     def _on_failed(self, error: Exception) -> None:
         record = self.session.smoothing.record

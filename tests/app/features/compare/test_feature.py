@@ -114,7 +114,7 @@ def test_cancel_ends_with_the_iteration_at_hand_and_keeps_what_was_reached(compa
     press(button(comparing, "Run the comparison"))
     qtbot.waitUntil(at_hand.is_set, timeout=PATIENCE)
     comparing.refresh()
-    offered = comparing.actions["compare"].isEnabled()
+    offered = comparing.window_actions["compare"].isEnabled()
     press(button(comparing, "Cancel the comparison"))
     status = named(comparing.features["compare"].panel, QLabel, "Progress of the comparison")
     ending = status.text()
@@ -128,7 +128,7 @@ def test_cancel_ends_with_the_iteration_at_hand_and_keeps_what_was_reached(compa
     assert comparison.interrupted
     comparing.refresh()
     assert "interrupted" in status.text()
-    assert comparing.actions["compare"].isEnabled()
+    assert comparing.window_actions["compare"].isEnabled()
 
 
 def test_a_method_that_fails_has_its_row_and_the_others_go_on(comparing, qtbot, monkeypatch):

@@ -29,7 +29,7 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
     panel = window.features["cut"].panel
     tick(next(b for b in panel.findChildren(QCheckBox) if b.text() == "Cut"))
     assert window.session.view.look.clip is not None
-    assert window.actions["cut"].isChecked()
+    assert window.window_actions["cut"].isChecked()
     for text in ("Y", "Smooth cut" if cut == "smooth" else "Whole hexes"):
         choose(window, text)
     clip = window.session.view.look.clip
@@ -116,7 +116,7 @@ def test_two_planes_cut_a_corner_out(window, qtbot):
 
 
 def test_a_cut_that_is_switched_off_and_on_at_once_is_shown_as_on(window):
-    window.actions["cut"].trigger()
+    window.window_actions["cut"].trigger()
     window.refresh()
     box = named(window, QCheckBox, "Cut")
     assert box.isChecked()

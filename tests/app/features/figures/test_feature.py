@@ -36,7 +36,7 @@ def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtb
     assert names == ["initial", "Local steepest descent", "Laplacian", "GETMe, simultaneous"]
     window.session.view.colour_by("q-change")
     window.refresh()
-    window.actions["figure_set"].trigger()
+    window.window_actions["figure_set"].trigger()
     qtbot.waitUntil(lambda: not window.features["figures"].going_on, timeout=PATIENCE)
     assert "Figure set saved" in " ".join(window.messages.messages()[-1])
     parts = {path.stem for path in asked.glob("*.png")}
@@ -61,7 +61,7 @@ def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtb
 
 
 def test_it_can_be_given_up(window, qtbot, asked):
-    window.actions["figure_set"].trigger()
+    window.window_actions["figure_set"].trigger()
     feature = window.features["figures"]
     assert feature.going_on
     assert not window.features["figures"].actions()[0].enabled()
@@ -73,6 +73,6 @@ def test_it_can_be_given_up(window, qtbot, asked):
 
 def test_a_folder_that_cannot_be_made_is_told(window, asked):
     asked.write_text("a file")
-    window.actions["figure_set"].trigger()
+    window.window_actions["figure_set"].trigger()
     assert not window.features["figures"].going_on
     assert "is a file" in " ".join(window.messages.messages()[-1])

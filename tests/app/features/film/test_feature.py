@@ -45,7 +45,7 @@ def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkey
     path = tmp_path / f"run{suffix}"
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
     shown = window.session.timeline.moment
-    window.actions["film"].trigger()
+    window.window_actions["film"].trigger()
     said = [window.busy.text()]
     show = window.busy.show_work
     monkeypatch.setattr(
@@ -70,13 +70,13 @@ def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path
     stepped(window, qtbot, 5)
     path = tmp_path / "run.gif"
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
-    window.actions["film"].trigger()
+    window.window_actions["film"].trigger()
     cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
     QTest.mouseClick(cancel, LEFT)
     assert not window.features["film"].going_on
     turn()
     assert list(tmp_path.glob("*.gif")) == []
     path = tmp_path / "run.avi"
-    window.actions["film"].trigger()
+    window.window_actions["film"].trigger()
     assert not window.features["film"].going_on
     assert "Use .mp4, .gif, .png or .webp." in " ".join(window.messages.messages()[-1])

@@ -56,7 +56,7 @@ def test_brushing_keeps_a_range_in_view(window, qtbot, histogram):
 
 
 def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbot, histogram):
-    walk_to(window, histogram.head.metric, "max-angle")
+    walk_to(window, histogram.head.metric_box, "max-angle")
     assert window.session.view.look.scale.metric == "q"  # colours are left alone
     chosen, viewport = brush(window, qtbot, 0.75, 1.0), window.canvas.viewport
     assert (chosen.metric, chosen.high) == ("max-angle", 180)
@@ -74,23 +74,23 @@ def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbo
     qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
     window.refresh()
     assert viewport.shown == inside() != shown
-    walk_to(window, histogram.head.metric, "volume")  # what it hides could no longer be told from the plot
+    walk_to(window, histogram.head.metric_box, "volume")  # what it hides could no longer be told from the plot
     assert window.session.view.look.quality_range is None
 
 
 def test_it_counts_what_the_colours_show_until_a_range_or_the_user_holds_it(window, qtbot, histogram):
     colour_by(window, "scaled-jacobian")
     assert histogram.axis.metric == "scaled-jacobian"
-    assert histogram.head.metric.currentText() == "Scaled Jacobian (as colours)"
+    assert histogram.head.metric_box.currentText() == "Scaled Jacobian (as colours)"
     brush(window, qtbot, 0.2, 0.5)
     colour_by(window, "skew")  # colours laid over what the range leaves
     assert window.session.view.look.quality_range == histogram.range()
     assert histogram.axis.metric == histogram.range().metric == "scaled-jacobian"
-    assert histogram.head.metric.currentText() == "Scaled Jacobian"
-    walk_to(window, histogram.head.metric, "")
+    assert histogram.head.metric_box.currentText() == "Scaled Jacobian"
+    walk_to(window, histogram.head.metric_box, "")
     assert histogram.axis.metric == "skew"
     assert histogram.range() is None
-    walk_to(window, histogram.head.metric, "volume")
+    walk_to(window, histogram.head.metric_box, "volume")
     colour_by(window, "q")
     assert histogram.axis.metric == "volume"
 
@@ -118,7 +118,7 @@ def test_distributions_are_kept_under_the_name_of_the_moment_for_any_metric(wind
     first, second = "Local steepest descent 1", "Local steepest descent 2"
     assert [one.name for one in kept.all] == [first, second, *(f"{second} ({k})" for k in (2, 3, 4, 5))]
     assert not histogram.head.keep.isEnabled()
-    walk_to(window, histogram.head.metric, "condition")
+    walk_to(window, histogram.head.metric_box, "condition")
     drawn = {one.name: one.part for one in histogram.series()}
     of = METRICS["condition"].of
     np.testing.assert_array_equal(drawn[first].values, of(then.mesh.points, then.mesh.hexes, then.figures))

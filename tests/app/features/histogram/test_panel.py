@@ -78,7 +78,7 @@ def test_every_metric_fits_into_a_narrow_column_which_holds_its_width(histogram,
     assert histogram.minimumSizeHint().width() == narrow <= 270
     histogram.resize(narrow, 268)
     turn()
-    for part in (*histogram.ends.parts, histogram.head.metric, histogram.head.scale, histogram.head.more):
+    for part in (*histogram.ends.parts, histogram.head.metric_box, histogram.head.scale, histogram.head.more):
         right = part.mapTo(histogram, part.rect().topRight()).x()
         assert 0 < right < narrow
         assert part.width() >= (part.minimumWidth() or part.minimumSizeHint().width())

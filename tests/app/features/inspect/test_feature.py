@@ -139,7 +139,7 @@ def test_a_node_of_the_boundary_is_pinned_by_its_key_and_does_not_slide(window, 
     middle = (grid(4).points == (2, 2, 4)).all(axis=1)  # of the top
     node = int(np.flatnonzero(middle)[0])
     h = np.flatnonzero((mesh.hexes == node).any(axis=1))[0]
-    assert not window.actions["pin"].isEnabled()
+    assert not window.window_actions["pin"].isEnabled()
     window.session.selection.choose(int(h), node)
     window.show_panel("hex")
     window.refresh()
@@ -148,7 +148,7 @@ def test_a_node_of_the_boundary_is_pinned_by_its_key_and_does_not_slide(window, 
     assert not pin.isChecked()
     key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ShiftModifier)
     assert pin.isChecked()
-    assert window.actions["pin"].isChecked()
+    assert window.window_actions["pin"].isChecked()
     labels = window.features["inspect"].panel.findChildren(QLabel)
     assert any(f"Node {node}: boundary, pinned" in label.text() for label in labels)
     choose(window, "mend", boundary="slide")

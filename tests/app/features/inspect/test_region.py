@@ -8,8 +8,8 @@ def test_only_what_is_isolated_is_free_until_undo(window):
     mesh = session.document.now.mesh
     session.view.isolate([40], 1)
     window.refresh()
-    assert window.actions["free_isolated"].isEnabled()
-    window.actions["free_isolated"].trigger()
+    assert window.window_actions["free_isolated"].isEnabled()
+    window.window_actions["free_isolated"].trigger()
     expected = np.zeros(mesh.n_nodes, dtype=bool)
     expected[mesh.hexes[mesh.topology.ring_of([40], 1)]] = True
     np.testing.assert_array_equal(session.document.now.mesh.free, expected & mesh.free)

@@ -104,7 +104,7 @@ def test_what_cannot_be_seen_is_made_when_it_is_shown(qtbot):
 
 
 def test_the_list_as_a_table_reads_back(worst_list, tmp_path):
-    write_worst(tmp_path / "worst.csv", MESH, worst_list.metric)
+    write_worst(tmp_path / "worst.csv", MESH, worst_list.chosen_metric)
     lines = (tmp_path / "worst.csv").read_text().splitlines()
     assert lines[0] == "hex,q,scaled-jacobian,state"
     number, q, jacobian, state = lines[1].split(",")

@@ -77,10 +77,10 @@ def test_colours_follow_the_iterations_and_the_moment_they_are_compared_with(win
 def test_the_histogram_goes_on_counting_quality(window, record, panel):
     press(panel.colours, "moved-most")
     assert window.features["histogram"].metric == "q"
-    assert window.features["histogram"].panel.head.metric.currentText() == "q(H)"
+    assert window.features["histogram"].panel.head.metric_box.currentText() == "q(H)"
     go(window, record, 2)
     press(panel.colours, "")
-    assert window.features["histogram"].panel.head.metric.currentText() == "q(H) (as colours)"
+    assert window.features["histogram"].panel.head.metric_box.currentText() == "q(H) (as colours)"
 
 
 def test_movements_are_offered_among_the_colours(window, record, qtbot):

@@ -121,7 +121,7 @@ def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
     said(window, qtbot, "Correct the marked value")
     assert shown(window) is None
     assert not button(window, "Next node").isEnabled()
-    assert not window.actions["next_node"].isEnabled()
+    assert not window.window_actions["next_node"].isEnabled()
 
 
 def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_made(at_work, qtbot):
@@ -177,7 +177,7 @@ def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictu
     assert window.features["save"].picture(tmp_path / "step.png", (800, 600))
     assert seen(np.asarray(Image.open(tmp_path / "step.png").convert("RGB")).astype(int), UPHILL) > 20
     window.messages.clear()  # Esc is for a message first
-    qtbot.waitUntil(lambda: window.actions["back"].isEnabled(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.window_actions["back"].isEnabled(), timeout=PATIENCE)
     key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.isolation is None
     assert not box.isChecked()

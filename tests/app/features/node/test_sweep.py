@@ -31,7 +31,7 @@ def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot)
     key(window, Qt.Key.Key_F11)
     assert window.session.stepping.sweep.done == 12
     assert window.session.document.undo_title is None
-    assert window.actions["undo"].text() == "&Undo sweep of local-sd, 12 nodes"
+    assert window.window_actions["undo"].text() == "&Undo sweep of local-sd, 12 nodes"
     now = window.session.document.now
     key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert window.session.document.now is start
@@ -131,7 +131,7 @@ def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
     choose_by_keys(window, "mend")
     wait_for_step(window, qtbot, "mend")
     for id in ("next_node", "ten_nodes", "finish_sweep"):
-        assert not window.actions[id].isEnabled()
+        assert not window.window_actions[id].isEnabled()
     assert "Local steepest descent" in button(window, "10 nodes").toolTip()
     now = window.session.document.now
     key(window, Qt.Key.Key_F11)

@@ -87,8 +87,8 @@ def test_a_chain_is_stages_in_order():
 
 def test_an_empty_recipe_offers_nothing_to_run(window, panel):
     assert not any(button(panel, name).isEnabled() for name in ("Run recipe", "Save", "Move up", "Remove the stage"))
-    assert not window.actions["recipe_run"].isEnabled()
-    assert window.actions["recipe_load"].isEnabled()
+    assert not window.window_actions["recipe_run"].isEnabled()
+    assert window.window_actions["recipe_load"].isEnabled()
 
 
 def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
@@ -219,7 +219,7 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     assert saved == window.session.chain.recipe
     assert saved.title == "Mine"
     window.session.chain.take(Recipe.of("laplacian"))
-    window.actions["recipe_load"].trigger()
+    window.window_actions["recipe_load"].trigger()
     assert window.session.chain.recipe == saved
     window.refresh()
     assert title.text() == "Mine"

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFileDialog
 
 from hexmend import io
 from hexmend_app.state.look import Structure
 from hexmend_app.state.run import Phase
 from hexmend_app.state.scene import Lines, Page, write_scene
-from tests.app.driving import key, phase
+from tests.app.driving import key, open_and_wait, phase
 from tests.patience import PATIENCE
 
 
@@ -32,6 +33,18 @@ def test_saving_writes_the_mesh_as_it_is_now(window, qtbot, tmp_path):
     assert not window.isWindowModified()
     assert not window.features["save"].mesh(tmp_path / "missing" / "out.vtk")
     assert window.messages.messages()[-1][0] == "error"
+
+
+def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot, tmp_path, monkeypatch):
+    assert window.features["session"].save(tmp_path / "work.hexmend")
+    open_and_wait(qtbot, window, tmp_path / "work.hexmend")
+    offered = []
+    out = str(tmp_path / "out.vtk")
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: offered.append(given[3]) or (out, ""))
+    with qtbot.waitSignal(window.session.commands.done, timeout=PATIENCE):
+        window.action("save").trigger()
+    assert all(f"(*{suffix})" in offered[0] for suffix in io.writable_suffixes())
+    np.testing.assert_array_equal(io.read(out).points, window.session.document.now.mesh.points)
 
 
 @pytest.mark.parametrize("size", [(640, 480), (1500, 500)])

@@ -59,9 +59,9 @@ TOLD = {
 
 def test_every_action_is_told_or_named_as_one_that_need_not_be(window):
     told = [id for ids in TOLD.values() for id in ids]
-    untold = {id for id in window.actions if any(fnmatch(id, one) for one in UNTOLD)}
+    untold = {id for id in window.window_actions if any(fnmatch(id, one) for one in UNTOLD)}
     assert set(told) & untold == set()
-    assert set(window.actions) == {*told, *untold}
+    assert set(window.window_actions) == {*told, *untold}
 
 
 @pytest.fixture
@@ -158,7 +158,7 @@ def test_what_an_action_does_is_seen_in_the_script(window, qtbot, others, group)
     for id in TOLD[group]:
         others.get(id, lambda: None)()
         rest(window, qtbot)
-        before, action = script.text, window.actions[id]
+        before, action = script.text, window.window_actions[id]
         if group == "structure":  # whatever there is in the mesh
             name = id.removeprefix("show_")
             declared = next(one for one in window.menus.declared() if one.id == id)

@@ -33,7 +33,7 @@ def test_a_key_shows_and_hides_a_layer(five, name):
     press_key(five, name)
     assert five.session.view.look.structure == Structure(**{name: True})
     assert box.isChecked()
-    assert five.actions[f"show_{name}"].isChecked()
+    assert five.window_actions[f"show_{name}"].isChecked()
     if name != "free":  # of which none is in sight
         assert (np.abs(pixels(five) - before).sum(axis=2) > 60).sum() > 100
     press_key(five, name)
@@ -95,14 +95,14 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
 
 
 def test_a_mesh_without_them_offers_no_irregular_edges(five):
-    assert not five.actions["show_boundary"].isEnabled()
-    assert not five.actions["show_locked"].isEnabled()
+    assert not five.window_actions["show_boundary"].isEnabled()
+    assert not five.window_actions["show_locked"].isEnabled()
     press_key(five, "boundary")
     assert five.session.view.look.structure == Structure()
 
 
 def test_irregular_edges_are_found_by_name_and_seen(five, qtbot):
-    five.actions["commands"].trigger()
+    five.window_actions["commands"].trigger()
     field = five.findChild(CommandPalette).findChild(QLineEdit)
     QTest.keyClicks(field, "irregular edges inside")
     QTest.keyClick(field, Qt.Key.Key_Return)

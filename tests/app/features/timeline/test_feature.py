@@ -79,7 +79,7 @@ def test_the_bar_waits_for_a_run(window):
     bar = window.features["timeline"].panel
     assert bar.isVisible()
     assert not any(bar.button(name).isEnabled() for name in ("first", "back", "play", "on", "newest", "branch"))
-    assert not window.actions["iteration_play"].isEnabled()
+    assert not window.window_actions["iteration_play"].isEnabled()
 
 
 def test_everything_follows_the_slider(window, qtbot):
@@ -232,7 +232,7 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     choices["Forget this run"].trigger()
     window.refresh()
     assert record not in window.session.history.records
-    assert not window.actions["iteration_play"].isEnabled()
+    assert not window.window_actions["iteration_play"].isEnabled()
 
 
 def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
@@ -284,8 +284,8 @@ def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(w
     assert (shown.name, shown.state) == ("Local steepest descent 2", kept)
     assert window.session.document.now is not kept
     for _ in range(2):
-        assert window.actions["beside"].isEnabled()
+        assert window.window_actions["beside"].isEnabled()
         key(window, Qt.Key.Key_V)
         key(window, Qt.Key.Key_Period)
     assert [one.name for one in window.session.views.all] == [f"Local steepest descent {k}" for k in (2, 3, 4)]
-    assert not window.actions["beside"].isEnabled()
+    assert not window.window_actions["beside"].isEnabled()
