@@ -40,9 +40,9 @@ def hidden_methods(kind: type) -> set[str]:
 def attributes_set(kind: type) -> Iterator[str]:
     """Names that the methods of a class assign to `self`."""
     for node in ast.walk(ast.parse(textwrap.dedent(inspect.getsource(kind)))):
-        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and isinstance(node.value, ast.Name):
-            if node.value.id == "self":
-                yield node.attr
+        match node:
+            case ast.Attribute(value=ast.Name(id="self"), attr=name, ctx=ast.Store()):
+                yield name
 
 
 def test_no_class_hides_a_method_of_its_qt_class(qapp):
