@@ -183,6 +183,9 @@ class Host(Protocol):
     def may_leave(self) -> bool:
         """Whether every feature lets the open mesh go."""
 
+    def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
+        """Wait until something is over, with `leave` on a button that does not wait; whether to go on then."""
+
     def refresh_soon(self) -> None:
         """Have everything refreshed before the event loop's next turn is over."""
 

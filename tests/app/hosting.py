@@ -10,6 +10,7 @@ from hexmend_app.state.document import State
 from hexmend_app.state.session import Session
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
+from hexmend_app.widgets.waiting import wait_until
 
 
 class PlainHost:
@@ -32,6 +33,9 @@ class PlainHost:
 
     def may_leave(self):
         return True
+
+    def wait_until(self, text, over, leave=""):
+        return wait_until(self.dialog_parent, text, over, leave)
 
     def refresh_soon(self):
         pass

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from functools import partial
 
@@ -57,7 +58,7 @@ class CameraView(QWidget):
         self.interactor.setAccessibleDescription(
             "Arrow keys turn the mesh, Shift and arrow keys shift it, + and − zoom; F shows all of it."
         )
-        self.panes = Panes(self.interactor.render_window, pen=self.devicePixelRatioF())
+        self.panes = Panes(self.interactor.render_window, pen=self.devicePixelRatioF(), on_failure=_report)
         self.viewport = self.panes.first
         self._rest = QTimer(self, interval=_REST, singleShot=True)
         self._rest.timeout.connect(self.draw_still)
@@ -137,6 +138,8 @@ class CameraView(QWidget):
 
     def fly_to(self, *hexes: int) -> None:
         """Bring an element, or several together, before the camera."""
+        if self.viewport.frame is None:
+            return
         mesh = self.viewport.frame.mesh
         self.travel.fly(self.panes.eye.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
 
@@ -220,6 +223,11 @@ class CameraView(QWidget):
         move = move_of(event, self.panes.eye.up)
         if move is not None:
             self._lead(partial(move, self.viewport.camera))
+
+
+def _report(error: Exception) -> None:
+    """Show what a layer has raised, as what a slot raises is shown; the picture is drawn without that layer."""
+    sys.excepthook(type(error), error, error.__traceback__)
 
 
 def _pose(stand: Stand) -> Pose:

@@ -116,6 +116,19 @@ class Canvas(CameraView):
         if live:
             self.stay_coarse()
 
+    def clear(self) -> None:
+        """Draw no mesh."""
+        self._chosen = None, False
+        self.panes.clear()
+        self._place_handles()
+        self._show_colours()
+        self.changed()
+
+    def shows(self, mesh: Mesh) -> bool:
+        """Whether a mesh is drawn, its nodes here or elsewhere."""
+        frame = self.viewport.frame
+        return frame is not None and frame.mesh.hexes is mesh.hexes
+
     def show_handles(self, handles: bool, at: int) -> None:
         """Let the user drag the box, or one of the planes, or nothing."""
         self._handled = handles, at
@@ -135,19 +148,19 @@ class Canvas(CameraView):
     def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
         """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
         self._chosen = h, corners
-        self.viewport.chosen.select(h, corners, node)
+        self.viewport.extras.selection.select(h, corners, node)
         self._select_beside()
         self.changed()
 
     def _select_beside(self) -> None:
         """Mark the same element in the other views."""
         for view in self.panes.all[1:]:
-            view.chosen.select(*self._chosen, None)
+            view.extras.selection.select(*self._chosen, None)
 
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw a node's step; None draws none."""
         if not self._closed:
-            self.viewport.chosen.show_node_step(step)
+            self.viewport.extras.selection.show_node_step(step)
             self.changed()
 
     def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
@@ -263,7 +276,9 @@ class Canvas(CameraView):
 
     def _show_colours(self) -> None:
         colouring = self.colouring
-        if colouring is not None:
+        if colouring is None:
+            self.colour_bar.hide()
+        else:
             self.colour_bar.setVisible(not self.viewport.frame.look.neutral)
             self.colour_bar.set_label(colouring.title)
             self.colour_bar.set_table(colouring.table)

@@ -9,7 +9,7 @@ from hexmend_app.scene import occlusion
 from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.panes import Panes
-from hexmend_app.state.task import Task
+from hexmend_app.state.task import Task, shut_down
 
 
 class Lighting(QObject):
@@ -63,7 +63,5 @@ class Lighting(QObject):
 
     def shut_down(self) -> None:
         """Wait until nothing is being worked out; nothing more is shown."""
-        if self._task is not None:
-            self._task.cancel()
-            self._task.wait()
-            self._task = None
+        shut_down(self._task)
+        self._task = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
@@ -11,6 +11,7 @@ from hexmend.quality import ElementQuality
 from hexmend_app.scene.arrangement import Arrangement
 from hexmend_app.scene.camera.eye import Eye
 from hexmend_app.scene.colours import declared_ends
+from hexmend_app.scene.extra_layers import raise_error
 from hexmend_app.scene.filters import Filters
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.pane import Pane
@@ -40,12 +41,20 @@ class Panes:
         Those of another window's view, whose elements are shown where the mesh has the same hexes.
     pen : float
         How many pixels wide a thin line is.
+    on_failure : callable, optional
+        Called with the exception of a layer that fails, which is then left out; without it, the exception is raised.
     """
 
-    def __init__(self, window: vtkRenderWindow, filters: Filters | None = None, pen: float = 1.0):
-        self._window, self._pen = window, pen
+    def __init__(
+        self,
+        window: vtkRenderWindow,
+        filters: Filters | None = None,
+        pen: float = 1.0,
+        on_failure: Callable[[Exception], object] = raise_error,
+    ):
+        self._window, self._pen, self._on_failure = window, pen, on_failure
         self.pane = Pane(window)
-        self.first = Viewport(self.pane, filters=filters, pen=pen)
+        self.first = Viewport(self.pane, filters=filters, pen=pen, on_failure=on_failure)
         self._dark = False
         self._others: list[tuple[Mesh, Viewport]] = []
         self.wipe: Wipe | None = None
@@ -83,6 +92,11 @@ class Panes:
         if another:
             self.eye.look_along("iso")
 
+    def clear(self) -> None:
+        """Draw no mesh."""
+        self.show([])
+        self.first.clear()
+
     def show(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
         """Show these beside the first view; of the same hexes, the same are left by a cut.
 
@@ -108,7 +122,8 @@ class Panes:
             self.eye.fit()
 
     def _open(self, mesh: Mesh, figures: ElementQuality) -> Viewport:
-        view = Viewport(Pane(self._window, self.first.camera), axes=False, filters=self.first.filters, pen=self._pen)
+        pane = Pane(self._window, self.first.camera)
+        view = Viewport(pane, False, self.first.filters, self._pen, self._on_failure)
         view.set_dark(self._dark)
         view.draw(Frame(mesh, figures).beside(self.first.frame))
         self._watch(view)
@@ -124,6 +139,8 @@ class Panes:
     def level(self) -> None:
         """Let a range of colours that is fitted span what is drawn in all views."""
         beside = None
+        if self.first.frame is None:
+            return
         if self._others and declared_ends(self.first.frame.look.scale) is None:
             lows, highs = zip(*(view.colours.ends for view in self.all), strict=True)
             beside = min(lows), max(highs)

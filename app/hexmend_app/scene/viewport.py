@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
@@ -10,17 +12,11 @@ from hexmend_app.scene.camera.eye import Eye
 from hexmend_app.scene.camera.fitting import bounds_of
 from hexmend_app.scene.colours import Colouring
 from hexmend_app.scene.element_colours import ElementColours
+from hexmend_app.scene.extra_layers import ExtraLayers, raise_error
 from hexmend_app.scene.filters import Filters, same_mask
 from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.layers.arrows import ArrowLayer
 from hexmend_app.scene.layers.axes import Axes
 from hexmend_app.scene.layers.body import Body
-from hexmend_app.scene.layers.chosen import Chosen
-from hexmend_app.scene.layers.ghosts import Ghosts
-from hexmend_app.scene.layers.original import Original
-from hexmend_app.scene.layers.others import OtherCells
-from hexmend_app.scene.layers.silhouette import Silhouette
-from hexmend_app.scene.layers.structure import StructureLayers
 from hexmend_app.scene.palette import BACKGROUND
 from hexmend_app.scene.pane import Pane
 from hexmend_app.scene.picking import Hit, Picker
@@ -39,14 +35,8 @@ class Viewport:
         What decides which elements are shown.
     colours : ElementColours
     body : Body
-    chosen : Chosen
-        The marks of what is chosen.
-    outline : Silhouette or None
-        What a part is cut from, once there is a mesh.
-    structure : StructureLayers
-    original : Original
-    others : OtherCells
-    arrow_layer : ArrowLayer
+    extras : ExtraLayers
+        What is drawn besides the elements.
 
     Parameters
     ----------
@@ -57,40 +47,36 @@ class Viewport:
         Those of another view, whose elements are shown here too where the mesh has the same hexes.
     pen : float
         How many pixels wide a thin line is.
+    on_failure : callable, optional
+        Called with the exception of a layer that fails, which is then left out; without it, the exception is raised.
     """
 
-    def __init__(self, pane: Pane, axes: bool = True, filters: Filters | None = None, pen: float = 1.0):
-        self._pane, self._pen = pane, pen
+    def __init__(
+        self,
+        pane: Pane,
+        axes: bool = True,
+        filters: Filters | None = None,
+        pen: float = 1.0,
+        on_failure: Callable[[Exception], object] = raise_error,
+    ):
+        self._pane = pane
         self.frame: Frame | None = None
         self.filters = filters
         self._fast = False
-        self._dark = False
         pane.window.SetMultiSamples(0)
         self.colours = ElementColours()
         self.body = Body(pane, pen)
-        self._ghosts = Ghosts(pane.renderer, pen)
-        self.original = Original(pane.renderer, pen)
-        self.others = OtherCells(pane.renderer, pen)
-        self.outline: Silhouette | None = None
-        self.structure = StructureLayers(pane, pen)
-        self.arrow_layer = ArrowLayer(pane, pen)
-        self.chosen = Chosen(pane, pen)
+        self.extras = ExtraLayers(pane, pen, on_failure)
         self._picker = Picker(pane, (self.body.skin, self.body.section))
         self.axes = Axes(pane, pen) if axes else None
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
         """Draw on the dark theme's ground, or on the light one's, as pictures for reports are."""
-        self._dark = dark
         self._pane.set_background(BACKGROUND.of(dark))
         if self.axes is not None:
             self.axes.set_dark(dark)
-        self.chosen.set_dark(dark)
-        self._ghosts.set_dark(dark)
-        self.original.set_dark(dark)
-        self.others.set_dark(dark)
-        if self.outline is not None:
-            self.outline.set_dark(dark)
+        self.extras.set_dark(dark)
 
     def set_ground(self, colour: str) -> None:
         """Draw on a colour, #rrggbb, that is not the theme's."""
@@ -99,9 +85,26 @@ class Viewport:
     # What is drawn
 
     def draw(self, frame: Frame) -> None:
-        """Draw a frame: of what it shares with the last one, nothing is done again."""
+        """Draw a frame: of what it shares with the last one, nothing is done again.
+
+        Where the elements of another mesh cannot be drawn, nothing is, least of all the mesh before.
+        """
+        another = not frame.is_of(self.frame)
+        try:
+            self._draw(frame, another)
+        except Exception:
+            if another:
+                self.clear()
+            raise
+
+    def clear(self) -> None:
+        """Draw no mesh."""
+        self.frame = self.filters = self.colours.colouring = None
+        self.body.hide()
+        self.extras.hide()
+
+    def _draw(self, frame: Frame, another: bool) -> None:
         last, self.frame = self.frame, frame
-        another = not frame.is_of(last)
         moved = another or frame.mesh.points is not last.mesh.points or frame.figures is not last.figures
         pinned = not another and frame.mesh.pinned is not last.mesh.pinned
         classed = another or frame.kinds is not last.kinds
@@ -109,17 +112,11 @@ class Viewport:
         measured = moved or frame.movement is not last.movement or not frame.look.coloured_as(last.look)
         if another:
             self._take_mesh()
-        elif moved:
-            self.chosen.move(frame.mesh)
-        if pinned:
-            self.structure.set_pins(frame.mesh.pinned)
-        if classed or pinned:
-            self.structure.set_kinds(frame.kinds)
+        self.extras.follow(frame, moved and not another, pinned, classed)
         if measured:
             self.colours.measure(frame)
         keep = self.kept()
-        self.original.draw(frame, keep)
-        self.others.draw(frame)
+        self.extras.draw_around(frame, keep)
         if looked or not same_mask(keep, self._keep):
             self._keep = keep
             self._rebuild()
@@ -127,35 +124,21 @@ class Viewport:
             self._move()
 
     def _take_mesh(self) -> None:
+        self.extras.set_mesh(self.frame)
         mesh = self.frame.mesh
         if self.filters is None or not self.filters.suit(mesh):
             self.filters = Filters(mesh)
         self.body.set_mesh(mesh)
-        if self.outline is not None:
-            self.outline.close()
-        self.outline = Silhouette(self._pane.renderer, mesh, self._pen)
-        self.outline.set_dark(self._dark)
-        self.structure.set_mesh(mesh)
-        self.chosen.set_mesh(mesh)
 
     def _rebuild(self) -> None:
         """Find the visible faces anew."""
-        frame, keep = self.frame, self._keep
-        look, points = frame.look, frame.mesh.points
-        self.body.rebuild(frame, keep, self.colours)
-        self._ghosts.draw(frame, self.filters.ghosts(frame), keep)
-        self.arrow_layer.draw(frame, self._keep, self.body)
-        self.outline.show(look, points, keep)
-        self.structure.choose(look, points, frame.figures, self.body.faces, keep)
+        self.body.rebuild(self.frame, self._keep, self.colours)
+        self.extras.rebuild(self.frame, self._keep, self.body, self.filters.ghosts)
 
     def _move(self) -> None:
         """The same faces, elsewhere and in other colours."""
-        frame = self.frame
-        self.body.move(frame, self._keep, self.colours)
-        self._ghosts.move(frame)
-        self.arrow_layer.draw(frame, self._keep, self.body)
-        self.outline.move(frame.mesh.points)
-        self.structure.move(frame.mesh.points, frame.figures)
+        self.body.move(self.frame, self._keep, self.colours)
+        self.extras.move(self.frame, self._keep, self.body)
 
     def span(self, beside: tuple[float, float] | None) -> None:
         """Let a range of colours that is fitted span these values too, which are drawn in a view beside this."""
@@ -166,15 +149,17 @@ class Viewport:
 
     def kept(self) -> np.ndarray | None:
         """The hexes that are shown whole or in part, (m,) bool; None for all."""
-        return self.filters.kept(self.frame)
+        return None if self.frame is None else self.filters.kept(self.frame)
 
     def left(self) -> np.ndarray | None:
         """The hexes of which something is shown after a smooth cut too, (m,) bool; None for all."""
-        return self.filters.left(self.frame)
+        return None if self.frame is None else self.filters.left(self.frame)
 
     @property
     def shown(self) -> int:
-        """Number of hexes that are shown whole or in part, before a smooth cut."""
+        """Number of hexes that are shown whole or in part, before a smooth cut; 0 where none is drawn."""
+        if self.frame is None:
+            return 0
         keep = self.kept()
         return self.frame.mesh.n_hexes if keep is None else int(np.count_nonzero(keep))
 
@@ -208,7 +193,7 @@ class Viewport:
     @property
     def places(self) -> np.ndarray:
         """The corners of what is shown, ghosts and other cells too, (k, 3); of the mesh where nothing is left of it."""
-        places = np.concatenate([self.body.places, self._ghosts.places, self.others.places])
+        places = np.concatenate([self.body.places, self.extras.places])
         mesh = self.frame.mesh
         return places if len(places) else mesh.points[mesh.topology.used]
 
@@ -245,8 +230,7 @@ class Viewport:
         if fast == self._fast:
             return
         self._fast = self.body.fast = fast
-        self.structure.set_fast(fast)
-        self.arrow_layer.set_fast(fast)
+        self.extras.set_fast(fast)
         if self.frame is None:
             return
         if self.body.faces.many:
@@ -257,7 +241,7 @@ class Viewport:
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """What draws this view, one layer over the other."""
-        return self._pane.renderer, self.structure.layer, self.arrow_layer.layer, *self.chosen.layers
+        return self._pane.renderer, *self.extras.renderers
 
     def close(self) -> None:
         """Draw no more, and leave the part of the window to another view."""

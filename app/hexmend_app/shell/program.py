@@ -14,13 +14,14 @@ from typing import TYPE_CHECKING
 os.environ.setdefault("QT_API", "pyside6")
 os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
 
-from PySide6.QtCore import QCoreApplication, QTimer
+from PySide6.QtCore import QCoreApplication, QSettings, QTimer
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
 from hexmend.cli.interrupts import ENDING
 from hexmend_app.resources import demo_mesh, resource
 from hexmend_app.state.garbage import Garbage
+from hexmend_app.state.task import running
 from hexmend_app.widgets.report import report_of
 from hexmend_app.widgets.theming import wear
 
@@ -67,7 +68,25 @@ def open_window(mesh: str | None = None) -> int:
     window.show()
     app.processEvents()  # it is seen before what is slow to load is loaded
     Starting(window, Path(mesh) if mesh else demo_mesh())
-    return app.exec()
+    status = app.exec()
+    end_with_threads(status)
+    return status
+
+
+def end_with_threads(status: int) -> None:
+    """End the process where a thread goes on that cannot be ended: Python would wait for it, without a window.
+
+    Such a thread reads from a network drive or a pipe that does not answer. All that is to be kept was written before.
+    """
+    if not running():
+        return
+    log.warning("closed while threads were at work: %s", ", ".join(task.name for task in running()))
+    QSettings().sync()
+    logging.shutdown()
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
+    os._exit(status)
 
 
 def report_unexpected_errors(window: Window) -> None:

@@ -205,6 +205,12 @@ class Window(QMainWindow):
             self.messages.show_info(success)
         return True
 
+    def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
+        """Wait until something is over, with `leave` on a button that does not wait; whether to go on then."""
+        from hexmend_app.widgets.waiting import wait_until
+
+        return wait_until(self, text, over, leave)
+
     def refresh_soon(self) -> None:
         """Have everything refreshed once, after all that happens at this moment has happened."""
         if not self._soon.isActive():

@@ -73,9 +73,9 @@ class Cameras(QObject):
         self._saved = kept.named if saved else {}
         self._take(kept.named)
 
-    def saved(self) -> None:
-        """Remember that a session with them was written."""
-        self._saved = self.all
+    def saved(self, kept: KeptCameras | None = None) -> None:
+        """Remember that a session was written with these, or with those of now."""
+        self._saved = self.all if kept is None else kept.named
 
     def _take(self, all: dict[str, Camera]) -> None:
         if list(all.items()) != list(self.all.items()):

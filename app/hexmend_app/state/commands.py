@@ -10,21 +10,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.doctor import AILMENTS, Finding, repair
 from hexmend.fixing import with_pinned, with_region_free
-from hexmend.io import left_out, write
-from hexmend.io.session import SUFFIX
 from hexmend.mesh import Mesh
 from hexmend.quality import summarise
 from hexmend.recipe import Recipe, Stage
 from hexmend.run.memory import Shortage, available, shortage
 from hexmend.smoothers import Smoother
 from hexmend.tags import renamed_tag, tagged, without_tag
-from hexmend_app.state import session_data
-from hexmend_app.state.deeds import Changed, Moved, Saved, WentBack, Wrote
+from hexmend_app.state.deeds import Changed, Moved, WentBack, Wrote
 from hexmend_app.state.document import State
 
 if TYPE_CHECKING:
+    from hexmend_app.state.mesh_saver import Saving
     from hexmend_app.state.session import Session
 
 
@@ -57,31 +54,23 @@ class Commands(QObject):
 
     def open(self, path: str | Path) -> None:
         """Open a mesh; a run under way ends first. What is open stays where the file cannot be read."""
-        self.smoothing.end_now()
-        self._session.opener.open(path)
+        self.smoothing.end(lambda: self._session.opener.open(path))
 
     def save(self, path: str | Path) -> list[str]:
         """Write the mesh as it is now, or under a session's suffix all there is; what the file's format cannot hold.
+
+        The caller waits; `save_in_background` does not.
 
         Raises
         ------
         HexmendError
             Where it cannot be written; the file that was there stays.
         """
-        self._session.stepping.leave()
-        if Path(path).suffix.lower() == SUFFIX:
-            session_data.write(Path(path), self._session.given())
-            self.done.emit(Saved(Path(path), self.document.now, session=True))
-            self._session.cameras.saved()
-            self.document.saved(Path(path), changes=True)
-            return []
-        moment = self._session.timeline.moment
-        if self.document.previews and self._session.editable:
-            self.document.commit("go back" if moment is None else f"go to {moment.name}", self.document.now)
-        write(path, self.document.now.mesh)
-        self.done.emit(Saved(Path(path), self.document.now, session=False))
-        self.document.saved(Path(path))
-        return left_out(path, self.document.now.mesh)
+        return self._session.saver.save_now(path).omitted
+
+    def save_in_background(self, path: str | Path) -> Saving:
+        """Begin to write the same in a thread; `Session.saver` says how it ends."""
+        return self._session.saver.save(path)
 
     def carry_out(self, deed: Wrote) -> None:
         """Write what a deed writes, and tell of it; raises `HexmendError` where that cannot be done."""
@@ -102,14 +91,14 @@ class Commands(QObject):
 
     def may_run(self, *works: Smoother | Recipe) -> bool:
         """Whether memory will suffice for methods that run one after another on the mesh as it is, or it is agreed."""
-        if not self.document.is_open or self._session.opener.busy:
+        if not self.document.is_open or self._session.opener.busy or self._session.repairer.busy:
             return False
         free = available()
         short = [one for work in works if (one := shortage(work, self.document.now.mesh, free)) is not None]
         return not short or self.consent(max(short, key=lambda one: one.needed))
 
     def _start(self, stage: Stage, iterations: float = math.inf) -> None:
-        if not self._session.opener.busy:
+        if self._session.editable:
             self._session.stepping.leave()
             self._session.order.begun = stage
             self.smoothing.start(stage.smoother, stage.stop, iterations)
@@ -123,12 +112,15 @@ class Commands(QObject):
     def branch(self, stage: Stage) -> None:
         """Run a method on the mesh as it is shown, whatever iteration that is; a run under way ends first."""
         if self.may_run(stage.smoother):
-            self.smoothing.end_now()
-            self._start(stage)
+            self.smoothing.end(lambda: self._start(stage))
 
     def reset(self) -> None:
         """End a run and put the nodes back to where they were when the mesh was opened."""
-        self.smoothing.end_now()
+        self.smoothing.end(self._reset)
+
+    def _reset(self) -> None:
+        if not self._session.editable:
+            return
         self._session.stepping.leave()
         before = self.document.now
         self.document.reset()
@@ -183,18 +175,12 @@ class Commands(QObject):
             self.document.commit(title, State(mesh, now.figures, summary))
             self.done.emit(Changed(title, now, self.document.now, change, values))
 
-    def repair(self, kinds: Sequence[str] = ()) -> tuple[Finding, ...]:
-        """Mend some kinds of trouble that the doctor finds, or all, while the mesh may be changed; what was mended."""
-        if not self._session.editable:
-            return ()
-        self._session.stepping.leave()
-        before = self.document.now
-        mesh, mended = repair(before.mesh, kinds)
-        if mended:
-            title = "mend " + " and ".join(AILMENTS[one.kind].title.lower() for one in mended)
-            self.document.commit(title, State.of(mesh.keeping_surface()))
-            self.done.emit(Changed(title, before, self.document.now, repair, (tuple(kinds),)))
-        return mended
+    def repair(self, kinds: Sequence[str] = ()) -> bool:
+        """Begin to repair some kinds of problem that the doctor finds, or all; whether the mesh may be changed now.
+
+        `Session.repairer` says how it ends.
+        """
+        return self._session.repairer.start(kinds)
 
     def undo(self) -> None:
         """Take back the last change, unless the mesh may not be changed."""

@@ -14,7 +14,7 @@ from hexmend.smoothers import Smoother
 from hexmend.study import compare
 from hexmend.study.row import Row, run_one
 from hexmend_app.state.document import Document, State
-from hexmend_app.state.task import Task
+from hexmend_app.state.task import Task, shut_down
 
 #: Milliseconds between two looks at how far the methods are.
 _PERIOD = 100
@@ -191,11 +191,10 @@ class Comparison(QObject):
         self.changed.emit()
 
     def shut_down(self) -> None:
-        """End the work and wait until its thread is gone; nothing is emitted any more."""
+        """End the work and its thread; nothing is emitted any more."""
         self._timer.stop()
         if self._work is not None:
-            self._work.task.cancel()
-            self._work.task.wait()
+            shut_down(self._work.task)
             self._work = None
 
     def _empty(self) -> None:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hexmend.movement import Movement
 from hexmend_app.state.document import State
 from hexmend_app.state.record import Record
+
+if TYPE_CHECKING:
+    from hexmend_app.state.session_data import SessionData
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,11 +57,20 @@ class WentBack:
 
 @dataclass(frozen=True, eq=False)
 class Saved:
-    """The mesh was written to a file, or, where `session`, all there is."""
+    """The mesh was written to a file, or the session.
+
+    Parameters
+    ----------
+    path : Path
+    now : State
+        The mesh as it was shown when that was asked for.
+    data : SessionData or None
+        What was written of the session; None for a file of the mesh alone.
+    """
 
     path: Path
     now: State
-    session: bool
+    data: SessionData | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -112,6 +112,14 @@ class Document(QObject):
             at -= 1
         return self._changes[at].state
 
+    def has_hex(self, hex: int | None) -> bool:
+        """Whether the open mesh has a hex of this number; None is none."""
+        return hex is not None and self.is_open and 0 <= hex < self.now.mesh.n_hexes
+
+    def has_node(self, node: int | None) -> bool:
+        """Whether the open mesh has a node of this number; None is none."""
+        return node is not None and self.is_open and 0 <= node < self.now.mesh.n_nodes
+
     @property
     def name(self) -> str:
         """What to call the mesh."""
@@ -189,11 +197,20 @@ class Document(QObject):
             mesh = self.now.mesh.with_points(start.mesh.points)
             self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
 
-    def saved(self, path: Path, changes: bool = False) -> None:
-        """Remember that the mesh as it is shown is on disk, or with `changes` all that undo can come back to."""
-        self.path = path
-        self._saved = self._changes[self._at].state if changes else self.now
-        self.changes_changed.emit()
+    @property
+    def recorded(self) -> State:
+        """The mesh as it was changed last, which undo would come back from; a mesh is open."""
+        return self._changes[self._at].state
+
+    def saved(self, path: Path, state: State | None = None) -> None:
+        """Remember that a state is on disk, the one that is shown where none is named.
+
+        Nothing is remembered of a mesh that is open no more.
+        """
+        state = self.now if state is None else state
+        if any(change.state.mesh.hexes is state.mesh.hexes for change in self._changes):
+            self.path, self._saved = path, state
+            self.changes_changed.emit()
 
     def given(self) -> DocumentData:
         """What a session keeps; a mesh is open."""

@@ -6,7 +6,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject
 
-from hexmend_app.state.task import Task
+from hexmend_app.state.task import Task, shut_down
 
 
 class Newest(QObject):
@@ -35,11 +35,10 @@ class Newest(QObject):
             self._begin()
 
     def shut_down(self) -> None:
-        """Wait until the thread is gone; nothing is answered any more."""
+        """End the thread; nothing is answered any more."""
         self._wanted = None
-        if self._task is not None:
-            self._task.wait()
-            self._task = None
+        shut_down(self._task)
+        self._task = None
 
     def _begin(self) -> None:
         self._asked = self._wanted

@@ -17,7 +17,7 @@ from hexmend_app.state.restoring import Restored, Wanting, restored
 from hexmend_app.state.scene.carried import read_carried
 from hexmend_app.state.scene.png import is_png
 from hexmend_app.state.session_data import SessionData
-from hexmend_app.state.task import Task
+from hexmend_app.state.task import Task, shut_down
 
 
 class Doing(Enum):
@@ -155,10 +155,9 @@ class Opener(QObject):
         self.cancelled.emit(self._path)
 
     def shut_down(self) -> None:
-        """Wait until the threads are gone; nothing is opened any more."""
+        """End the threads, as far as they can be ended; nothing is opened any more."""
         self.cancel()
-        for task in self._dropped:
-            task.wait()
+        shut_down(*self._dropped)
         self._dropped.clear()
 
     def _finish(self) -> None:

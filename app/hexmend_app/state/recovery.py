@@ -26,7 +26,7 @@ from hexmend.io.session import KeptSession
 from hexmend.io.temporary_files import flush_folder, make_folder
 from hexmend_app.state import session_data
 from hexmend_app.state.places import state_folder
-from hexmend_app.state.task import Task
+from hexmend_app.state.task import Task, shut_down
 
 if TYPE_CHECKING:
     from hexmend_app.state.session import Session
@@ -154,9 +154,8 @@ class Recovery(QObject):
 
     def take_up(self, left: Left) -> None:
         """Open what was left; once it is open it is this window's."""
-        self._session.smoothing.end_now()
         self._taken_up = left
-        self._session.opener.open(left.path, recovers=True)
+        self._session.smoothing.end(lambda: self._session.opener.open(left.path, recovers=True))
 
     def forget(self, left: Left) -> None:
         """Remove what was left."""
@@ -167,9 +166,8 @@ class Recovery(QObject):
         """The window ends in order: nothing is left of it."""
         self._timer.stop()
         self._soon.stop()
-        if self._task is not None:
-            self._task.wait()
-            self._task = None
+        shut_down(self._task)
+        self._task = None
         for left in self._left:
             left.lock.unlock()  # for the next start
         self._left.clear()

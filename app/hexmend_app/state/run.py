@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from enum import Enum
 from functools import partial
@@ -17,6 +17,7 @@ from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History, Moment, Record
+from hexmend_app.state.task import shut_down
 from hexmend_app.state.worker import Frame, Worker
 
 #: Milliseconds between two looks into the mailbox.
@@ -75,6 +76,7 @@ class Smoothing(QObject):
         self._before: State | None = None
         self._worker: Worker | None = None
         self._title = ""
+        self._after: list[Callable[[], object]] = []  # what is done once the run has ended
         self._metrics: frozenset[str] = frozenset()
         self._breakpoints = Breakpoints()
         self.work: Smoother | Recipe | None = None
@@ -166,6 +168,18 @@ class Smoothing(QObject):
             if self.phase is Phase.PREPARING:
                 self._set_phase(Phase.STOPPING)
 
+    def end(self, then: Callable[[], object]) -> None:
+        """End the run after the iteration at hand, record what was reached, and do something then.
+
+        Where no run is under way it is done at once; several are done in the order in which they were asked for.
+        """
+        if self._worker is None:
+            then()
+            return
+        self._after.append(then)
+        self._worker.end()
+        self._set_phase(Phase.STOPPING)
+
     def end_now(self) -> None:
         """End the run and wait for the iteration at hand; what was reached is recorded as usual."""
         if self._worker is not None:
@@ -181,11 +195,12 @@ class Smoothing(QObject):
         self._set_phase(Phase.IDLE)
 
     def shut_down(self) -> None:
-        """End the run and wait until its thread is gone; nothing is emitted any more."""
+        """End the run and its thread; nothing is emitted any more."""
         self._timer.stop()
+        self._after.clear()
         if self._worker is not None:
             self._worker.end()
-            self._worker.task.wait()
+            shut_down(self._worker.task)
             self._worker = None
             self._history.finish(self.record, None, None, "")
             self._set_phase(Phase.IDLE)
@@ -232,13 +247,16 @@ class Smoothing(QObject):
                 self._document.commit(self._title, last.state)
             self._set_phase(Phase.IDLE)
             self.failed.emit(error)
-            return
-        if last is not None:
-            self._document.commit(self._title, last.state, show=self.following)
-            self.iterated.emit(last)
-        self.advice = self.record.advice = worker.advice
-        self._set_phase(Phase.FINISHED)
-        self.ended.emit(worker.task.result)
+        else:
+            if last is not None:
+                self._document.commit(self._title, last.state, show=self.following)
+                self.iterated.emit(last)
+            self.advice = self.record.advice = worker.advice
+            self._set_phase(Phase.FINISHED)
+            self.ended.emit(worker.task.result)
+        after, self._after = self._after, []
+        for act in after:
+            act()
 
     def _set_phase(self, phase: Phase) -> None:
         if phase is not self.phase:

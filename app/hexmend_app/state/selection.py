@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from hexmend_app.state.document import Document
+
 
 @dataclass(frozen=True)
 class SelectionData:
@@ -25,6 +27,12 @@ class SelectionData:
 class Selection(QObject):
     """One element of the open mesh and one of its nodes, or none.
 
+    Numbers that the open mesh does not have select nothing: a list that still shows the mesh before may name them.
+
+    Parameters
+    ----------
+    document : Document
+
     Signals
     -------
     changed
@@ -41,14 +49,19 @@ class Selection(QObject):
     changed = Signal()
     visited = Signal(object)
 
-    def __init__(self, parent: QObject | None = None):
+    def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
+        self._document = document
         self.hex: int | None = None
         self.node: int | None = None
         self.listing: Callable[[], np.ndarray] = lambda: np.empty(0, np.int64)
 
     def choose(self, hex: int | None, node: int | None = None) -> None:
         """Look at another element and node, or at none; says nothing where nothing changes."""
+        if not self._document.has_hex(hex):
+            hex = node = None
+        if not self._document.has_node(node):
+            node = None
         if (hex, node) != (self.hex, self.node):
             self.hex, self.node = hex, node
             self.changed.emit()
@@ -63,6 +76,9 @@ class Selection(QObject):
 
     def visit(self, *hexes: int) -> None:
         """Bring a hex, or several together, before the camera; one alone is looked at too."""
+        hexes = tuple(int(h) for h in hexes if self._document.has_hex(h))
+        if not hexes:
+            return
         if len(hexes) == 1:
             self.choose(hexes[0], self.node if hexes[0] == self.hex else None)
-        self.visited.emit(tuple(int(h) for h in hexes))
+        self.visited.emit(hexes)

@@ -21,6 +21,8 @@ from hexmend_app.state.eye import Eye
 from hexmend_app.state.finder import Finder
 from hexmend_app.state.history import History
 from hexmend_app.state.kept import KeptMoments
+from hexmend_app.state.mesh_repairer import MeshRepairer
+from hexmend_app.state.mesh_saver import MeshSaver
 from hexmend_app.state.opener import Opener
 from hexmend_app.state.order import Order
 from hexmend_app.state.reference import References
@@ -69,6 +71,8 @@ class Session(QObject):
     cameras : Cameras
     choices : Choices
     commands : Commands
+    saver : MeshSaver
+    repairer : MeshRepairer
     """
 
     changed = Signal()
@@ -76,8 +80,8 @@ class Session(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.document = Document(self)
-        self.view = View(self)
-        self.selection = Selection(self)
+        self.view = View(self.document, self)
+        self.selection = Selection(self.document, self)
         self.order = Order(self)
         self.chain = Chain(self)
         self.history = History()
@@ -97,6 +101,8 @@ class Session(QObject):
         self.cameras = Cameras(self)
         self.choices = Choices()
         self.commands = Commands(self)
+        self.saver = MeshSaver(self)
+        self.repairer = MeshRepairer(self)
         self.opener.loaded.connect(self.take)
         self.opener.restored.connect(self._look_as)
         self.document.mesh_replaced.connect(self._on_another)
@@ -106,8 +112,8 @@ class Session(QObject):
 
     @property
     def editable(self) -> bool:
-        """Whether the mesh may be changed: not by hand while a method runs on it, nor while another is being read."""
-        return self.document.is_open and not self.smoothing.busy and not self.opener.busy
+        """Whether the mesh may be changed by hand: no run or repair is under way, and no file is being read."""
+        return self.document.is_open and not (self.smoothing.busy or self.opener.busy or self.repairer.busy)
 
     @property
     def modified(self) -> bool:
@@ -176,7 +182,9 @@ class Session(QObject):
         self.eye.take(data.eye, data.journey)
 
     def shut_down(self) -> None:
-        """End the threads, and wait for them."""
+        """End the threads, as far as they can be ended."""
+        self.saver.shut_down()
+        self.repairer.shut_down()
         self.smoothing.shut_down()
         self.opener.shut_down()
         self.finder.shut_down()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -13,9 +14,27 @@ from PySide6.QtCore import QObject, Qt, Signal
 _BEGUN: set[Task] = set()
 
 
+#: Seconds that whoever closes waits for threads that were asked to end.
+GRACE = 2.0
+
+
 def running() -> tuple[Task, ...]:
     """The tasks whose threads have not ended, by name."""
     return tuple(sorted((task for task in _BEGUN if not task.over), key=lambda task: task.name))
+
+
+def shut_down(*tasks: Task | None) -> None:
+    """Ask tasks to end, hear no more of them, and wait for their threads, for `GRACE` seconds in all.
+
+    No thread can be ended from outside: one that reads from a network drive that does not answer goes on, and is among
+    `running`. A program that is about to end then ends its process.
+    """
+    asked = [task for task in tasks if task is not None]
+    for task in asked:
+        task.drop()
+    deadline = time.monotonic() + GRACE
+    for task in asked:
+        task.join(max(0.0, deadline - time.monotonic()))
 
 
 class Task(QObject):
@@ -94,12 +113,14 @@ class Task(QObject):
     def wait(self) -> None:
         """Wait until the thread has ended, which it must be about to; no signal comes after that."""
         self._listened_to = False
-        self._end()
+        self.join()
 
-    def _end(self) -> None:
-        self._thread.join()
-        self._work = None  # which may know this task: no circle is left for another thread to collect
-        _BEGUN.discard(self)
+    def join(self, seconds: float | None = None) -> None:
+        """Wait until the thread has ended, or so many seconds; what it tells is heard as before."""
+        self._thread.join(seconds)
+        if self.over:
+            self._work = None  # which may know this task: no circle is left for another thread to collect
+            _BEGUN.discard(self)
 
     def _run(self) -> None:
         try:
@@ -118,6 +139,6 @@ class Task(QObject):
             self.told.emit(message)
 
     def _finish(self) -> None:
-        self._end()
+        self.join()
         if self._listened_to:
             self.ended.emit()

@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.movement import MOVEMENTS
 from hexmend.quality import METRICS
 from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, CutLeft, PlaneClip
+from hexmend_app.state.document import Document
 from hexmend_app.state.look import COLOUR_MAPS, Isolation, Look
 
 
@@ -53,6 +54,12 @@ class ViewData:
 class View(QObject):
     """The look of the 3D view.
 
+    Hexes that the open mesh does not have are neither isolated nor dug away.
+
+    Parameters
+    ----------
+    document : Document
+
     Attributes
     ----------
     left : callable
@@ -69,8 +76,9 @@ class View(QObject):
     look_changed = Signal()
     metric_wanted = Signal(str)
 
-    def __init__(self, parent: QObject | None = None):
+    def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
+        self._document = document
         self.look = Look()
         self.left: Callable[[], CutLeft | None] = lambda: None
         self.handles = True  # of the plane or the box, in the view
@@ -157,7 +165,7 @@ class View(QObject):
             As many as were last chosen where none are named.
         """
         self.rings = self.rings if rings is None else rings
-        hexes = tuple(int(h) for h in hexes)
+        hexes = tuple(int(h) for h in hexes if self._document.has_hex(h))
         if hexes:
             # What else would hide them is given up: they are what is to be seen.
             dug = self.look.dug - set(hexes)
@@ -175,7 +183,7 @@ class View(QObject):
 
     def dig(self, hex: int) -> None:
         """Hide one element."""
-        if hex not in self.look.dug:
+        if hex not in self.look.dug and self._document.has_hex(hex):
             self._dug.append(int(hex))
             self.change(dug=self.look.dug | {int(hex)})
 

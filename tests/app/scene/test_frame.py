@@ -37,7 +37,7 @@ def watched(monkeypatch):
         (viewport.body, "rebuild"),
         (viewport.body, "move"),
         (viewport.colours, "measure"),
-        (viewport.chosen, "set_mesh"),
+        (viewport.extras.selection, "set_mesh"),
     ):
         watch(part, name)
 

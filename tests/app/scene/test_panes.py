@@ -223,8 +223,8 @@ def test_views_beside_the_first_compare_with_the_same_moment(panes):
     panes.show([(OTHERS[2], measure(OTHERS[2].points, MESH.hexes))])
     other = panes.all[1]
     far = np.linalg.norm(OTHERS[2].points - MESH.points, axis=1).max() / MESH.mean_edge_length
-    assert panes.first.arrow_layer.drawn == panes.first.arrow_layer.moved == 0
-    assert other.arrow_layer.drawn == MESH.free.sum()
+    assert panes.first.extras.arrows.drawn == panes.first.extras.arrows.moved == 0
+    assert other.extras.arrows.drawn == MESH.free.sum()
     assert other.colouring.high == panes.first.colouring.high == pytest.approx(far)
     look_at(panes, look, Movement(MESH, Moment(OTHERS[0].points, second, "later"), MESH.points, first))
     assert other.colouring.title.endswith("since later")

@@ -235,10 +235,10 @@ def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there
     viewport, pixels = seen
     plain = pixels()
     inner = 21
-    viewport.chosen.select(inner, False, None)
+    viewport.extras.selection.select(inner, False, None)
     marked = pixels()
     assert 0 < (np.abs(marked - plain).max(axis=2) > 40).sum() < 0.2 * plain[:, :, 0].size
-    viewport.chosen.select(inner, True, None)
+    viewport.extras.selection.select(inner, True, None)
     np.testing.assert_array_equal(pixels(), marked)  # too small for figures
     eye = Eye.of(viewport)
     eye.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
@@ -247,7 +247,7 @@ def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there
     np.testing.assert_allclose(pane.camera.GetFocalPoint(), centre)
     pane.camera.Dolly(2.0)
     near = pixels()
-    viewport.chosen.select(inner, False, None)
+    viewport.extras.selection.select(inner, False, None)
     assert (near != pixels()).any()
 
 

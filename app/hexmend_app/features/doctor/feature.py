@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.doctor import Finding
+from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.doctor.doctor_panel import DoctorPanel
 
@@ -23,6 +24,11 @@ class FeatureDoctor(Feature):
         self.panel = DoctorPanel()
         self.panel.show_requested.connect(self._show)
         self.panel.mend_requested.connect(self._mend)
+        repairer = self.session.repairer
+        repairer.began.connect(self._on_began)
+        repairer.ended.connect(self._on_ended)
+        repairer.failed.connect(self._on_failed)
+        repairer.cancelled.connect(self._on_cancelled)
 
     def actions(self) -> Sequence[Action]:
         """The panel, and mending at once."""
@@ -87,8 +93,28 @@ class FeatureDoctor(Feature):
             self.session.selection.visit(*hexes.tolist())
 
     def _mend(self, kinds: list[str]) -> None:
-        mended = self.session.commands.repair(kinds)
-        if mended:
-            self.host.messages.show_info(f"Mended: {' '.join(finding.message for finding in mended)}")
-        elif self.session.editable:
-            self.host.messages.show_info("The doctor finds nothing that it can mend.")
+        self.session.commands.repair(kinds)
+
+    def _on_began(self) -> None:
+        help = "Leave the mesh as it is."
+        self.host.busy.show_work("repair", "Repairing the mesh…", "Cancel", help, self.session.repairer.cancel)
+        self.host.refresh_soon()
+
+    def _on_ended(self, mended: tuple[Finding, ...]) -> None:
+        self.host.busy.done("repair")
+        messages = " ".join(finding.message for finding in mended)
+        nothing = "The doctor finds nothing that it can mend."
+        self.host.messages.show_info(f"Mended: {messages}" if mended else nothing)
+        self.host.refresh_soon()
+
+    def _on_failed(self, error: Exception) -> None:
+        self.host.busy.done("repair")
+        self.host.refresh_soon()
+        if not isinstance(error, HexmendError):
+            raise error
+        self.host.messages.show_error("The mesh was not repaired", str(error))
+
+    def _on_cancelled(self) -> None:
+        self.host.busy.done("repair")
+        self.host.messages.show_info("The repair was cancelled.")
+        self.host.refresh_soon()

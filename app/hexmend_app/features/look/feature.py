@@ -89,13 +89,26 @@ class FeatureLook(Feature):
         canvas.colour_bar.apart_clicked.connect(self._isolate)
 
     def refresh(self) -> None:
-        """Draw the mesh as it is now."""
-        session = self.session
-        self.panel.setEnabled(session.document.is_open)
+        """Draw the mesh as it is now; where that fails, no mesh at all rather than the one before."""
+        document = self.session.document
+        if self.canvas is not None and document.is_open:
+            try:
+                self._draw()
+            except Exception:
+                if not self.canvas.shows(document.now.mesh):
+                    self.canvas.clear()
+                raise
+        self._show_panel()
+
+    def _show_panel(self) -> None:
+        self.panel.setEnabled(self.session.document.is_open)
         self.panel.set_scale(self._view.look.scale)
         self.panel.set_drawn(self._view.look.neutral, self._view.look.shading)
-        if self.canvas is None or not session.document.is_open:
-            return
+        if self.canvas is not None and self.canvas.colouring is not None:
+            self.panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
+
+    def _draw(self) -> None:
+        session = self.session
         now, movement, look = session.document.now, self._movement, self._drawable
         kinds = self._kinds if look.structure.kinds else None
         original = session.document.start.mesh.points if look.structure.original else None
@@ -109,7 +122,6 @@ class FeatureLook(Feature):
         if self.canvas.isHidden():
             self.canvas.show()
             self.canvas.interactor.setFocus()  # keys turn the mesh, and Tab hides all panels
-        self.panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now

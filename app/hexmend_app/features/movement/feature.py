@@ -55,7 +55,7 @@ class FeatureMovement(Feature):
         if self._seen.another("counts", moved):
             self.panel.set_counts(moved.counts, moved.before.name, self._document.now.summary.free_nodes)
         if self.canvas is not None:
-            layer = self.canvas.viewport.arrow_layer
+            layer = self.canvas.viewport.extras.arrows
             self.panel.set_arrows(layer.drawn, layer.moved)
 
     @property

@@ -7,12 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from hexmend.errors import HexmendError
 from hexmend.io.session import SUFFIX
 from hexmend.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.deeds import Wrote, moved_since
 from hexmend_app.state.document import State
+from hexmend_app.state.mesh_saver import Saving
 from hexmend_app.state.run import Phase
 from hexmend_app.state.scene import Page, Scene, write_scene
 from hexmend_app.state.scene.carried import Pictured, carrying
@@ -27,6 +29,10 @@ class FeatureSave(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         self._last: Scene | None = None  # what the last picture was like
+        saver = self.session.saver
+        saver.began.connect(self._on_began)
+        saver.ended.connect(self._on_ended)
+        saver.failed.connect(self._on_failed)
 
     def actions(self) -> Sequence[Action]:
         """Save, and the picture."""
@@ -59,22 +65,31 @@ class FeatureSave(Feature):
         )
 
     def may_leave(self) -> bool:
-        """Whether what is unsaved was saved or may be lost."""
+        """Whether what is unsaved was saved or may be lost; what is being saved is waited for."""
         session = self.session
         session.stepping.leave()
+        if session.saver.busy and not self._wait_for_saving():
+            return False
         if not session.modified and not session.smoothing.busy:
             return True
         of_mesh = session.document.modified or session.smoothing.busy
         answer = ask_unsaved(self.host.dialog_parent, session.document.name, of_mesh)
         if answer is Answer.SAVE:
-            session.smoothing.end_now()
-            return self._ask_before_leaving()
+            session.smoothing.stop()
+            over = "The run ends after this iteration."
+            return self.host.wait_until(over, lambda: not session.smoothing.busy) and self._ask_before_leaving()
         return answer is Answer.DISCARD
 
-    def ask_mesh(self) -> bool:
-        """Ask where the mesh goes and write it; whether it was."""
+    def _wait_for_saving(self) -> bool:
+        saver = self.session.saver
+        text = f"{saver.path.name} is being saved. If it is not waited for, it may not be written."
+        return self.host.wait_until(text, lambda: not saver.busy, "Do not wait")
+
+    def ask_mesh(self) -> None:
+        """Ask where the mesh goes, and begin to write it."""
         path = ask_target(self.host.dialog_parent, self.host.stem)
-        return bool(path) and self.mesh(path)
+        if path:
+            self.session.commands.save_in_background(path)
 
     def _ask_before_leaving(self) -> bool:
         """Ask where the mesh goes, or the session where one is open, and write it; whether it was."""
@@ -84,16 +99,29 @@ class FeatureSave(Feature):
         return bool(path) and self.mesh(path)
 
     def mesh(self, path: str | Path) -> bool:
-        """Write the mesh as it is now; whether it was."""
-        left_out: list[str] = []
-        save = self.session.commands.save
-        saved = self.host.said("The mesh was not saved", lambda: left_out.extend(save(path)), f"Saved to {path}")
-        if left_out:
+        """Write the mesh as it is now, or the session, and wait for that; whether it was written."""
+        saving = self.session.commands.save_in_background(path)
+        waited = self.host.wait_until(f"{saving.path.name} is being saved.", lambda: saving.over)
+        return waited and saving.error is None
+
+    def _on_began(self, saving: Saving) -> None:
+        self.host.busy.show_work("save", f"Saving {saving.path.name}…")
+
+    def _on_ended(self, saving: Saving) -> None:
+        self.host.busy.done("save")
+        self.host.messages.show_info(f"{'Saved' if saving.data is None else 'Session saved'} to {saving.path}")
+        if saving.omitted:
             self.host.messages.show_warning(
                 "Not all is in it",
-                f"A {Path(path).suffix} file cannot hold {', '.join(left_out)}. Save as .vtu to keep more.",
+                f"A {saving.path.suffix} file cannot hold {', '.join(saving.omitted)}. Save as .vtu to keep more.",
             )
-        return saved
+
+    def _on_failed(self, saving: Saving) -> None:
+        self.host.busy.done("save")
+        if not isinstance(saving.error, HexmendError):
+            raise saving.error
+        what = "mesh" if saving.data is None else "session"
+        self.host.messages.show_error(f"The {what} was not saved", str(saving.error))
 
     def ask_picture(self) -> None:
         """Ask what the picture is to be like and where it goes, and write it."""

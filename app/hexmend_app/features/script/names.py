@@ -19,6 +19,7 @@ from hexmend_app.state.document import State
 from hexmend_app.state.record import Moment, Record
 from hexmend_app.state.rerun import rerun
 from hexmend_app.state.session import Session
+from hexmend_app.state.session_data import SessionData
 
 
 class Names:
@@ -67,9 +68,9 @@ class Names:
             del self._paths[one]
         self._paths[state] = path
 
-    def session_saved(self, path: Path) -> None:
+    def session_saved(self, path: Path, data: SessionData) -> None:
         """A session's file holds its states and its runs by other numbers."""
-        self._stored.saved(path, self.known)
+        self._stored.saved(path, data, self.known)
 
     def restored(self, data: Any, path: Path) -> None:
         """A session's file holds its states and its runs."""

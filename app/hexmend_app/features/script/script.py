@@ -128,8 +128,8 @@ class Script(QObject):
                     names.add(deed.title, after, f"{mesh}.with_points({places}.points)")
             case WentBack():
                 put(f"{'undo' if deed.undone else 'redo'} {deed.title}: on with {names.mesh(deed.now)}")
-            case Saved(session=True):
-                names.session_saved(deed.path)
+            case Saved(data=SessionData()):
+                names.session_saved(deed.path, deed.data)
                 put(f"the session was saved as {deed.path}")
             case Saved():
                 source = f"hx.write({str(deed.path.absolute())!r}, {names.mesh(deed.now)})"

@@ -47,21 +47,22 @@ class Stored:
         self._names.pop(path, None)
         for state, at in numbered(data).items():
             self._states[state] = path, at
-        for at, record in enumerate(self._session.history.records):
+        for at, record in enumerate(self._session.history.records[: len(data.history.records)]):
             self._runs[record] = path, at
 
-    def saved(self, path: Path, known: Callable[[State], str | None]) -> None:
+    def saved(self, path: Path, session: SessionData, known: Callable[[State], str | None]) -> None:
         """A session was saved; what the script reads from that file is read by its new numbers.
 
         Parameters
         ----------
         path : Path
+        session : SessionData
+            What was written.
         known : callable
             What the script calls a state already.
         """
         if self._data is None or path not in (at[0] for at in self._states.values()):
             return
-        session = self._session.given()
         before, lines = dict(self._states.items()), self._lines
         whole = self._names.get(path) if self._same(session) else None
         for kept in (self._states, self._runs):

@@ -71,15 +71,17 @@ class FeatureSession(Feature):
         """The window ends in order."""
         self.recovery.end()
 
-    def ask(self) -> bool:
-        """Ask where the session goes and write it; whether it was."""
+    def ask(self) -> None:
+        """Ask where the session goes, and begin to write it."""
         path = ask_session(self.host.dialog_parent, self.host.stem)
-        return bool(path) and self.save(path)
+        if path:
+            self.session.commands.save_in_background(path)
 
     def save(self, path: str | Path) -> bool:
-        """Write the session; whether it was."""
-        save = self.session.commands.save
-        return self.host.said("The session was not saved", lambda: save(path), f"Session saved to {path}")
+        """Write the session, and wait for that; whether it was written."""
+        saving = self.session.commands.save_in_background(path)
+        waited = self.host.wait_until(f"{saving.path.name} is being saved.", lambda: saving.over)
+        return waited and saving.error is None
 
     def _offer(self, left: Left) -> None:
         choices = (("Recover", lambda: self._recover(left)), ("Discard", lambda: self._forget(left)))

@@ -131,7 +131,9 @@ class FeatureSmooth(Feature):
         """Iterations, seconds and a sentence on the run that goes on, or on the one that led to what is shown."""
         phase, record = self._smoothing.phase, self._smoothing.record
         if phase is Phase.STOPPING:
-            return None, None, "Stopping: the run ends as soon as the method is ready, before its first iteration."
+            begun = self._smoothing.record.newest > 0
+            when = "after this iteration" if begun else "as soon as the method is ready, before its first iteration"
+            return None, None, f"Stopping: the run ends {when}."
         if phase is Phase.PREPARING:
             return None, None, "Preparing the method."
         if phase in (Phase.RUNNING, Phase.PAUSED):

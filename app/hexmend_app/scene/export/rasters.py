@@ -73,7 +73,7 @@ def rasters(
     tiles = Tiles.of(layout.panel, fine, pen, at_once)
     with Stage(tiles.drawn) as stage:
         views = _Views(stage, layout, look, pen, filters)
-        views.all[1].chosen.show_node_step(node_step)
+        views.all[1].extras.selection.show_node_step(node_step)
         images, axes = [], []
         for panel in layout.panels:
             camera = views.camera(panel)

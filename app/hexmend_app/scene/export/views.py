@@ -42,7 +42,7 @@ def subjects_of(panes: Panes, names: Sequence[str] = ()) -> list[Subject]:
 
 def draw_views(scene: Scene, panes: Panes, names: Sequence[str] = ()) -> Sheet:
     """Draw a scene of what views show: the same elements are left by a cut, and a node's step is drawn."""
-    step = panes.first.chosen.node_step
+    step = panes.first.extras.selection.node_step
     return draw_sheet(scene, subjects_of(panes, names), filters=panes.first.filters.copied(), node_step=step)
 
 

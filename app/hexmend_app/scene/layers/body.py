@@ -55,6 +55,13 @@ class Body:
         """Take another mesh; `rebuild` draws it."""
         self._skin = Skin(mesh)
 
+    def hide(self) -> None:
+        """Draw nothing."""
+        self._scene, self._coarse = None, None
+        for surface, halo in self._halos:
+            surface.hide()
+            halo.hide()
+
     def rebuild(self, frame: Frame, keep: np.ndarray | None, colours: ElementColours) -> None:
         """Find the visible faces anew.
 

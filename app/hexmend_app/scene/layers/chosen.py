@@ -34,6 +34,7 @@ class Chosen:
         self._node_step = NodeStepMarks(pane, pen)
         self.hex: int | None = None
         self._with_corners = False
+        self._mesh: Mesh | None = None
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
@@ -51,9 +52,15 @@ class Chosen:
 
     def set_mesh(self, mesh: Mesh) -> None:
         """Mark nothing: another mesh is drawn."""
+        self.hide()
         self._mesh = mesh
-        self.show_node_step(None)
-        self.select(None, False, None)
+
+    def hide(self) -> None:
+        """Mark nothing: no mesh is drawn until `set_mesh`."""
+        self._mesh, self.hex = None, None
+        self._node_step.hide()
+        self.highlight.hide()
+        self.highlight.show_node(None)
 
     def move(self, mesh: Mesh) -> None:
         """Follow the nodes of the same mesh to where they are now."""
@@ -63,6 +70,8 @@ class Chosen:
 
     def select(self, h: int | None, corners: bool, node: Node | None) -> None:
         """Mark one hex, with the quality at each of its corners or without, and one of its nodes; None marks none."""
+        if self._mesh is None:
+            return
         self.hex, self._with_corners = h, corners
         self._show_hex()
         if h is not None:
@@ -70,7 +79,7 @@ class Chosen:
 
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw a node's step, in the place of the marks of the hex that is selected; None draws none."""
-        if step is None:
+        if step is None or self._mesh is None:
             self._node_step.hide()
         else:
             self._node_step.show(step, self._mesh.hexes[step.hexes], self._mesh.points)

@@ -47,6 +47,10 @@ class Ghosts:
         for actor in self._actors:
             actor.SetVisibility(on)
 
+    def hide(self) -> None:
+        """Draw none."""
+        self._show(False)
+
     @property
     def places(self) -> np.ndarray:
         """Their corners, (k, 3); none where there are no ghosts."""

@@ -55,6 +55,10 @@ class Original:
         """Its corners, (k, 3); none where it is not drawn."""
         return self._skin.places
 
+    def hide(self) -> None:
+        """Draw nothing."""
+        self._skin.show(False)
+
     def set_dark(self, dark: bool) -> None:
         """Draw for the dark ground, or for the light one."""
         self._skin.set_colour(rgb(ORIGINAL.of(dark)))

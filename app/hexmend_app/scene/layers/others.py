@@ -58,6 +58,10 @@ class OtherCells:
         """Their corners, (k, 3); none where none is drawn."""
         return self._skin.places
 
+    def hide(self) -> None:
+        """Draw nothing."""
+        self._skin.show(False)
+
     def set_dark(self, dark: bool) -> None:
         """Draw for the dark ground, or for the light one."""
         self._skin.set_colour(rgb(OTHER_CELLS.of(dark)))

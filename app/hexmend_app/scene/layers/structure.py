@@ -128,6 +128,12 @@ class StructureLayers:
         self._fast = fast
         self._thin_out()
 
+    def hide(self) -> None:
+        """Draw nothing."""
+        for marks in (*self._lines, self.nodes, self._locked):
+            marks.hide()
+        self._inside.DrawOff()
+
     def _thin_out(self) -> None:
         for marks in (*self._lines, self.nodes):
             marks.show_rims(not self._sparing(marks))

@@ -98,12 +98,12 @@ def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(com
     chosen = compared.session.selection.hex
     assert chosen is not None
     for one in canvas.panes.all:
-        assert one.chosen.hex == chosen
+        assert one.extras.selection.hex == chosen
         np.testing.assert_allclose(
-            one.chosen.highlight.box.points, one.frame.mesh.points[one.frame.mesh.hexes[chosen]], rtol=1e-6
+            one.extras.selection.highlight.box.points, one.frame.mesh.points[one.frame.mesh.hexes[chosen]], rtol=1e-6
         )
     tick(compared, "laplacian", VIEW)
-    assert canvas.panes.all[2].chosen.hex == chosen
+    assert canvas.panes.all[2].extras.selection.hex == chosen
 
 
 def test_cut_and_colours_are_those_of_all_views(compared):

@@ -245,7 +245,7 @@ def test_a_smooth_cut_is_not_shrunk(window):
 
 
 def test_the_outline_is_drawn_while_something_is_hidden_and_wanted(window):
-    actor = window.canvas.viewport.outline.actor
+    actor = window.canvas.viewport.extras.outline.actor
     box = named(window.features["cut"].inside, QCheckBox, "Sharp edges and outline")
     assert not actor.GetVisibility()
     window.session.view.change(peel=1)

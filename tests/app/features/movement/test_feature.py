@@ -116,7 +116,7 @@ def test_movements_are_offered_among_the_colours(window, record, qtbot):
 def test_arrows_are_drawn_counted_and_made_longer(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
-    layer = window.canvas.viewport.arrow_layer
+    layer = window.canvas.viewport.extras.arrows
     assert (layer.drawn, layer.moved) == (free, free)
     assert said(panel, "Arrows that are drawn") == f"{free:,} arrows, of true length."
     press(panel.arrows, "sight")
@@ -192,7 +192,7 @@ def test_another_mesh_can_be_opened_while_a_movement_is_shown(window, record, pa
     io.write(tmp_path / "other.vtu", gallery.make("cube", size=64, scramble=0.3))
     open_and_wait(qtbot, window, tmp_path / "other.vtu")
     window.refresh()
-    layer = window.canvas.viewport.arrow_layer
+    layer = window.canvas.viewport.extras.arrows
     assert (layer.drawn, layer.moved) == (0, 0)
     assert not window.canvas.viewport.colours.values.any()
     assert said(panel, "Nodes").startswith("0 of ")

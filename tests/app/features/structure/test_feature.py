@@ -83,15 +83,15 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     press_key(five, "original")
     window, opened = five, five.session.document.start.mesh.points
     five.refresh()
-    assert window.canvas.viewport.original.shown
+    assert window.canvas.viewport.extras.original.shown
     mesh = window.session.document.now.mesh
     moved = mesh.with_points(mesh.points * 1.2)
     window.session.commands.take("grow", State.of(moved))
     five.refresh()
-    places = window.canvas.viewport.original.places
+    places = window.canvas.viewport.extras.original.places
     np.testing.assert_allclose(np.ptp(places, axis=0), np.ptp(opened, axis=0), rtol=1e-6)
     press_key(five, "original")
-    assert not window.canvas.viewport.original.shown
+    assert not window.canvas.viewport.extras.original.shown
 
 
 def test_a_mesh_without_them_offers_no_irregular_edges(five):
@@ -114,7 +114,7 @@ def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
     open_and_know(qtbot, window, tmp_path / "five.vtu")
     tick(window.features["structure"].panel.layers["irregular"].box)
-    marks = window.canvas.viewport.structure.irregular_inside
+    marks = window.canvas.viewport.extras.structure.irregular_inside
     before = np.array(marks.poly.points)
     start = window.session.document.now
     choose(window, "laplacian")
@@ -137,7 +137,7 @@ def test_a_pinned_node_changes_its_colour(five, qtbot):
     five.session.commands.pin(inside, True)
     five.refresh()
     assert texts(five.features["structure"].panel, "fixed")[1] == "1 pinned"
-    nodes = five.canvas.viewport.structure.nodes.poly
+    nodes = five.canvas.viewport.extras.structure.nodes.poly
     assert (nodes.cell_data["colours"] == tuple(bytes.fromhex(PINNED[1:]))).all(axis=1).sum() == 1
     five.session.commands.undo()
     five.refresh()
@@ -200,18 +200,18 @@ def test_other_cells_are_shown_and_told_of(window, qtbot, tmp_path):
     open_and_know(qtbot, window, tmp_path / "mixed.exo")
     (message,) = window.messages.messages()
     assert "1 pyramid cell beside the hexes" in message[1]
-    assert window.canvas.viewport.others.shown
+    assert window.canvas.viewport.extras.others.shown
     layer = window.features["structure"].panel.layers["others"]
     assert layer.box.isVisibleTo(window.features["structure"].panel)
     assert texts(window.features["structure"].panel, "others") == ["1 pyramid"]
     press_key(window, "others")
     window.refresh()
-    assert not window.canvas.viewport.others.shown
+    assert not window.canvas.viewport.extras.others.shown
     press_key(window, "others")
     window.refresh()
-    assert window.canvas.viewport.others.shown
+    assert window.canvas.viewport.extras.others.shown
     io.write(tmp_path / "plain.exo", bare)
     open_and_know(qtbot, window, tmp_path / "plain.exo")
     assert window.messages.messages() == []
-    assert not window.canvas.viewport.others.shown
+    assert not window.canvas.viewport.extras.others.shown
     assert not layer.box.isVisibleTo(window.features["structure"].panel)

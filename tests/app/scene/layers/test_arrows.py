@@ -66,28 +66,28 @@ def test_an_arrow_ends_where_its_way_ends_and_its_head_is_no_longer_than_allowed
 
 def test_nodes_that_have_moved_have_arrows_those_in_sight_or_all(viewport):
     move(viewport)
-    assert (viewport.arrow_layer.drawn, viewport.arrow_layer.moved) == (0, 0)
+    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     every = int(MESH.free.sum())
-    assert (viewport.arrow_layer.drawn, viewport.arrow_layer.moved) == (every, every)
+    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (every, every)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.SIGHT)))
-    assert (viewport.arrow_layer.drawn, viewport.arrow_layer.moved) == (0, 0)  # nodes of the boundary stay
+    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)  # nodes of the boundary stay
     look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT)))
-    assert 0 < viewport.arrow_layer.drawn < every
+    assert 0 < viewport.extras.arrows.drawn < every
     look_at(
         viewport, Look(clip=PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0), crinkle=False), traces=Traces(arrows=Arrows.SIGHT))
     )
-    assert 0 < viewport.arrow_layer.drawn < every
+    assert 0 < viewport.extras.arrows.drawn < every
     move(viewport, MESH.points, THEN.figures)
-    assert (viewport.arrow_layer.drawn, viewport.arrow_layer.moved) == (0, 0)
+    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)
 
 
 def test_of_many_the_longest_are_drawn(viewport, monkeypatch):
     monkeypatch.setattr(layer, "MOST", 20)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     move(viewport)
-    assert (viewport.arrow_layer.drawn, viewport.arrow_layer.moved) == (20, int(MESH.free.sum()))
-    starts = np.asarray(viewport.arrow_layer.lines.points)[::7]
+    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (20, int(MESH.free.sum()))
+    starts = np.asarray(viewport.extras.arrows.lines.points)[::7]
     longest = np.argsort(np.linalg.norm(NOW - MESH.points, axis=1))[-20:]
     np.testing.assert_allclose(starts, MESH.points[np.sort(longest)])
 
@@ -126,4 +126,4 @@ def test_colours_of_a_change_set_the_newly_inverted_and_the_mended_apart(viewpor
 def test_without_a_movement_nothing_has_moved(viewport):
     look_at(viewport, Look(scale=ColourScale("moved-most"), traces=Traces(arrows=Arrows.ALL)))
     assert (viewport.colouring.low, viewport.colouring.high) == (0.0, 1.0)
-    assert (viewport.arrow_layer.drawn, viewport.arrow_layer.moved) == (0, 0)
+    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)

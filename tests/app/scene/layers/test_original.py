@@ -54,29 +54,29 @@ def test_it_is_seen_around_a_mesh_that_has_shrunk(drawn):
     drawn(frame(MESH.points))
     without, seen = drawn(frame(shrunk, OFF)), drawn(frame(shrunk))
     assert differ(without, seen) > 2000
-    assert drawn.viewport.original.shown
-    np.testing.assert_array_equal(np.ptp(drawn.viewport.original.places, axis=0), 4)
+    assert drawn.viewport.extras.original.shown
+    np.testing.assert_array_equal(np.ptp(drawn.viewport.extras.original.places, axis=0), 4)
 
 
 def test_it_stays_while_the_nodes_move(drawn):
     drawn(frame(MESH.points))
-    poly = drawn.viewport.original.poly
+    poly = drawn.viewport.extras.original.poly
     drawn(frame(MESH.points * 1.1))
-    assert drawn.viewport.original.poly is poly
+    assert drawn.viewport.extras.original.poly is poly
     drawn(Frame(MESH, measure(MESH.points, MESH.hexes), look=ON))  # nothing is known of the opened mesh
-    assert not drawn.viewport.original.shown
+    assert not drawn.viewport.extras.original.shown
 
 
 def test_of_hexes_that_are_hidden_nothing_is_drawn(drawn):
     half = Look(clip=PlaneClip.at((0, 0, 1), (2, 2, 1.9)), structure=Structure(original=True))
     drawn(frame(MESH.points))
-    assert len(drawn.viewport.original.places) == MESH.topology.boundary.sum()
+    assert len(drawn.viewport.extras.original.places) == MESH.topology.boundary.sum()
     drawn(frame(MESH.points, half))
-    assert 0 < np.ptp(drawn.viewport.original.places, axis=0)[2] < 3
+    assert 0 < np.ptp(drawn.viewport.extras.original.places, axis=0)[2] < 3
     drawn(frame(MESH.points, Look(peel=1, structure=Structure(original=True))))
-    assert not drawn.viewport.original.shown
+    assert not drawn.viewport.extras.original.shown
     drawn(frame(MESH.points))
-    assert drawn.viewport.original.shown
+    assert drawn.viewport.extras.original.shown
 
 
 def test_beside_it_stands_too_where_the_hexes_are_the_same():

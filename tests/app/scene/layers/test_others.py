@@ -74,13 +74,13 @@ def test_a_clip_takes_cells_away_by_their_centres():
 def test_they_are_seen_unless_they_are_switched_off(drawn):
     mesh = hybrid()
     seen = drawn(frame(mesh))
-    assert drawn.viewport.others.shown
+    assert drawn.viewport.extras.others.shown
     assert drawn.viewport.places[:, 2].max() == 2
-    poly = drawn.viewport.others.poly
+    poly = drawn.viewport.extras.others.poly
     drawn(frame(mesh))
-    assert drawn.viewport.others.poly is poly
+    assert drawn.viewport.extras.others.poly is poly
     without = drawn(frame(mesh, OFF))
-    assert not drawn.viewport.others.shown
+    assert not drawn.viewport.extras.others.shown
     assert np.abs(seen - without).sum(axis=2).astype(bool).sum() > 500
 
 
@@ -88,10 +88,10 @@ def test_they_move_with_their_nodes(drawn):
     mesh = hybrid()
     drawn(frame(mesh))
     drawn(frame(mesh.with_points(mesh.points + [0, 0, 3])))
-    assert drawn.viewport.others.places[:, 2].max() == 5
+    assert drawn.viewport.extras.others.places[:, 2].max() == 5
 
 
 def test_a_mesh_of_hexes_alone_has_none(drawn):
     drawn(frame(hybrid()))
     drawn(frame(grid(2)))
-    assert not drawn.viewport.others.shown
+    assert not drawn.viewport.extras.others.shown

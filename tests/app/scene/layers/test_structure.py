@@ -138,7 +138,7 @@ def test_nodes_of_locked_elements(draw):
 def test_only_what_is_shown_has_marks(draw, clip):
     wanted = Structure(irregular=True, sharp=True, fixed=True)
     draw(FIVE, wanted, clip=clip)
-    layers = draw.viewport.structure
+    layers = draw.viewport.extras.structure
     assert layers.irregular.count == 5  # of the eleven, those below the plane
     for marks in (layers.irregular, layers.sharp, layers.nodes):
         assert marks.poly.points[:, 2].max() <= 0.75
@@ -153,7 +153,7 @@ def test_marks_follow_the_nodes_shrunk_elements_too(draw):
     draw(FIVE, Structure(irregular=True, fixed=True), shrink=0.3)
     moved = FIVE.points * [1, 1, 0.5]
     draw.viewport.draw(Frame(FIVE.with_points(moved), measure(moved, FIVE.hexes), look=draw.viewport.frame.look))
-    layers = draw.viewport.structure
+    layers = draw.viewport.extras.structure
     axis = layers.irregular.poly.points
     assert axis[:, 2].max() == pytest.approx(0.75)
     corners = moved[FIVE.hexes]
@@ -165,7 +165,7 @@ def test_marks_follow_the_nodes_shrunk_elements_too(draw):
 def test_many_marks_are_drawn_in_full_in_fine_frames_alone(draw, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.layers.structure._MANY", 5)
     draw(FIVE, Structure(irregular=True))
-    layers = draw.viewport.structure
+    layers = draw.viewport.extras.structure
     assert not layers.layer.GetDraw()
     draw.viewport.still()
     assert layers.layer.GetDraw()

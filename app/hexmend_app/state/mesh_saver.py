@@ -1,0 +1,154 @@
+"""Saving the mesh, or the session, in a thread while the window stays alive."""
+
+from __future__ import annotations
+
+from collections import deque
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from hexmend.io import left_out, write
+from hexmend.io.session import SUFFIX
+from hexmend_app.state import session_data
+from hexmend_app.state.deeds import Saved
+from hexmend_app.state.document import State
+from hexmend_app.state.session_data import SessionData
+from hexmend_app.state.task import Task, shut_down
+
+if TYPE_CHECKING:
+    from hexmend_app.state.session import Session
+
+
+class Saving:
+    """One file that is written: the mesh, or all of the session, as they were when that was asked for.
+
+    Parameters
+    ----------
+    path : Path
+    state : State
+        The mesh as it was shown; it is what a mesh file gets.
+    recorded : State
+        What counts as saved afterwards.
+    data : SessionData or None
+        What a session's file gets; None for a mesh file.
+
+    Attributes
+    ----------
+    omitted : list of str
+        What the file's format cannot hold, once it is written.
+    over : bool
+        Whether it has been written, or has failed.
+    error : BaseException or None
+        Why it has failed.
+    """
+
+    def __init__(self, path: Path, state: State, recorded: State, data: SessionData | None):
+        self.path, self.state, self.recorded, self.data = path, state, recorded, data
+        self.omitted: list[str] = []
+        self.over = False
+        self.error: BaseException | None = None
+
+    def write(self) -> None:
+        """Write the file; raises `HexmendError` where that cannot be done, and what was there stays."""
+        if self.data is not None:
+            session_data.write(self.path, self.data)
+        else:
+            write(self.path, self.state.mesh)
+            self.omitted = left_out(self.path, self.state.mesh)
+
+
+class MeshSaver(QObject):
+    """Writes meshes and sessions, one after another in the order in which they were asked for.
+
+    Parameters
+    ----------
+    session : Session
+
+    Signals
+    -------
+    began(Saving)
+        Its file is being written.
+    ended(Saving)
+        It is on disk, and the document knows.
+    failed(Saving)
+        It is not, see its `error`; the document is as modified as it was.
+    """
+
+    began = Signal(object)
+    ended = Signal(object)
+    failed = Signal(object)
+
+    def __init__(self, session: Session):
+        super().__init__(session)
+        self._session = session
+        self._waiting: deque[Saving] = deque()
+        self._saving: Saving | None = None
+        self._task: Task | None = None
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is being written."""
+        return self._saving is not None
+
+    @property
+    def path(self) -> Path | None:
+        """The file that is being written; None where there is none."""
+        return self._saving and self._saving.path
+
+    def save(self, path: str | Path) -> Saving:
+        """Begin to write the mesh as it is now, or, under a session's suffix, the session."""
+        saving = self._asked(Path(path))
+        self._waiting.append(saving)
+        self._begin()
+        return saving
+
+    def save_now(self, path: str | Path) -> Saving:
+        """Write it before this returns; raises what writing it raises."""
+        saving = self._asked(Path(path))
+        saving.write()
+        self._take(saving)
+        return saving
+
+    def shut_down(self) -> None:
+        """Write nothing more; who closes has waited for what is being written, or has chosen not to."""
+        self._waiting.clear()
+        shut_down(self._task)
+        self._saving = self._task = None
+
+    def _asked(self, path: Path) -> Saving:
+        """What is to be written, with nothing on its way."""
+        session, document = self._session, self._session.document
+        session.stepping.leave()
+        if path.suffix.lower() == SUFFIX:
+            return Saving(path, document.now, document.recorded, session.given())
+        moment = session.timeline.moment
+        if document.previews and session.editable:
+            document.commit("go back" if moment is None else f"go to {moment.name}", document.now)
+        return Saving(path, document.now, document.now, None)
+
+    def _begin(self) -> None:
+        if self._saving is None and self._waiting:
+            self._saving = saving = self._waiting.popleft()
+            self._task = Task(f"saving {saving.path.name}", lambda _: saving.write(), yields=True)
+            self._task.ended.connect(self._finish)
+            self.began.emit(saving)
+            self._task.start()
+
+    def _finish(self) -> None:
+        saving, task, self._saving, self._task = self._saving, self._task, None, None
+        saving.error = task.error
+        if saving.error is None:
+            self._take(saving)
+        saving.over = True
+        (self.ended if saving.error is None else self.failed).emit(saving)
+        self._begin()
+
+    def _take(self, saving: Saving) -> None:
+        """Tell that a file was written, and know that what is in it is saved."""
+        session = self._session
+        session.commands.done.emit(Saved(saving.path, saving.state, saving.data))
+        if saving.data is not None:
+            session.cameras.saved(saving.data.cameras)
+        session.document.saved(saving.path, saving.recorded)
+        saving.over = True

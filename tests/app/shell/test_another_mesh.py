@@ -1,0 +1,253 @@
+"""Whatever was done with a mesh, the next one that is opened is shown, and nothing of the mesh before it."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
+
+from hexmend import gallery, io
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.run.breakpoints import Breakpoints
+from hexmend.smoothers import METHODS
+from hexmend_app.state.look import Arrows, ColourScale, Structure, Traces, ValueRange
+from hexmend_app.state.run import Phase
+from tests.app.driving import key, open_and_wait, phase, pixels
+from tests.patience import PATIENCE
+
+SHIFT = Qt.KeyboardModifier.ShiftModifier
+
+
+@pytest.fixture(scope="module")
+def small_file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("small") / "small.vtu"
+    io.write(path, gallery.make("five-side", size=40))
+    return path
+
+
+def select(window, qtbot):
+    key(window, Qt.Key.Key_N)
+    assert window.session.selection.hex is not None
+
+
+def select_the_last(window, qtbot):
+    mesh = window.session.document.now.mesh
+    window.session.selection.visit(mesh.n_hexes - 1)
+    window.session.selection.choose(mesh.n_hexes - 1, mesh.n_nodes - 1)
+    window.features["inspect"].panel.set_corners_in_view(True)
+    window.show_panel("hex")
+
+
+def isolate_and_dig(window, qtbot):
+    last = window.session.document.now.mesh.n_hexes - 1
+    window.session.view.isolate([last, last - 1], 2)
+    window.session.view.dig(last)
+
+
+def cut(window, qtbot):
+    window.action("cut").trigger()
+    window.refresh()
+    assert window.session.view.look.clip is not None
+
+
+def filter_and_peel(window, qtbot):
+    window.session.view.change(peel=1, quality_range=ValueRange("q", 0.0, 0.5, True))
+
+
+def explain_a_node(window, qtbot):
+    window.session.order.choose(Stage(METHODS["local-sd"](), Stop()))
+    key(window, Qt.Key.Key_D)
+    qtbot.waitUntil(lambda: window.canvas.viewport.extras.selection.node_step is not None, timeout=PATIENCE)
+
+
+def begin_a_sweep(window, qtbot):
+    window.session.order.choose(Stage(METHODS["local-sd"](), Stop()))
+    key(window, Qt.Key.Key_F11)
+    assert window.session.stepping.sweep is not None
+
+
+def run_and_pause(window, qtbot):
+    window.session.order.choose(Stage(METHODS["laplacian"](), Stop(max_iterations=50, tolerance=0)))
+    key(window, Qt.Key.Key_F10)
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+
+
+def run_and_go_back(window, qtbot):
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=3, tolerance=0)))
+    window.session.timeline.go(window.session.history.records[-1], 1)
+    window.session.view.change(
+        scale=ColourScale("q-change"), traces=Traces(arrows=Arrows.ALL), structure=Structure(original=True)
+    )
+
+
+def break_at_the_last(window, qtbot):
+    mesh = window.session.document.now.mesh
+    window.session.smoothing.break_at(Breakpoints(hex=mesh.n_hexes - 1, node=mesh.n_nodes - 1))
+
+
+def compare(window, qtbot):
+    with qtbot.waitSignal(window.session.comparison.changed, timeout=PATIENCE):
+        window.session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], Stop(max_iterations=40))
+    window.show_panel("compare")
+
+
+def keep_beside_and_wipe(window, qtbot):
+    key(window, Qt.Key.Key_V)
+    key(window, Qt.Key.Key_W)
+    assert len(window.canvas.panes.all) == 2
+
+
+def tag_and_pin(window, qtbot):
+    mesh = window.session.document.now.mesh
+    window.session.commands.tag("last", [mesh.n_hexes - 1])
+    window.session.commands.pin(mesh.n_nodes - 1, True)
+    window.show_panel("tags")
+
+
+def show_the_structure(window, qtbot):
+    window.session.view.change(
+        structure=Structure(irregular=True, sharp=True, boundary=True, kinds=True, locked=True, original=True)
+    )
+    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
+
+
+def examine(window, qtbot):
+    window.show_panel("doctor")
+    qtbot.waitUntil(lambda: window.session.examiner.of(window.session.document.now.mesh) is not None, timeout=PATIENCE)
+
+
+WORKS = (
+    select, select_the_last, isolate_and_dig, cut, filter_and_peel, explain_a_node, begin_a_sweep, run_and_go_back,
+    run_and_pause, break_at_the_last, compare, keep_beside_and_wipe, tag_and_pin, show_the_structure, examine,
+)  # fmt: skip
+
+
+def everything(window, qtbot):
+    """Do one after another what can be done while no run goes on, then begin a run."""
+    for work in (*(one for one in WORKS if one is not run_and_pause), run_and_pause):
+        if work is not compare:
+            work(window, qtbot)
+            window.refresh()
+    compare(window, qtbot)
+    window.session.selection.choose(window.session.document.now.mesh.n_hexes - 1, 0)
+    window.refresh()
+
+
+@pytest.mark.parametrize("work", [*WORKS, everything], ids=lambda one: one.__name__)
+def test_a_smaller_mesh_is_shown_whatever_was_done_with_a_larger(window, qtbot, small_file, work):
+    work(window, qtbot)
+    window.refresh()
+    open_and_wait(qtbot, window, small_file)
+    is_shown(window)
+    for letter in (Qt.Key.Key_N, Qt.Key.Key_D, Qt.Key.Key_V, Qt.Key.Key_T, Qt.Key.Key_Escape):
+        key(window, letter)
+    is_shown(window)
+
+
+def test_a_session_of_a_smaller_mesh_is_shown_whatever_was_done_with_a_larger(
+    window, qtbot, small_file, mesh_file, tmp_path
+):
+    open_and_wait(qtbot, window, small_file)
+    window.session.selection.choose(7, window.session.document.now.mesh.hexes[7, 0])
+    assert window.features["session"].save(tmp_path / "small.hexmend")
+    open_and_wait(qtbot, window, mesh_file)
+    everything(window, qtbot)
+    open_and_wait(qtbot, window, tmp_path / "small.hexmend")
+    is_shown(window)
+    assert window.session.selection.hex == 7
+
+
+LAYERS = ("outline", "structure", "selection", "ghosts", "original", "others", "arrows")
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_a_layer_that_fails_on_a_mesh_is_left_out_and_the_mesh_is_shown(window, small_file, qtbot, layer, monkeypatch):
+    extras, failures = window.canvas.viewport.extras, []
+
+    def fail(*_):
+        raise RuntimeError(f"{layer} has failed")
+
+    for name in ("draw", "show", "choose", "set_mesh"):
+        kind = type(getattr(extras, layer))
+        if hasattr(kind, name):
+            monkeypatch.setattr(kind, name, fail)
+    monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: failures.append(str(error)))
+    open_and_wait(qtbot, window, small_file)
+    is_shown(window)
+    window.session.view.change(edges=not window.session.view.look.edges)
+    is_shown(window)
+    assert failures == [f"{layer} has failed"]
+
+
+@pytest.mark.parametrize("part", ["set_mesh", "rebuild"])
+def test_where_the_elements_cannot_be_drawn_no_mesh_is_shown(window, small_file, mesh_file, qtbot, part, monkeypatch):
+    def fail(*_):
+        raise RuntimeError("there is no skin")
+
+    failures = []
+    with monkeypatch.context() as failing:
+        failing.setattr(type(window.canvas.viewport.body), part, fail)
+        failing.setattr(sys, "excepthook", lambda kind, error, trace: failures.append(str(error)))
+        open_and_wait(qtbot, window, small_file)
+        window.refresh()
+        for letter in (Qt.Key.Key_N, Qt.Key.Key_F, Qt.Key.Key_E, Qt.Key.Key_Escape):
+            key(window, letter)
+        assert window.windowTitle().startswith("small.vtu")
+        assert not window.canvas.shows(window.session.document.now.mesh)
+        colours = pixels(window)
+        assert (np.ptp(colours, axis=2) > 60).mean() < 0.005  # the axes alone
+    assert set(failures) == {"there is no skin"}
+    open_and_wait(qtbot, window, mesh_file)
+    is_shown(window)
+
+
+@pytest.mark.parametrize("name", ["cut", "inspect", "histogram", "structure", "tags", "quality", "smooth", "node"])
+def test_a_panel_that_fails_on_a_mesh_does_not_keep_the_mesh_before_in_the_view(
+    window, small_file, qtbot, name, monkeypatch
+):
+    failures = []
+
+    def fail(*_):
+        raise RuntimeError("this panel has failed")
+
+    with monkeypatch.context() as failing:
+        failing.setattr(window.features[name], "refresh", fail)
+        failing.setattr(sys, "excepthook", lambda kind, error, trace: failures.append(str(error)))
+        open_and_wait(qtbot, window, small_file)
+        is_shown(window)
+    assert set(failures) == {"this panel has failed"}
+
+
+def test_numbers_of_the_mesh_before_select_and_hide_nothing(window, qtbot, small_file):
+    last = window.session.document.now.mesh.n_hexes - 1
+    session = window.session
+    open_and_wait(qtbot, window, small_file)
+    session.selection.visit(last)
+    session.selection.choose(last, 3)
+    session.view.isolate([last])
+    session.view.dig(last)
+    assert (session.selection.hex, session.selection.node) == (None, None)
+    assert session.view.look.isolation is None
+    assert not session.view.look.dug
+    is_shown(window)
+
+
+def is_shown(window):
+    """The view shows the open mesh, and no other; no error is said."""
+    window.refresh()
+    QApplication.processEvents()
+    mesh, drawn = window.session.document.now.mesh, window.canvas.viewport
+    assert drawn.frame.mesh is mesh
+    assert all(view.frame.mesh.hexes is mesh.hexes for view in window.canvas.panes.all)
+    assert drawn.body.faces.hexes.max() < mesh.n_hexes
+    low, high = np.min(drawn.places, axis=0), np.max(drawn.places, axis=0)
+    assert (low >= mesh.points.min(axis=0) - 1e-6).all()
+    assert (high <= mesh.points.max(axis=0) + 1e-6).all()
+    assert [kind for kind, *_ in window.messages.messages() if kind == "error"] == []
+    window.canvas.draw_still()
+    window.canvas.interactor.grabFramebuffer()

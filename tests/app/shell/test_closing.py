@@ -1,0 +1,42 @@
+"""Closing the window ends the program, whatever goes on in its threads."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+PROGRAM = """
+import sys
+from PySide6.QtCore import QSettings, QTimer
+for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
+    QSettings.setPath(form, QSettings.Scope.UserScope, sys.argv[2])
+from hexmend_app.shell.program import application, open_window
+from hexmend_app.shell.window import Window
+
+def close():
+    for window in application().topLevelWidgets():
+        if isinstance(window, Window) and window.session is not None and window.session.opener.busy:
+            timer.stop()
+            {before}
+            window.close()
+
+application()
+timer = QTimer(interval=100)
+timer.timeout.connect(close)
+timer.start()
+print("status", open_window(sys.argv[1]), flush=True)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes that have a name")
+@pytest.mark.parametrize("before", ["pass", "window.session.opener.cancel()"], ids=["while it reads", "after Cancel"])
+def test_the_process_ends_with_its_window_though_a_file_never_answers(qapp, tmp_path, before):
+    os.mkfifo(tmp_path / "dead.vtk")
+    program = PROGRAM.replace("{before}", before)
+    words = [sys.executable, "-c", program, str(tmp_path / "dead.vtk"), str(tmp_path / "settings")]
+    ended = subprocess.run(words, capture_output=True, text=True, timeout=100)
+    assert ended.returncode == 0, ended.stderr
+    assert "closed while threads were at work: reading dead.vtk" in ended.stderr
