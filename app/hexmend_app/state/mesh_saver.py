@@ -130,7 +130,7 @@ class MeshSaver(QObject):
     def _begin(self) -> None:
         if self._saving is None and self._waiting:
             self._saving = saving = self._waiting.popleft()
-            self._task = Task(f"saving {saving.path.name}", lambda _: saving.write(), yields=True)
+            self._task = Task(f"saving {saving.path.name}", lambda _: saving.write())
             self._task.ended.connect(self._finish)
             self.began.emit(saving)
             self._task.start()

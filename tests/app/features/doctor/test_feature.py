@@ -53,14 +53,20 @@ def test_a_finding_is_shown_in_the_view(window, panel):
     assert set(range(27, 54)) == set(window.session.view.look.isolation.hexes)
 
 
+def mend(qtbot, session, button):
+    """Press a button that repairs, and wait until the mesh is repaired."""
+    with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
+        press(button)
+
+
 def test_each_is_mended_by_a_click_and_undo_takes_it_back(window, panel, qtbot):
     session = window.session
     before = session.document.now.mesh
-    press(buttons(panel, "Mend")[0])
+    mend(qtbot, session, buttons(panel, "Mend")[0])
     assert session.document.now.summary.inverted == 0
     assert session.document.undo_title == "mend mirrored parts"
     qtbot.waitUntil(lambda: len(buttons(panel, "Mend")) == 1, timeout=PATIENCE)
-    press(buttons(panel, "Mend")[0])
+    mend(qtbot, session, buttons(panel, "Mend")[0])
     assert session.document.now.mesh.n_nodes == 2 * 64 - 16
     session.commands.undo()
     session.commands.undo()

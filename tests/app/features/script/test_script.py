@@ -178,8 +178,9 @@ def test_what_the_doctor_mends_is_mended_again(session, qtbot, tmp_path):
     io.write(path, Mesh(np.vstack([one.points, other]), np.vstack([one.hexes, turned + one.n_nodes])))
     opened(qtbot, session, path)
     first, *_ = (one for one in examine(session.document.now.mesh) if one.mendable)
-    assert session.commands.repair([first.kind])
-    session.commands.repair()
+    for kinds in ([first.kind], ()):
+        with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
+            assert session.commands.repair(kinds)
     session.commands.pin(5, True)
     text = same_again(session, tmp_path)
     assert f"repair(mesh_1, ('{first.kind}',))[0].keeping_surface()" in text

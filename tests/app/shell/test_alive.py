@@ -1,0 +1,259 @@
+"""The window stays alive while a mesh is saved or repaired and while a run ends, and nothing is told too early."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QApplication, QDialogButtonBox
+
+from hexmend import gallery, io
+from hexmend.errors import FileError
+from hexmend.mesh import Mesh
+from hexmend.recipe import Stage
+from hexmend.run import Stop
+from hexmend.smoothers import METHODS
+from hexmend_app.state import mesh_repairer, mesh_saver
+from hexmend_app.state.deeds import Changed, Moved, Saved
+from hexmend_app.state.run import Phase
+from hexmend_app.widgets.waiting import WaitingDialog
+from tests.app.driving import key, open_and_wait, phase
+from tests.patience import PATIENCE
+
+
+class Gate:
+    """Holds threads that come to a function until it is opened."""
+
+    def __init__(self, function):
+        self.function = function
+        self.reached, self.opened = threading.Event(), threading.Event()
+
+    def __call__(self, *values):
+        self.reached.set()
+        assert self.opened.wait(PATIENCE / 1000)
+        return self.function(*values)
+
+
+@pytest.fixture
+def gate(monkeypatch):
+    """Holds a function of a module; opened at the end, so that a test that fails leaves no thread waiting."""
+    gates = []
+
+    def hold(module, name):
+        gates.append(Gate(getattr(module, name)))
+        monkeypatch.setattr(module, name, gates[-1])
+        return gates[-1]
+
+    yield hold
+    for one in gates:
+        one.opened.set()
+
+
+@pytest.fixture
+def told(window):
+    """What is told of the mesh, in its order."""
+    told = []
+    window.session.commands.done.connect(told.append)
+    yield told
+    window.session.commands.done.disconnect(told.append)
+
+
+def smooth(window, qtbot):
+    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2, tolerance=0)))
+    window.refresh()
+
+
+def test_a_mesh_is_saved_only_when_it_is_written(window, qtbot, tmp_path, gate, told):
+    smooth(window, qtbot)
+    session, writing = window.session, gate(mesh_saver, "write")
+    saving = session.commands.save_in_background(tmp_path / "out.vtu")
+    qtbot.waitUntil(writing.reached.is_set, timeout=PATIENCE)
+    window.refresh()
+    assert window.busy.text() == "Saving out.vtu…"
+    assert window.windowTitle().startswith("bridge.vtu")
+    assert window.isWindowModified()
+    assert told == []
+    key(window, Qt.Key.Key_N)  # the window does what it is asked to
+    assert session.selection.hex is not None
+    with qtbot.waitSignal(session.saver.ended, timeout=PATIENCE):
+        writing.opened.set()
+    window.refresh()
+    assert saving.error is None
+    assert window.busy.isHidden()
+    assert window.windowTitle().startswith("out.vtu")
+    assert not window.isWindowModified()
+    assert [type(one) for one in told] == [Saved]
+    np.testing.assert_array_equal(io.read(tmp_path / "out.vtu").points, session.document.now.mesh.points)
+
+
+def test_what_is_changed_while_a_mesh_is_saved_is_not_saved(window, qtbot, tmp_path, gate, told):
+    smooth(window, qtbot)
+    session, writing = window.session, gate(mesh_saver, "write")
+    then = session.document.now
+    session.commands.save_in_background(tmp_path / "out.vtu")
+    qtbot.waitUntil(writing.reached.is_set, timeout=PATIENCE)
+    session.commands.reset()
+    with qtbot.waitSignal(session.saver.ended, timeout=PATIENCE):
+        writing.opened.set()
+    assert session.document.modified
+    np.testing.assert_array_equal(io.read(tmp_path / "out.vtu").points, then.mesh.points)
+    assert [(type(one), getattr(one, "now", None)) for one in told] == [(Moved, None), (Saved, then)]
+    session.commands.undo()
+    assert not session.document.modified
+
+
+def test_the_last_of_several_saves_of_one_file_is_what_it_holds(window, qtbot, tmp_path, gate):
+    session, writing = window.session, gate(mesh_saver, "write")
+    path = tmp_path / "out.vtu"
+    first = session.commands.save_in_background(path)
+    qtbot.waitUntil(writing.reached.is_set, timeout=PATIENCE)
+    smooth(window, qtbot)
+    second = session.commands.save_in_background(path)
+    writing.opened.set()
+    qtbot.waitUntil(lambda: first.over and second.over, timeout=PATIENCE)
+    assert (first.error, second.error) == (None, None)
+    np.testing.assert_array_equal(io.read(path).points, session.document.now.mesh.points)
+    assert not session.document.modified
+
+
+def test_a_save_that_fails_is_said_and_leaves_the_mesh_modified(window, qtbot, tmp_path, monkeypatch, told):
+    smooth(window, qtbot)
+
+    def fail(path, mesh):
+        raise FileError(path, "cannot be written: the disk is full", "Make room on it.")
+
+    monkeypatch.setattr(mesh_saver, "write", fail)
+    with qtbot.waitSignal(window.session.saver.failed, timeout=PATIENCE):
+        window.session.commands.save_in_background(tmp_path / "out.vtu")
+    window.refresh()
+    (message,) = (one for one in window.messages.messages() if one[0] == "error")
+    assert message[1] == "The mesh was not saved"
+    assert "the disk is full" in message[2]
+    assert window.isWindowModified()
+    assert window.windowTitle().startswith("bridge.vtu")
+    assert window.busy.isHidden()
+    assert told == []
+
+
+@pytest.mark.parametrize("answer", ["wait", "do not wait", "cancel"])
+def test_leaving_waits_for_a_save_or_asks(window, qtbot, tmp_path, gate, answer):
+    session, writing = window.session, gate(mesh_saver, "write")
+    session.commands.save_in_background(tmp_path / "out.vtu")
+    qtbot.waitUntil(writing.reached.is_set, timeout=PATIENCE)
+
+    def press():
+        dialog = QApplication.activeModalWidget()
+        if not isinstance(dialog, WaitingDialog):
+            return
+        asking.stop()
+        roles = QDialogButtonBox.ButtonRole
+        role = {"do not wait": roles.AcceptRole, "cancel": roles.RejectRole}.get(answer)
+        box = dialog.findChild(QDialogButtonBox)
+        if role is None:
+            writing.opened.set()
+        else:
+            next(one for one in box.buttons() if box.buttonRole(one) == role).click()
+
+    asking = QTimer(interval=50)
+    asking.timeout.connect(press)
+    asking.start()
+    assert window.may_leave() == (answer != "cancel")
+    assert (tmp_path / "out.vtu").exists() == (answer == "wait")
+    writing.opened.set()
+    qtbot.waitUntil(lambda: not session.saver.busy, timeout=PATIENCE)
+
+
+@pytest.fixture
+def tangled(window, qtbot, tmp_path):
+    """A window with a mesh of which every third hex is numbered the wrong way round."""
+    mesh = gallery.make("cube", size=64)
+    hexes = np.array(mesh.hexes)
+    hexes[::3] = hexes[::3][:, [4, 5, 6, 7, 0, 1, 2, 3]]
+    io.write(tmp_path / "turned.vtu", Mesh(mesh.points, hexes))
+    open_and_wait(qtbot, window, tmp_path / "turned.vtu")
+    return window
+
+
+def test_a_mesh_is_repaired_while_the_window_is_alive(tangled, qtbot, gate, told):
+    session, repairing = tangled.session, gate(mesh_repairer, "_repaired")
+    before = session.document.now
+    assert session.commands.repair()
+    qtbot.waitUntil(repairing.reached.is_set, timeout=PATIENCE)
+    tangled.refresh()
+    assert tangled.busy.text() == "Repairing the mesh…"
+    assert not session.editable
+    assert not session.commands.repair()
+    session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
+    assert not session.smoothing.busy
+    key(tangled, Qt.Key.Key_N)
+    assert (session.document.now, session.document.undo_title, told) == (before, None, [])
+    with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
+        repairing.opened.set()
+    tangled.refresh()
+    assert session.document.now.summary.inverted == 0
+    assert [type(one) for one in told] == [Changed]
+    assert session.editable
+    session.commands.undo()
+    assert session.document.now is before
+
+
+@pytest.mark.parametrize("end", ["cancel", "open another"])
+def test_a_repair_that_is_given_up_changes_nothing(tangled, qtbot, gate, told, end, mesh_file):
+    session, repairing = tangled.session, gate(mesh_repairer, "_repaired")
+    session.commands.repair()
+    qtbot.waitUntil(repairing.reached.is_set, timeout=PATIENCE)
+    if end == "cancel":
+        session.repairer.cancel()
+    else:
+        open_and_wait(qtbot, tangled, mesh_file)
+    now = session.document.now
+    repairing.opened.set()
+    qtbot.wait(50)
+    assert session.document.now is now
+    assert told == []
+    assert session.editable
+    tangled.refresh()
+    assert tangled.busy.isHidden()
+
+
+@pytest.mark.parametrize("what", ["reset", "open", "branch"])
+def test_what_ends_a_run_is_done_after_its_iteration(window, qtbot, what, mesh_file, told, monkeypatch):
+    session = window.session
+    going, goes_on = threading.Event(), threading.Event()
+    method = METHODS["laplacian"]
+    steps = method.steps
+
+    def slow(self, *values):
+        for step in steps(self, *values):
+            going.set()
+            assert goes_on.wait(PATIENCE / 1000)
+            yield step
+
+    monkeypatch.setattr(method, "steps", slow)
+    stage = Stage(method(), Stop(max_iterations=30, tolerance=0))
+    session.commands.run(stage)
+    qtbot.waitUntil(going.is_set, timeout=PATIENCE)
+    start, first = session.document.now, session.smoothing.record
+    act = {
+        "reset": session.commands.reset,
+        "open": lambda: session.commands.open(mesh_file),
+        "branch": lambda: session.commands.branch(stage),
+    }[what]
+    act()
+    assert session.smoothing.phase is Phase.STOPPING
+    window.refresh()
+    assert window.busy.text() == "Stopping…"
+    goes_on.set()
+    if what == "open":
+        qtbot.waitUntil(lambda: session.document.now is not start and not session.smoothing.busy, timeout=PATIENCE)
+        qtbot.waitUntil(lambda: not session.opener.busy, timeout=PATIENCE)
+        assert session.history.records == []
+    elif what == "reset":
+        qtbot.waitUntil(lambda: not session.smoothing.busy, timeout=PATIENCE)
+        np.testing.assert_array_equal(session.document.now.mesh.points, start.mesh.points)
+    else:
+        qtbot.waitUntil(lambda: session.smoothing.record is not first, timeout=PATIENCE)
+        qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
