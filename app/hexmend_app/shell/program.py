@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING
 os.environ.setdefault("QT_API", "pyside6")
 os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
 
-from PySide6.QtCore import QCoreApplication, QSettings, QTimer
+from PySide6.QtCore import QCoreApplication, QTimer
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
 from hexmend.cli.interrupts import ENDING
 from hexmend_app.resources import demo_mesh, resource
+from hexmend_app.state import settings
 from hexmend_app.state.garbage import Garbage
 from hexmend_app.state.task import running
 from hexmend_app.widgets.report import report_of
@@ -81,7 +82,7 @@ def end_with_threads(status: int) -> None:
     if not running():
         return
     log.warning("closed while threads were at work: %s", ", ".join(task.name for task in running()))
-    QSettings().sync()
+    settings.write_all()
     logging.shutdown()
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:

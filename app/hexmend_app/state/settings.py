@@ -56,6 +56,11 @@ class Setting(Generic[T]):
         QSettings().setValue(self.key, self.written(value))
 
 
+def write_all() -> None:
+    """Write what Qt would write at the end of the process."""
+    QSettings().sync()
+
+
 def _bytes(value: Any) -> QByteArray:
     if not isinstance(value, QByteArray):
         raise TypeError(value)

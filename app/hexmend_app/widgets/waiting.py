@@ -40,6 +40,7 @@ class WaitingDialog(QDialog):
         if leave:
             buttons.addButton(leave, QDialogButtonBox.ButtonRole.AcceptRole)
             buttons.accepted.connect(self.accept)
+        buttons.button(QDialogButtonBox.StandardButton.Cancel).setDefault(True)  # Enter gives nothing up
         layout = QVBoxLayout(self)
         for part in (label, bar, buttons):
             layout.addWidget(part)

@@ -27,7 +27,7 @@ application()
 timer = QTimer(interval=100)
 timer.timeout.connect(close)
 timer.start()
-print("status", open_window(sys.argv[1]), flush=True)
+sys.exit(open_window(sys.argv[1]))
 """
 
 

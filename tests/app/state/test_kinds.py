@@ -6,6 +6,7 @@ import pytest
 from hexmend.movement import Moment, Movement
 from hexmend.quality import measure, summarise
 from hexmend_app.scene.colours import resolve
+from hexmend_app.state.document import Document, State
 from hexmend_app.state.kinds import KINDS, of_kind
 from hexmend_app.state.look import ColourScale, Isolation, ValueRange
 from hexmend_app.state.view import View
@@ -49,7 +50,9 @@ def test_another_name_is_refused():
 
 
 def test_what_is_isolated_is_shown_alone_and_whatever_its_value(qapp):
-    view = View()
+    document = Document()
+    document.replace(State.of(MESH), None)
+    view = View(document)
     view.change(quality_range=ValueRange("q", 0.5, 1.0), peel=2)
     view.dig(3)
     view.isolate(np.array([], np.int64))
