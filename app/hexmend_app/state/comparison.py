@@ -14,7 +14,7 @@ from hexmend.smoothers import Smoother
 from hexmend.study import compare
 from hexmend.study.row import Row, run_one
 from hexmend_app.state.document import Document, State
-from hexmend_app.state.task import Task, shut_down
+from hexmend_app.state.task import Task
 
 #: Milliseconds between two looks at how far the methods are.
 _PERIOD = 100
@@ -191,10 +191,13 @@ class Comparison(QObject):
         self.changed.emit()
 
     def shut_down(self) -> None:
-        """End the work and its thread; nothing is emitted any more."""
+        """End the work after the iteration at hand; nothing is emitted any more.
+
+        `Session.shut_down` waits for the thread.
+        """
         self._timer.stop()
         if self._work is not None:
-            shut_down(self._work.task)
+            self._work.task.drop()
             self._work = None
 
     def _empty(self) -> None:

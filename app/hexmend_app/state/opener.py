@@ -17,7 +17,7 @@ from hexmend_app.state.restoring import Restored, Wanting, restored
 from hexmend_app.state.scene.carried import read_carried
 from hexmend_app.state.scene.png import is_png
 from hexmend_app.state.session_data import SessionData
-from hexmend_app.state.task import Task, shut_down
+from hexmend_app.state.task import Task
 
 
 class Doing(Enum):
@@ -115,7 +115,6 @@ class Opener(QObject):
         self._task: Task | None = None
         self._next: tuple[Path, bool, Wanting | None] | None = None
         self._recovers = False
-        self._dropped: list[Task] = []
 
     @property
     def busy(self) -> bool:
@@ -151,14 +150,11 @@ class Opener(QObject):
             return
         task, self._task, self._next = self._task, None, None
         task.drop()
-        self._dropped = [one for one in self._dropped if not one.over] + [task]
         self.cancelled.emit(self._path)
 
     def shut_down(self) -> None:
-        """End the threads, as far as they can be ended; nothing is opened any more."""
+        """Open nothing any more; `Session.shut_down` waits for the threads."""
         self.cancel()
-        shut_down(*self._dropped)
-        self._dropped.clear()
 
     def _finish(self) -> None:
         task, self._task = self._task, None

@@ -29,6 +29,7 @@ from hexmend_app.state.reference import References
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
 from hexmend_app.state.stepping import Stepping
+from hexmend_app.state.task import wait_for_dropped
 from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
@@ -192,6 +193,7 @@ class Session(QObject):
         self.explainer.shut_down()
         self.examiner.shut_down()
         self.comparison.shut_down()
+        wait_for_dropped()
 
     def _on_another(self) -> None:
         """Nothing is chosen, hidden or kept of the mesh that is open now."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -32,8 +32,17 @@ def shut_down(*tasks: Task | None) -> None:
     asked = [task for task in tasks if task is not None]
     for task in asked:
         task.drop()
+    _wait_for(asked)
+
+
+def wait_for_dropped() -> None:
+    """Wait for the threads of all tasks that were dropped, for `GRACE` seconds in all."""
+    _wait_for([task for task in running() if task.dropped])
+
+
+def _wait_for(tasks: Sequence[Task]) -> None:
     deadline = time.monotonic() + GRACE
-    for task in asked:
+    for task in tasks:
         task.join(max(0.0, deadline - time.monotonic()))
 
 
@@ -91,6 +100,11 @@ class Task(QObject):
     def over(self) -> bool:
         """Whether the thread has begun and ended."""
         return self._thread.ident is not None and not self._thread.is_alive()
+
+    @property
+    def dropped(self) -> bool:
+        """Whether nobody hears of its end any more."""
+        return not self._listened_to
 
     def start(self) -> None:
         """Begin; once."""
