@@ -102,6 +102,15 @@ def test_what_is_short_names_figures_and_methods_that_would_do():
     assert none.remedy("run it (--force)") == "Close other programs, smooth a smaller mesh or run it (--force)."
 
 
+@pytest.mark.parametrize("work", [METHODS["getme"](), METHODS["mend"](), Recipe.of("getme", "mend")])
+def test_methods_of_the_same_kind_are_named_first_and_a_recipe_is_of_none(work):
+    short = shortage(work, 1_000_000, needed(work, 1_000_000) - 1)
+    optimises = not isinstance(work, Recipe) and work.optimises
+    same = [cls.optimises == optimises for cls, _ in short.lighter]
+    assert same == sorted(same, reverse=True)
+    assert same[0]
+
+
 INFO = {"proc/meminfo": "MemTotal: 9000 kB\nMemFree: 100 kB\nMemAvailable:    8000 kB\n"}
 TWO = {
     "proc/self/cgroup": "0::/a/b\n",

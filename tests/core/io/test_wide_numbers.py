@@ -1,0 +1,38 @@
+"""Whole numbers at the ends of what 32 bits hold are kept exactly by ExodusII's classic container."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.io.netcdf3_write import Writer
+from tests.core.grids import grid
+
+ENDS = [-(2**31) - 1, -(2**31), 2**31 - 1, 2**31]
+
+
+@pytest.mark.parametrize("number", ENDS)
+def test_a_number_takes_64_bits_only_where_32_do_not_hold_it(number, tmp_path):
+    from scipy.io import netcdf_file
+
+    writer = Writer({})
+    writer.add("one", {"n": 2}, np.array([0, number]))
+    if -(2**31) <= number < 2**31:
+        writer.write(tmp_path / "a.nc")
+        with netcdf_file(tmp_path / "a.nc", mmap=False) as file:
+            assert file.variables["one"][:].tolist() == [0, number]
+            assert file.variables["one"].typecode() == "i"
+    else:
+        writer.write(tmp_path / "a.nc")
+        assert (tmp_path / "a.nc").read_bytes()[:4] == b"CDF\x05"
+
+
+@pytest.mark.parametrize("number", ENDS)
+def test_ids_at_the_ends_of_32_bits_are_read_again_and_the_file_says_how_wide_they_are(number, tmp_path):
+    ids = np.array([1, 2, 3, 4, 5, 6, 7, number])
+    mesh = grid(2).replace(hex_data={"id": ids})
+    io.write(tmp_path / "a.exo", mesh)
+    np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], ids)
+    data = (tmp_path / "a.exo").read_bytes()
+    begins = data.index(b"int64_status\0") + len(b"int64_status")
+    wide = not -(2**31) <= number < 2**31
+    assert (b"\x00\x00\x20\x00" in data[begins : begins + 24]) == wide

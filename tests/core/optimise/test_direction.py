@@ -1,0 +1,73 @@
+"""Newton's directions: how good the solution of the linear system is to be, and what damps it."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from hexmend.optimise.direction import ENOUGH, FALL, FIRST, RAISES, RISE, TruncatedNewton
+
+
+class Matrix:
+    """Records what it is asked to solve; says that the curvature is negative while the damping is below `needed`."""
+
+    def __init__(self, needed=0.0):
+        self.needed, self.asked = needed, []
+
+    def assembled(self, room=None):
+        return self
+
+    def solve(self, right, tolerance, iterations, damping):
+        self.asked.append((right.copy(), tolerance, iterations, damping))
+        return SimpleNamespace(x=right / 2, iterations=3, negative_curvature=damping < self.needed)
+
+
+def tolerances(lengths, unit=1.0, **options):
+    find, matrix = TruncatedNewton(**options), Matrix()
+    for length in lengths:
+        find(1.0, np.array([[unit * length, 0.0, 0.0]]), matrix)
+    return [tolerance for _, tolerance, _, _ in matrix.asked]
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1.0, 1e6])
+def test_the_tolerance_follows_the_square_of_what_is_left_of_the_gradient_in_any_unit(unit):
+    lengths = [8.0, 4.0, 0.4, 0.08]
+    found = tolerances(lengths, unit, loosest=0.5, tightest=1e-4)
+    assert found == pytest.approx([0.5, 0.9 / 4, 0.9 / 100, 0.9 / 25])
+
+
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
+def test_no_more_is_asked_than_leaves_enough_of_the_first_gradient(unit):
+    lengths = [1.0, 20 * ENOUGH, 5 * ENOUGH]
+    assert tolerances(lengths, unit, loosest=0.9, tightest=1e-12)[1:] == pytest.approx([1 / 20, 1 / 5])
+
+
+def test_the_tolerance_stays_within_its_bounds():
+    assert tolerances([1.0, 1.0, 1e-3, 0.0], loosest=0.3, tightest=0.01) == [0.3, 0.3, 0.01, 0.3]
+
+
+def test_the_direction_is_the_solution_for_minus_the_gradient():
+    find, matrix = TruncatedNewton(iterations=17), Matrix()
+    gradient = np.array([[1.0, -2.0, 3.0], [4.0, 5.0, -6.0]])
+    found = find(1.0, gradient, matrix)
+    np.testing.assert_array_equal(found.p, -gradient / 2)
+    np.testing.assert_array_equal(matrix.asked[0][0], -gradient.ravel())
+    assert (matrix.asked[0][2], found.solver_iterations, found.shift) == (17, 3, 0.0)
+
+
+def test_damping_rises_until_the_curvature_is_positive_and_falls_again():
+    find, matrix = TruncatedNewton(), Matrix(needed=RISE * FIRST)
+    found = find(1.0, np.ones((1, 3)), matrix)
+    assert [damping for *_, damping in matrix.asked] == [0.0, FIRST, RISE * FIRST]
+    assert (found.shift, found.solver_iterations) == (RISE * FIRST, 9)
+    matrix.needed, matrix.asked = 0.0, []
+    for _ in range(3):
+        find(1.0, np.ones((1, 3)), matrix)
+    first = RISE * FIRST
+    assert [damping for *_, damping in matrix.asked] == [first, first / FALL, 0.0]
+
+
+def test_damping_is_raised_so_often_and_no_oftener():
+    find, matrix = TruncatedNewton(), Matrix(needed=np.inf)
+    assert find(1.0, np.ones((1, 3)), matrix).shift == FIRST * RISE ** (RAISES - 1)
+    assert len(matrix.asked) == RAISES + 1

@@ -1,0 +1,36 @@
+"""When the raising of the least scaled Jacobian ends: where steps gain little, and how little depends on the least."""
+
+import pytest
+
+from hexmend.optimise import raising
+from tests.core.grids import grid, scrambled
+
+
+def steps_of(monkeypatch, **constants):
+    for name, value in constants.items():
+        monkeypatch.setattr(raising, name, value)
+    mesh = scrambled(grid(3), 0.4, 1)
+    *steps, limit = raising.Raising(mesh, mesh.points).steps()
+    assert isinstance(limit, raising.Limit)
+    return steps
+
+
+@pytest.mark.parametrize("lately", [1, 3])
+@pytest.mark.parametrize("sound", [-2.0, 2.0])
+def test_it_ends_after_some_steps_that_together_gain_less_than_a_little(monkeypatch, lately, sound):
+    """Below `SOUND` what counts is `LITTLE`, above it `LITTLE_BEYOND`."""
+    much, nothing = ("LITTLE", "LITTLE_BEYOND") if sound == 2.0 else ("LITTLE_BEYOND", "LITTLE")
+    assert len(steps_of(monkeypatch, LATELY=lately, SOUND=sound, **{much: 10.0, nothing: 0.0})) == lately
+    assert len(steps_of(monkeypatch, LATELY=lately, SOUND=sound, **{much: 0.0, nothing: 10.0})) > lately
+
+
+@pytest.mark.parametrize("few", [1, 3])
+def test_it_ends_as_high_however_few_corners_the_first_programs_have(monkeypatch, few):
+    end = steps_of(monkeypatch)[-1].least
+    steps = steps_of(monkeypatch, FEW=few)
+    assert steps[-1].least == pytest.approx(end, abs=2e-3)
+    assert steps[0].corners == few
+
+
+def test_it_never_has_more_corners_than_the_most(monkeypatch):
+    assert max(step.corners for step in steps_of(monkeypatch, FEW=3, MANY=6)) <= 6

@@ -1,0 +1,112 @@
+"""`make mutants`, on a package of one function: a fault that its test finds, and one that it does not."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPTS = Path(__file__).resolve().parents[1] / "scripts"
+
+SOURCE = '''"""A toy."""
+
+
+def clipped(x: float, low: float) -> float:
+    """The number, or `low` if it is less."""
+    if x < low:
+        return low
+    return x
+'''
+TEST = """from toy.numbers import clipped
+
+
+def test_a_number_below_is_clipped():
+    assert (clipped(1, 2), clipped(3, 2)) == (2, 3)
+"""
+
+
+@pytest.fixture(scope="module")
+def scripts():
+    """The script and its parts, imported from their folder."""
+    sys.path.insert(0, str(SCRIPTS))
+    try:
+        import mutants
+        from mutation import operators, project
+
+        yield mutants, operators, project
+    finally:
+        sys.path.remove(str(SCRIPTS))
+
+
+@pytest.fixture
+def toy(scripts, tmp_path):
+    """A project of one package and one file of tests."""
+    root = tmp_path / "project"
+    files = {"core/toy/__init__.py": "", "core/toy/numbers.py": SOURCE, "tests/test_numbers.py": TEST}
+    for path, text in files.items():
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(text)
+    return scripts[2].Project(root=root, tests=("tests",), imports=("core",), build=tmp_path / "build")
+
+
+def test_a_fault_that_a_test_finds_and_one_that_survives_are_told_apart_and_kept(scripts, toy, capsys):
+    script, operators, _ = scripts
+    path = "core/toy/numbers.py"
+    by_text = {mutant.texts[1]: mutant.id for mutant in operators.mutants(path, SOURCE)}
+    found, survived = by_text["if x >= low:"], by_text["if x <= low:"]
+    arguments = ["--again", found, "--again", survived, "--jobs", "1"]
+    rows = {row.id: row for row in script.main(arguments, toy, [path])}
+    assert rows[found].outcome == "found"
+    assert rows[found].by == "tests/test_numbers.py::test_a_number_below_is_clipped"
+    assert rows[survived].outcome == "survived"
+    said = capsys.readouterr().out
+    assert "-    if x < low:\n+    if x <= low:" in said
+    assert "50.0 % found" in said
+    assert (toy.root / path).read_text() == SOURCE
+    kept = json.loads((toy.build / "results.json").read_text())
+    assert {row["id"]: row["outcome"] for row in kept} == {found: "found", survived: "survived"}
+
+
+def test_texts_messages_and_annotations_are_not_changed(scripts):
+    source = '''"""Adds 1."""
+from __future__ import annotations
+
+def f(x: int = 3) -> tuple[int, 1]:
+    """Adds 1 + 0."""
+    if x:
+        raise ValueError(f"{x + 1} is not 0")
+    return None
+'''
+    changed = [mutant.texts for mutant in scripts[1].mutants("f.py", source)]
+    assert changed == [("if x:", "if not x:")]
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("y = a < b", "y = a <= b"),
+        ("y = a + b", "y = a - b"),
+        ("y = np.minimum(a, b)", "y = np.maximum(a, b)"),
+        ("y = a[0]", "y = a[1]"),
+        ("y = 1.0", "y = 0.0"),
+        ("y = a and b", "y = a or b"),
+        ("y = not a", "y = a"),
+        ("y = abs(a)", "y = a"),
+        ("y = -a", "y = a"),
+        ("y[2] = a", "pass"),
+        ("f(a)", "pass"),
+        ("y = np.where(a, b, c)", "y = np.where(a, c, b)"),
+        ("y = 2 * (a - b)", "y = 2 * (a + b)"),
+    ],
+)
+def test_each_kind_of_fault_is_made(scripts, before, after):
+    assert (before, after) in [mutant.texts for mutant in scripts[1].mutants("a.py", f"{before}\n")]
+
+
+def test_a_sample_is_spread_over_files_and_is_the_same_for_the_same_seed(scripts):
+    sampling = sys.modules["mutation.sampling"]
+    sources = {"a.py": "x = a + b\n" * 30, "b.py": "y = c < d\n" * 10}
+    chosen = sampling.sample(sources, 8, 3)
+    assert [mutant.path for mutant in chosen] == ["a.py"] * 6 + ["b.py"] * 2
+    assert [mutant.first for mutant in chosen] == [mutant.first for mutant in sampling.sample(sources, 8, 3)]
+    assert len({(mutant.path, mutant.first) for mutant in chosen}) == 8
