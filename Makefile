@@ -6,12 +6,13 @@ BIN    := $(VENV)/bin
 MESH   ?=
 CXX_SOURCES = $(shell find core/native -name "*.cpp" -o -name "*.hpp")
 
-.PHONY: help run test test-slow lint format bench study docs site pins wheel clean
+.PHONY: help run test test-slow mutants lint format bench study docs site pins wheel clean
 .NOTPARALLEL:
 
 help:
 	@echo "make run [MESH=path]   open the viewer (on the demo mesh, or on yours)"
 	@echo "make test              run the quick tests, on a virtual screen;  make test-slow  runs the others"
+	@echo "make mutants           put small faults into copies of the core: do its tests find them? half an hour"
 	@echo "make lint              check the style;  make format  mends it"
 	@echo "make bench             measure speed and memory"
 	@echo "make study             do the thesis's experiments again, in small: build/study/"
@@ -40,6 +41,10 @@ test-slow: $(VENV)/.test $(VENV)/.kernels
 	@scripts/debian-packages
 	@scripts/debian-packages chromium
 	@$(PYTEST) -m slow
+
+mutants: $(VENV)/.test $(VENV)/.kernels
+	@$(BIN)/python scripts/mutants.py
+	@$(BIN)/python scripts/mutants.py --native
 
 lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff check

@@ -1,19 +1,23 @@
 """Puts small faults into copies of the core, one at a time, and counts those that the core's tests find.
 
-Use: python scripts/mutants.py [--count N] [--seed S] [--only PATH]... [--jobs N] [--again ID]... [--native]
+Use: python scripts/mutants.py [--count N] [--seed S] [--only PATH]... [--jobs N] [--seconds S] [--again ID]...
+     [--native]
 
 Each fault (a mutant) changes one piece of a source: a comparison, a sign, a constant, a statement that is left out...
 They are chosen at random, evenly over the lines of the sources. Those tests run that execute the changed line, the
-likeliest first, until one fails. Faults that change no result are listed with the reason in mutants_equivalent.toml.
-With --native, faults listed in mutants_native.toml are put into the C++ sources and the kernels are built with each.
+likeliest first, until one fails or they have taken 30 seconds. Faults that change no result are listed with the reason
+in mutants_equivalent.toml. With --native, faults listed in mutants_native.toml are put into the C++ sources and the
+kernels are built with each.
 
-Results are kept in build/mutants, so that a run can be interrupted and continued; survivors are tried again each time.
+Results are kept in build/mutants, so that a run can be interrupted and continued: a fault that was found is not tried
+again, one that survived only after the tests have changed.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -66,6 +70,9 @@ def main(
     parser.add_argument("--seed", type=int, default=29, help="of the choice (29)")
     parser.add_argument("--only", action="append", metavar="PATH", help="sources whose paths begin so")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes at a time (one per core)")
+    parser.add_argument(
+        "--seconds", type=float, default=30.0, help="of tests for each mutant; the likeliest to find it are taken (30)"
+    )
     parser.add_argument("--again", action="append", metavar="ID", help="try this mutant, whatever is known of it")
     parser.add_argument("--native", action="store_true", help="faults of the C++ sources, by mutants_native.toml")
     asked = parser.parse_args(arguments)
@@ -75,7 +82,7 @@ def main(
     results = Results(project.build / ("native.json" if asked.native else "results.json"))
     for name in asked.again or ():
         results.rows.pop(name, None)
-    reach = Reach(project, sources)
+    reach = Reach(project, sources, asked.seconds)
     reach.measure(asked.jobs)
     if left_out := reach.left_out():
         print(f"Left out: {len(left_out)} tests that fail or are skipped without a fault.")
@@ -91,6 +98,8 @@ def main(
 
 
 if __name__ == "__main__":
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
     try:
         main()
     except KeyboardInterrupt:

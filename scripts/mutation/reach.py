@@ -26,10 +26,12 @@ class Reach:
     project : Project
     sources : sequence of str
         Paths of the sources that are looked at.
+    seconds : float
+        How long the tests chosen for a mutant may take together, without a fault.
     """
 
-    def __init__(self, project: Project, sources: Sequence[str]):
-        self._project, self._sources = project, list(sources)
+    def __init__(self, project: Project, sources: Sequence[str], seconds: float):
+        self._project, self._sources, self._most = project, list(sources), seconds
         self._kept = project.build / _KEPT
         self._digests: dict[str, str] = {}
         self._lock = threading.Lock()
@@ -79,7 +81,18 @@ class Reach:
                 if "outcome" not in test and (reached if lines is None else lines.intersection(reached)):
                     chosen.setdefault(path, {})[name] = test["seconds"]
         ranked = sorted(chosen, key=lambda path: (-_nearness(path, source), sum(chosen[path].values())))
-        return {name: chosen[path][name] for path in ranked for name in sorted(chosen[path], key=chosen[path].get)}
+        return self._within_limit(
+            {name: chosen[path][name] for path in ranked for name in sorted(chosen[path], key=chosen[path].get)}
+        )
+
+    def _within_limit(self, tests: dict[str, float]) -> dict[str, float]:
+        """The first of some tests that take no longer together than they may; those too slow for the rest left out."""
+        taken, left = {}, self._most
+        for name, seconds in tests.items():
+            if not taken or seconds <= left:
+                taken[name] = seconds
+                left -= seconds
+        return taken
 
     def digest(self, tests: Iterable[str]) -> str:
         """A digest of the names of tests and of the files that hold them."""
@@ -87,15 +100,17 @@ class Reach:
         return hashlib.sha256("\n".join(words).encode()).hexdigest()[:16]
 
     def all_tests(self, first: Iterable[str] = ()) -> dict[str, float]:
-        """Every test that passed with its seconds, those of some files first."""
+        """Tests that passed with their seconds, those of some files first, as many as the limit allows."""
         first = list(first)
         ranked = sorted(self.files, key=lambda path: first.index(path) if path in first else len(first))
-        return {
-            name: test["seconds"]
-            for path in ranked
-            for name, test in self.files[path]["tests"].items()
-            if "outcome" not in test
-        }
+        return self._within_limit(
+            {
+                name: test["seconds"]
+                for path in ranked
+                for name, test in self.files[path]["tests"].items()
+                if "outcome" not in test
+            }
+        )
 
     def left_out(self) -> list[str]:
         """Tests that failed or were skipped without any fault."""
