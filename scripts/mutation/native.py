@@ -60,7 +60,8 @@ class NativeMutants:
             mutant, entry = mutants[name]
             return results.has(mutant, reach.digest(self._tests(reach, entry)))
 
-        in_copies(self._project, 1, [name for name in ids if not known(name)], work)  # which is built in one folder
+        unknown = [name for name in ids if not known(name)]
+        in_copies(self._project, 1, unknown, work, name="native")  # kernels are built in one folder
         return ids
 
     def _tests(self, reach: Reach, entry: dict) -> dict[str, float]:

@@ -91,26 +91,28 @@ class Processes:
         return code
 
 
-def in_copies(project: Project, jobs: int, items: Iterable[T], work: Callable[[T, Copy, Processes], None]) -> None:
+def in_copies(
+    project: Project, jobs: int, items: Iterable[T], work: Callable[[T, Copy, Processes], None], name: str = "copy"
+) -> None:
     """Call `work` for each item, in so many threads, each with a copy of the project; Ctrl-C ends them all."""
     waiting: queue.SimpleQueue[T] = queue.SimpleQueue()
     for item in items:
         waiting.put(item)
     processes, failures = Processes(), []
 
-    def take(name: str) -> None:
+    def take(folder: str) -> None:
         try:
             copy = None
             while not failures:
                 item = waiting.get_nowait()
-                copy = copy or project.copy(name)
+                copy = copy or project.copy(folder)
                 work(item, copy, processes)
         except (queue.Empty, KeyboardInterrupt):
             pass
         except BaseException as error:
             failures.append(error)
 
-    threads = [threading.Thread(target=take, args=(f"copy-{number}",)) for number in range(jobs)]
+    threads = [threading.Thread(target=take, args=(f"{name}-{number}",)) for number in range(jobs)]
     for thread in threads:
         thread.start()
     try:

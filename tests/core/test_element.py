@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
 from hexmend.hexahedron import EDGES
+from hexmend.mesh import Mesh
 from hexmend.quality import ElementQuality, element, measure, node, worst
 from tests.core.grids import grid, scrambled
 
@@ -70,3 +71,10 @@ def test_a_node_says_what_the_mesh_says_of_it():
     one = node(tangled, int(tangled.hexes[measure(tangled.points, tangled.hexes).inverted][0, 0]))
     assert one.energy == np.inf
     assert (one.downhill == 0).all()
+
+
+def test_a_node_of_no_hex_is_unused_and_goes_nowhere():
+    mesh = grid(1)
+    one = node(Mesh(np.concatenate([mesh.points, [[9.0, 9, 9]]]), mesh.hexes), 8)
+    assert (one.kind, one.ring.size, one.energy, one.downhill.tolist()) == ("unused", 0, 0.0, [0, 0, 0])
+    assert one.point.tolist() == [9, 9, 9]

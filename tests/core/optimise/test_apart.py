@@ -55,3 +55,19 @@ def test_a_boundary_leaves_its_room_where_something_is_further_than_before(seed,
 
 def both_ways(sliding, points):
     return sliding.off(points, np.arange(len(sliding.middles))), sliding.behind(points)
+
+
+@settings(max_examples=10)
+@given(seeds, st.floats(0.01, 0.1))
+def test_only_what_nodes_could_bring_out_of_the_room_is_bounded(seed, reach):
+    mesh = slid(ball(3), 0.1, seed)
+    sliding, room = Sliding(mesh), 0.3 * mesh.mean_edge_length
+    bounded = 0
+    for points, moved in wandering(mesh, sliding.nodes, seed):
+        apart = Apart(sliding, mesh.points).moved(points, moved)
+        moves = np.zeros(mesh.n_nodes)
+        assert len(apart.bounds(moves, room).above) == 0
+        moves[moved] = reach
+        assert (apart.bounds(moves, room).above < reach).all()
+        bounded += len(apart.bounds(moves + 2 * room, room).above)
+    assert bounded

@@ -4,8 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import scipy.sparse.linalg
+from scipy.sparse.linalg import ArpackNoConvergence
 
-from hexmend.optimise.direction import ENOUGH, FALL, FIRST, RAISES, RISE, TruncatedNewton
+from hexmend.energy import MeshEnergy
+from hexmend.optimise import direction
+from hexmend.optimise.direction import ENOUGH, FALL, FIRST, RAISES, RISE, ModifiedNewton, TruncatedNewton
+from tests.core.grids import grid, scrambled
 
 
 class Matrix:
@@ -71,3 +76,40 @@ def test_damping_is_raised_so_often_and_no_oftener():
     find, matrix = TruncatedNewton(), Matrix(needed=np.inf)
     assert find(1.0, np.ones((1, 3)), matrix).shift == FIRST * RISE ** (RAISES - 1)
     assert len(matrix.asked) == RAISES + 1
+
+
+class Shifted:
+    """A Hessian that records by how much it is shifted."""
+
+    def __init__(self, shift=0.0):
+        self.shift = shift
+
+    def shifted(self, shift):
+        return Shifted(shift)
+
+
+@pytest.mark.parametrize(
+    ("least", "greatest", "shift"),
+    [(-1.0, 100.0, 1.1), (0.05, 100.0, 0.05), (0.2, 100.0, 0.0), (-1.0, 0.01, 1.00001), (0.5, 0.01, 0.0)],
+)
+def test_the_least_eigenvalue_is_raised_to_a_thousandth_of_the_greatest(monkeypatch, least, greatest, shift):
+    monkeypatch.setattr(direction, "extreme_eigenvalues", lambda hessian: (least, greatest))
+    found = ModifiedNewton(lambda hessian, right: (right / 2, 5))(1.0, np.array([[2.0, 4.0, 6.0]]), Shifted())
+    assert found.shift == pytest.approx(shift)
+    assert (found.p.tolist(), found.solver_iterations) == ([[-1.0, -2.0, -3.0]], 5)
+
+
+def test_where_eigenvalues_are_not_found_the_least_counts_as_0_and_the_greatest_is_computed(monkeypatch):
+    def fails(*args, **options):
+        raise ArpackNoConvergence("none", np.empty(0), np.empty((0, 0)))
+
+    monkeypatch.setattr(scipy.sparse.linalg, "eigsh", fails)
+    mesh = scrambled(grid(3), 0.2, 1)
+    energy = MeshEnergy(mesh)
+    hessian = energy.hessian(energy.scaled(mesh.points), 0.0)
+    least, greatest = direction.extreme_eigenvalues(hessian)
+    assert least == 0.0
+    matrix = np.column_stack([hessian.assembled() @ row for row in np.eye(hessian.shape[0])])
+    assert greatest == pytest.approx(
+        max(np.linalg.eigvalsh(matrix[at : at + 3, at : at + 3]).max() for at in range(0, len(matrix), 3))
+    )

@@ -1,0 +1,73 @@
+"""One step of all nodes: how far each may go, and what is done where a direction does not descend."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.energy import MeshEnergy
+from hexmend.optimise.descent import descend
+from hexmend.optimise.direction import Found, steepest_descent
+from hexmend.optimise.line_search import BackLineSearch
+from tests.core.grids import grid, scrambled
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def problem(seed, amplitude=0.2):
+    mesh = scrambled(grid(4), amplitude, seed)
+    energy = MeshEnergy(mesh)
+    return mesh, energy, energy.scaled(mesh.points)
+
+
+def own_edges(mesh, x):
+    """The mean length of the edges at each node."""
+    rings = mesh.topology.rings
+    return np.array([np.linalg.norm(x[rings[node]] - x[node], axis=1).mean() for node in range(mesh.n_nodes)])
+
+
+@settings(max_examples=15)
+@given(seeds, st.sampled_from([0.1, 0.5]))
+def test_no_node_goes_further_than_it_may_and_others_go_on(seed, reach):
+    mesh, energy, x = problem(seed)
+    taken = {}
+    for most in (reach, np.inf):
+        throws = [0, 5]
+
+        def find(value, gradient, hessian, throws=throws):
+            p = -0.02 * gradient / np.linalg.norm(gradient, axis=1).max()
+            p[throws] *= 1e4  # two nodes are thrown far off
+            return Found(p)
+
+        taken[most] = descend(energy, x, 0.0, find, BackLineSearch(), most)
+    moved = np.linalg.norm(taken[reach].x - x, axis=1)
+    assert (moved <= reach * own_edges(mesh, x) * (1 + 1e-9)).all()
+    assert np.abs(taken[reach].found.p).max() <= reach * own_edges(mesh, x).max() * (1 + 1e-9)
+    assert taken[reach].cuts <= taken[np.inf].cuts
+
+
+@pytest.mark.parametrize("factor", [0.0, -1.0])
+@pytest.mark.parametrize("reach", [0.5, np.inf])
+def test_a_direction_that_does_not_descend_gives_way_to_steepest_descent(factor, reach):
+    _, energy, x = problem(3)
+    taken = descend(energy, x, 0.0, lambda value, g, hessian: Found(-factor * g), BackLineSearch(), reach)
+    steepest = descend(energy, x, 0.0, steepest_descent, BackLineSearch(), reach)
+    assert taken.slope == pytest.approx(steepest.slope, rel=1e-9) or reach < np.inf
+    assert taken.slope < 0
+    assert taken.alpha > 0
+    assert energy.value(taken.x, 0.0) < taken.value
+
+
+def test_a_step_from_perfect_cubes_stays():
+    mesh = grid(3)
+    energy = MeshEnergy(mesh)
+    x = energy.scaled(mesh.points)
+    taken = descend(energy, x, 0.0, steepest_descent, BackLineSearch())
+    assert taken.x is x
+    assert (taken.alpha, taken.slope, taken.cuts) == (0.0, 0.0, 0)
+
+
+def test_from_an_infinite_energy_there_is_no_step():
+    mesh, energy, x = problem(1, 2.0)
+    assert not np.isfinite(energy.value(x, 0.0))
+    assert descend(energy, x, 0.0, steepest_descent, BackLineSearch()) is None

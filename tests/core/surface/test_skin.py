@@ -1,0 +1,44 @@
+"""The closest places of a boundary, by the nodes that make them, of quads and of triangles."""
+
+import numpy as np
+import pytest
+
+from hexmend.surface.change import Skin
+from tests.core.grids import grid
+
+
+@pytest.fixture(params=["quads", "triangles"])
+def skin(request):
+    mesh = grid(2)
+    faces = mesh.topology.boundary_faces
+    if request.param == "triangles":
+        faces = np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+    return Skin(mesh.points, np.ascontiguousarray(faces))
+
+
+def test_the_closest_place_is_made_of_the_nodes_of_one_face(skin):
+    x = np.random.default_rng(5).uniform(-1, 3, (40, 3))
+    places, nodes, weights = skin.closest_on(x)
+    np.testing.assert_array_equal(places, skin.closest(x))
+    np.testing.assert_allclose(np.einsum("kn,kni->ki", weights, skin.points[nodes]), places, atol=1e-12)
+    np.testing.assert_allclose(weights.sum(axis=1), 1)
+    assert weights.min() >= -1e-12
+    faces = {tuple(sorted(face)) for face in skin.faces.tolist()}
+    assert all(tuple(sorted(row)) in faces for row in nodes.tolist())
+
+
+def test_samples_are_nodes_then_middles_of_edges_then_of_faces_and_all_lie_on_the_surface(skin):
+    samples = skin.samples()
+    n, e = len(skin.nodes), len(skin.edges.nodes)
+    assert len(samples) == n + e + len(skin.faces)
+    np.testing.assert_array_equal(samples[:n], skin.points[skin.nodes])
+    np.testing.assert_allclose(samples[n : n + e], skin.points[skin.edges.nodes].mean(axis=1))
+    np.testing.assert_allclose(samples[n + e :], skin.points[skin.faces].mean(axis=1))
+    np.testing.assert_allclose(skin.distances(samples), 0, atol=1e-12)
+
+
+def test_a_skin_whose_nodes_have_moved_is_elsewhere_and_the_first_is_not(skin):
+    x = skin.samples()
+    moved = skin.with_points(skin.points + [0, 0, 7])
+    np.testing.assert_allclose(moved.distances(x + [0, 0, 7]), 0, atol=1e-12)
+    np.testing.assert_allclose(skin.distances(x), 0, atol=1e-12)
