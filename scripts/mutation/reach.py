@@ -67,10 +67,12 @@ class Reach:
         """Tests that run a mutant's lines with their seconds; the likeliest to find it first.
 
         Where the lines run only at import, or no test is known to run them, these are the tests that run anything of
-        the file.
+        the file; where none does either, any tests, those of the same name or folder first.
         """
         lines = frozenset(range(mutant.first, mutant.last + 1))
-        return (None if mutant.at_import else self._running(mutant.path, lines)) or self._running(mutant.path, None)
+        chosen = {} if mutant.at_import else self._running(mutant.path, lines)
+        near = sorted(self.files, key=lambda path: -_nearness(path, mutant.path))
+        return chosen or self._running(mutant.path, None) or self.all_tests(near)
 
     def _running(self, source: str, lines: frozenset[int] | None) -> dict[str, float]:
         """Tests that run some lines of a source, or any."""

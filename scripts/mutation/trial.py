@@ -50,4 +50,4 @@ def tried(copy: Copy, processes: Processes, tests: Mapping[str, float], **variab
         if code not in (_PASSED, _NONE):
             failed = (name for name, entry in report.items() if entry.get("outcome") == "failed")
             return result(FOUND, next(failed, f"exit status {code}"))
-    return result(SURVIVED, f"{len(tests)} tests pass" if tests else "no test runs anything of the file")
+    return result(SURVIVED, f"{len(tests)} tests pass" if tests else "there are no tests")

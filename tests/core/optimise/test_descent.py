@@ -68,6 +68,6 @@ def test_a_step_from_perfect_cubes_stays():
 
 
 def test_from_an_infinite_energy_there_is_no_step():
-    mesh, energy, x = problem(1, 2.0)
+    _, energy, x = problem(1, 2.0)
     assert not np.isfinite(energy.value(x, 0.0))
     assert descend(energy, x, 0.0, steepest_descent, BackLineSearch()) is None

@@ -34,3 +34,12 @@ def test_it_ends_as_high_however_few_corners_the_first_programs_have(monkeypatch
 
 def test_it_never_has_more_corners_than_the_most(monkeypatch):
     assert max(step.corners for step in steps_of(monkeypatch, FEW=3, MANY=6)) <= 6
+
+
+def test_what_is_begun_again_begins_with_the_first_radius_and_few_corners():
+    mesh = scrambled(grid(3), 0.6, 2)
+    raise_ = raising.Raising(mesh, mesh.points)
+    first = [step.radius for step in raise_.steps(0.4) if isinstance(step, raising.Raised)]
+    again = [step.radius for step in raise_.steps() if isinstance(step, raising.Raised)]
+    assert first[0] == again[0] == raising.FIRST
+    assert max(first[1:]) > raising.FIRST  # it had changed

@@ -1,0 +1,60 @@
+"""Which nodes mend's local sweeps move: around what is inverted or poor, but never where corners are left out."""
+
+import numpy as np
+import pytest
+
+from hexmend.energy import MeshEnergy
+from hexmend.kernels import local
+from hexmend.quality import measure
+from hexmend.smoothers import mend
+from tests.core.grids import grid, scrambled
+
+
+@pytest.fixture
+def swept(monkeypatch):
+    """Sweeps as mend makes them around a hex of a grid of 7 x 7 x 7; the nodes that move."""
+    mesh = scrambled(grid(7), 0.2, 1)
+    energy = MeshEnergy(mesh)
+    asked = []
+    sweep = local.sweep
+    monkeypatch.setattr(local, "sweep", lambda *given: asked.append(given) or sweep(*given))
+
+    def around(which, left_out=(), sweeps=2):
+        hexes, omitted = np.zeros(mesh.n_hexes, bool), np.zeros(mesh.n_hexes, np.uint8)
+        hexes[list(which)], omitted[list(left_out)] = True, 1
+        x = energy.scaled(mesh.points)
+        there = mend._swept(energy, x, hexes, omitted, 0.0, sweeps)  # noqa: SLF001
+        assert len(asked) == sweeps
+        np.testing.assert_array_equal(x, energy.scaled(mesh.points))
+        asked.clear()
+        return set(np.flatnonzero((there != x).any(axis=1)).tolist())
+
+    return mesh, around
+
+
+def nodes_of(mesh, hexes):
+    return set(np.unique(mesh.hexes[list(hexes)]).tolist())
+
+
+def neighbours(mesh, which):
+    """Hexes that have a node in common with some."""
+    return np.flatnonzero(np.isin(mesh.hexes, mesh.hexes[list(which)]).any(axis=1))
+
+
+@pytest.mark.parametrize("hexa", [171, 0, 24])  # in the middle, at a corner, in between
+def test_nodes_of_a_hex_and_of_its_neighbours_move_and_no_others(swept, hexa):
+    mesh, around = swept
+    assert around([hexa]) == nodes_of(mesh, neighbours(mesh, [hexa])) & set(np.flatnonzero(mesh.free).tolist())
+
+
+def test_nodes_at_hexes_of_which_corners_are_left_out_stay(swept):
+    mesh, around = swept
+    moved, all_of_them = around([171], left_out=[172]), around([171])
+    assert moved == all_of_them - nodes_of(mesh, [172])
+    assert moved < all_of_them
+
+
+def test_sweeps_lower_the_energy_of_what_they_are_made_around(swept):
+    mesh, around = swept
+    worst = int(measure(mesh.points, mesh.hexes).eta.argmax())
+    assert around([worst], sweeps=1) <= around([worst], sweeps=5)

@@ -1,0 +1,84 @@
+"""When a run has converged: by the way of a node or by its greatest coordinate, and never while a stage is to come."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from hexmend.optimise import Outcome, Step
+from hexmend.quality import measure
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS, Smoother
+from tests.core.grids import grid
+
+MIDDLE = 13  # of a grid of 2 x 2 x 2
+
+
+@dataclass(frozen=True)
+class Shifts(Smoother):
+    """Moves the node in the middle by (3, 4, 0) twentieths, then by a tenth of that, and so on."""
+
+    name = "shifts"
+    title = help = source = "shifts"
+    more_until: int = 0
+    detour_until: int = 0
+
+    def steps(self, mesh):
+        points = mesh.points
+        yield Step(points)
+        for number in range(20):
+            points = points.copy()
+            points[MIDDLE] += np.array([3.0, 4.0, 0.0]) / 20 * 0.1**number * (-1) ** number
+            yield Step(points, more=number < self.more_until, detour=number < self.detour_until)
+
+
+@pytest.mark.parametrize(("move", "tolerance", "iterations"), [
+    ("length", 0.26, 1), ("length", 0.24, 2), ("length", 0.21, 2), ("length", 0.026, 2), ("length", 0.024, 3),
+    ("coordinate", 0.21, 1), ("coordinate", 0.19, 2), ("coordinate", 0.16, 2), ("coordinate", 0.019, 3),
+])  # fmt: skip
+def test_what_is_compared_with_the_tolerance_is_the_way_or_the_greatest_change_of_a_coordinate(
+    move, tolerance, iterations
+):
+    result = smooth(grid(2), Shifts(), Stop(move=move, tolerance=tolerance))
+    assert result.outcome is Outcome.CONVERGED
+    assert len(result.history) == iterations + 1
+    assert result.history[1]["largest_move"] == pytest.approx(0.25)  # the way, whatever ends the run
+
+
+def test_moves_are_told_in_mean_edge_lengths():
+    mesh = grid(2)
+    large = mesh.with_points(10 * mesh.points)
+    rows = smooth(large, Shifts(), Stop(max_iterations=1, tolerance=1e-9)).history
+    assert [row["largest_move"] for row in rows] == [0.0, pytest.approx(0.025)]
+
+
+def test_a_run_has_not_converged_while_another_stage_is_to_come():
+    assert len(smooth(grid(2), Shifts(more_until=3), Stop(tolerance=1.0)).history) == 5
+
+
+def test_a_detour_is_no_result():
+    result = smooth(grid(2), Shifts(detour_until=20), Stop(tolerance=1e-3))
+    np.testing.assert_array_equal(result.mesh.points, grid(2).points)
+
+
+def test_a_tolerance_that_is_reached_exactly_is_not_enough():
+    mesh = grid(2)
+    moved = mesh.points[MIDDLE] + np.array([3.0, 4.0, 0.0]) / 20 - mesh.points[MIDDLE]
+    way = float(np.sqrt(np.square(moved).sum())) / mesh.mean_edge_length
+    assert len(smooth(mesh, Shifts(), Stop(tolerance=way)).history) == 3
+
+
+@pytest.mark.parametrize("goal", ["shape", "scaled-jacobian"])
+@pytest.mark.parametrize("guard", [False, True])
+def test_the_start_is_worse_than_itself_in_nothing(goal, guard):
+    mesh = grid(2)
+    points = mesh.points.copy()
+    points[MIDDLE] += 0.2
+    figures = measure(points, mesh.hexes)
+    inverted, harmed, last = METHODS["mend"](goal=goal, guard=guard).rank(figures, figures)
+    assert (inverted, bool(harmed)) == (0, False)
+    assert goal != "shape" or not last
+    worse = points.copy()
+    worse[MIDDLE] += 0.1
+    of_worse = METHODS["mend"](goal=goal, guard=guard).rank(figures, measure(worse, mesh.hexes))
+    assert of_worse > (inverted, harmed, last)

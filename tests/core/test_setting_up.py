@@ -1,0 +1,32 @@
+"""What methods prepare before their first step, and how they end where there is nothing to gain."""
+
+import pytest
+
+from hexmend.optimise import Outcome
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS, local_descent
+from tests.core.grids import grid, scrambled
+
+
+def test_the_order_of_visits_is_worked_out_before_the_first_step(monkeypatch):
+    """So that it counts as set-up, and every sweep takes the same time."""
+    asked = []
+
+    class Visits(local_descent.Visits):
+        def groups(self, points, sweep):
+            asked.append(sweep)
+            return super().groups(points, sweep)
+
+    monkeypatch.setattr(local_descent, "Visits", Visits)
+    steps = METHODS["local-sd"]().steps(scrambled(grid(3), 0.2))
+    next(steps)
+    assert asked == [0]
+    next(steps), next(steps)
+    assert asked == [0, 0, 1]
+
+
+@pytest.mark.parametrize("name", [name for name, cls in METHODS.items() if cls.optimises])
+def test_perfect_cubes_are_converged(name):
+    result = smooth(grid(3), METHODS[name](), Stop(max_iterations=5))
+    assert result.outcome is not Outcome.NO_DESCENT
+    assert abs(result.mesh.points - grid(3).points).max() < 1e-9
