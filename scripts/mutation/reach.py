@@ -6,7 +6,7 @@ import hashlib
 import json
 import threading
 from collections.abc import Iterable, Sequence
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from mutation.operators import Mutant
 from mutation.project import Copy, Project
@@ -59,7 +59,7 @@ class Reach:
             for path in files:
                 own = {name: entry for name, entry in report.items() if name.split("::")[0] == path}
                 reached = {source for entry in own.values() for source in entry["lines"]}
-                digests = {source: self._digest(source) for source in sorted({path} | reached)}
+                digests = {source: _digest(copy.folder / source) for source in sorted({path} | reached)}
                 self.files[path] = {"digests": digests, "sources": self._sources, "tests": own}
             self._kept.write_text(json.dumps(self.files), encoding="utf-8")
 
@@ -137,9 +137,12 @@ class Reach:
 
     def _digest(self, path: str) -> str:
         if path not in self._digests:
-            file = self._project.root / path
-            self._digests[path] = hashlib.sha256(file.read_bytes()).hexdigest()[:16] if file.exists() else ""
+            self._digests[path] = _digest(self._project.root / path)
         return self._digests[path]
+
+
+def _digest(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()[:16] if file.exists() else ""
 
 
 def _nearness(test: str, source: str) -> int:

@@ -82,3 +82,34 @@ def test_the_start_is_worse_than_itself_in_nothing(goal, guard):
     worse[MIDDLE] += 0.1
     of_worse = METHODS["mend"](goal=goal, guard=guard).rank(figures, measure(worse, mesh.hexes))
     assert of_worse > (inverted, harmed, last)
+
+
+@dataclass(frozen=True)
+class Decides(Smoother):
+    """Scrambles a grid less, then more, and says of each step what it has decided."""
+
+    name = "decides"
+    title = help = source = "decides"
+    words: tuple[str, ...] = ("First.", "Second.")
+
+    def steps(self, mesh):
+        yield Step(mesh.points)
+        for word, amplitude in zip(self.words, (0.1, 0.3), strict=True):
+            points = mesh.points.copy()
+            points[MIDDLE] = 1 + amplitude
+            yield Step(points, decision=word)
+
+
+@pytest.mark.parametrize(("words", "keep_last", "said", "not_said"), [
+    (("First.", "Second."), True, ["First.", "Second."], []),
+    (("First.", "Second."), False, ["First."], ["Second."]),  # that is said of an iterate that is not kept
+    (("First.", ""), False, ["First."], []),
+])  # fmt: skip
+def test_what_was_decided_is_told_but_of_an_iterate_that_is_not_kept(words, keep_last, said, not_said):
+    mesh = grid(2)
+    points = mesh.points.copy()
+    points[MIDDLE] += 0.2
+    result = smooth(mesh.with_points(points), Decides(words), Stop(keep_last=keep_last, max_iterations=2, tolerance=0))
+    assert (abs(result.mesh.points[MIDDLE, 0] - 1.1) < 1e-12) != keep_last
+    assert all(word in result.message for word in said)
+    assert not any(word in result.message for word in not_said)

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.cells import Cells
 from hexmend.errors import MeshError
 from hexmend.mesh import Mesh
 from hexmend.surface import Kind, Skin, Surface, boundary_of, distances, surface_change
@@ -127,3 +128,12 @@ def test_a_mesh_without_extent_has_figures():
     flat = Mesh(np.zeros((8, 3)), np.arange(8)[None])
     change = surface_change(flat, flat)
     assert (change.max, change.mean, change.max_percent_of_diagonal, change.volume_change) == (0, 0, 0, 0)
+
+
+def test_a_ridge_that_a_file_marks_on_a_flat_face_is_no_feature_that_could_be_lost():
+    mesh = grid(3)
+    flat = np.flatnonzero((mesh.points[:, 2] == 3) & (mesh.points[:, 1] == 1))
+    line = Cells("line", np.stack([flat[:-1], flat[1:]], axis=1), {"medit:ridge": np.ones(3, np.int64)})
+    marked = mesh.replace(cells=(line,))
+    assert len(boundary_of(marked).segments) == len(boundary_of(mesh).segments) + 3
+    assert surface_change(marked, marked).features == surface_change(mesh, mesh).features == 36
