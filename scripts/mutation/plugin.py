@@ -21,8 +21,9 @@ import pytest
 
 #: Bytes of data that a process may take: a fault may ask for all there is.
 _MEMORY = 12 << 30
-#: A test may take this many seconds, and this many times as long as without a fault.
-_SECONDS, _TIMES = 20.0, 10.0
+#: A test may take this many seconds of the processor, and this many times as long as without a fault; and so many
+#: seconds of the clock, for one that waits.
+_SECONDS, _TIMES, _WAITING = 20.0, 10.0, 300.0
 
 _order = json.loads(Path(os.environ["MUTATION"]).read_text(encoding="utf-8"))
 _report: dict[str, dict] = {}
@@ -33,7 +34,18 @@ _tracers: dict[CodeType, Callable] = {}
 
 def pytest_configure() -> None:
     resource.setrlimit(resource.RLIMIT_DATA, (_MEMORY, _MEMORY))
-    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    for number in (signal.SIGPROF, signal.SIGALRM):
+        signal.signal(number, signal.SIG_DFL)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection() -> None:
+    """Let Hypothesis stop at the first example that fails: nobody will read the simplest one."""
+    hypothesis = sys.modules.get("hypothesis")
+    if hypothesis is not None:
+        phases = set(hypothesis.settings().phases) - {hypothesis.Phase.shrink, hypothesis.Phase.explain}
+        hypothesis.settings.register_profile("mutation", hypothesis.settings(), phases=phases)
+        hypothesis.settings.load_profile("mutation")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -48,7 +60,8 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     usual = (_order["tests"] or {}).get(item.nodeid, 60.0)
     _seen.clear()
     began = time.perf_counter()
-    signal.setitimer(signal.ITIMER_REAL, _SECONDS + _TIMES * usual)
+    signal.setitimer(signal.ITIMER_PROF, _SECONDS + _TIMES * usual)
+    signal.setitimer(signal.ITIMER_REAL, _WAITING + _TIMES * usual)
     if _order["sources"]:
         threading.settrace(_trace)
         sys.settrace(_trace)
@@ -57,7 +70,8 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     finally:
         sys.settrace(None)
         threading.settrace(None)  # type: ignore[arg-type]
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        for timer in (signal.ITIMER_PROF, signal.ITIMER_REAL):
+            signal.setitimer(timer, 0)
         entry = _report.setdefault(item.nodeid, {})
         entry["seconds"] = round(time.perf_counter() - began, 3)
         entry["lines"] = _lines()

@@ -16,6 +16,8 @@ from mutation.workers import Processes, in_copies
 _KEPT = "reach.json"
 #: How many files of tests a process runs: what it has measured is kept when it ends.
 _TOGETHER = 15
+#: The nearness of a file of tests that is named after a source.
+_NAMED = 2
 
 
 class Reach:
@@ -75,12 +77,13 @@ class Reach:
         return chosen or self._running(mutant.path, None) or self.all_tests(near)
 
     def _running(self, source: str, lines: frozenset[int] | None) -> dict[str, float]:
-        """Tests that run some lines of a source, or any."""
+        """Tests that run some lines of a source; without lines, that run any of it or are named after it."""
         chosen: dict[str, dict[str, float]] = {}
         for path, entry in self.files.items():
+            named = _nearness(path, source) == _NAMED
             for name, test in entry["tests"].items():
                 reached = test["lines"].get(source, ())
-                if "outcome" not in test and (reached if lines is None else lines.intersection(reached)):
+                if "outcome" not in test and (reached or named if lines is None else lines.intersection(reached)):
                     chosen.setdefault(path, {})[name] = test["seconds"]
         ranked = sorted(chosen, key=lambda path: (-_nearness(path, source), sum(chosen[path].values())))
         return self._within_limit(
@@ -149,5 +152,5 @@ def _nearness(test: str, source: str) -> int:
     """How much of a file of tests' name is that of a source: the module's, else its folder's."""
     path, words = PurePosixPath(source), PurePosixPath(test)
     if test == source or words.stem == f"test_{path.stem}":
-        return 2
+        return _NAMED
     return int(path.parent.name in (words.parent.name, words.stem.removeprefix("test_")))

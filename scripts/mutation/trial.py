@@ -45,7 +45,7 @@ def tried(copy: Copy, processes: Processes, tests: Mapping[str, float], **variab
     for group in copy.project.sessions(tests):
         files = list(dict.fromkeys(name.split("::")[0] for name in group))
         code, report = processes.pytest(copy, files, {name: tests[name] for name in group}, variables=variables)
-        if code == -signal.SIGALRM:
+        if -code in (signal.SIGPROF, signal.SIGALRM):
             return result(TIMED_OUT, "")
         if code not in (_PASSED, _NONE):
             failed = (name for name, entry in report.items() if entry.get("outcome") == "failed")
