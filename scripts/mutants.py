@@ -25,7 +25,7 @@ from pathlib import Path
 from mutation.campaign import Results, Row, try_all
 from mutation.equivalents import Equivalents
 from mutation.native import NativeMutants
-from mutation.operators import Mutant
+from mutation.operators import Mutant, mutants
 from mutation.project import Project
 from mutation.reach import Reach
 from mutation.sampling import sample
@@ -54,8 +54,7 @@ def chosen(project: Project, sources: Sequence[str], asked: argparse.Namespace) 
     """Mutants that the options ask for."""
     texts = {path: project.read(path) for path in sources}
     if asked.again:
-        everything = sample(texts, sys.maxsize, asked.seed)
-        return [mutant for mutant in everything if mutant.id in asked.again]
+        return [mutant for path, text in texts.items() for mutant in mutants(path, text) if mutant.id in asked.again]
     if asked.only:
         texts = {path: text for path, text in texts.items() if any(path.startswith(one) for one in asked.only)}
     return sample(texts, asked.count, asked.seed)
@@ -89,9 +88,9 @@ def main(
     if asked.native:
         ids = NativeMutants(project, NATIVE).try_all(reach, results, asked.again)
     else:
-        mutants = chosen(project, sources, asked)
-        ids = [mutant.id for mutant in mutants]
-        try_all(project, reach, mutants, Equivalents(EQUIVALENT).reason, results, asked.jobs)
+        sampled = chosen(project, sources, asked)
+        ids = [mutant.id for mutant in sampled]
+        try_all(project, reach, sampled, Equivalents(EQUIVALENT).reason, results, asked.jobs)
     rows = [results.rows[name] for name in ids]
     print("\n" + as_text(rows))
     return rows

@@ -49,8 +49,11 @@ class Mutant:
     @property
     def texts(self) -> tuple[str, str]:
         """The changed lines before and after, without the spaces at their ends."""
-        lines = list(difflib.ndiff(self.source.splitlines(), self.mutated.splitlines()))
-        return tuple("\n".join(line[2:].strip() for line in lines if line.startswith(sign)) for sign in "-+")
+        before, after = self.source.splitlines(), self.mutated.splitlines()
+        while before and after and before[-1] == after[-1]:
+            before.pop(), after.pop()
+        same = next((k for k, pair in enumerate(zip(before, after, strict=False)) if pair[0] != pair[1]), 0)
+        return tuple("\n".join(line.strip() for line in lines[same:]) for lines in (before, after))
 
     @property
     def id(self) -> str:

@@ -69,7 +69,7 @@ class Reach:
         """Tests that run a mutant's lines with their seconds; the likeliest to find it first.
 
         Where the lines run only at import, or no test is known to run them, these are the tests that run anything of
-        the file; where none does either, any tests, those of the same name or folder first.
+        the file or are named after it; where there are none either, any tests, those of the same folder first.
         """
         lines = frozenset(range(mutant.first, mutant.last + 1))
         chosen = {} if mutant.at_import else self._running(mutant.path, lines)
