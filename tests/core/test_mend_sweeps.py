@@ -58,3 +58,22 @@ def test_sweeps_lower_the_energy_of_what_they_are_made_around(swept):
     mesh, around = swept
     worst = int(measure(mesh.points, mesh.hexes).eta.argmax())
     assert around([worst], sweeps=1) <= around([worst], sweeps=5)
+
+
+def test_corners_that_resist_are_left_out_as_those_that_are_locked():
+    """Half of a cube is folded back over the other: wherever the node in the middle goes, hexes are inverted."""
+    mesh = grid(2)
+    points = mesh.points.copy()
+    points[points[:, 0] == 2, 0] = -1.0
+    mesh = mesh.with_points(points)
+    energy, locked = MeshEnergy(mesh), mend.locked_corners(mesh)
+    walk = mend.Mend()._untangled(mesh, energy.but(energy.power, locked), locked)  # noqa: SLF001
+    while True:
+        try:
+            next(walk)
+        except StopIteration as end:
+            points, left_out = end.value
+            break
+    inverted = mend.inverted_corners(points, mesh.hexes)
+    np.testing.assert_array_equal(left_out, inverted | locked)
+    assert (inverted & ~locked).any()

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from hexmend.optimise import envelope as envelopes
+from hexmend.optimise.apart import Apart
 from hexmend.optimise.envelope import Envelope
 from hexmend.surface import Sliding
 from tests.core.grids import grid
@@ -72,3 +74,24 @@ def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
     assert one.above.size
     assert (one.rises == 0).all()
     assert one.above.min() == pytest.approx(other.above.min())
+
+
+def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, monkeypatch):
+    looked = []
+
+    class Counted(Apart):
+        def __init__(self, *given):
+            looked.append(1)
+            super().__init__(*given)
+
+    monkeypatch.setattr(envelopes, "Apart", Counted)
+    envelope = Envelope(sliding.mesh.n_nodes, sliding)
+    envelope.room = sliding.mesh.mean_edge_length
+    before, nodes = sliding.mesh.points, sliding.nodes[:3]
+    after = pushed(sliding, nodes, 0.1)
+    assert not envelope.leaves(before, after, nodes)
+    envelope.bounds(after, np.full(len(after), 0.1))
+    assert len(looked) == 1
+    assert envelope.leaves(after, pushed(sliding, nodes, 1.5), nodes)
+    envelope.bounds(after, np.full(len(after), 0.1))  # what was refused is not where it is
+    assert len(looked) == 1
