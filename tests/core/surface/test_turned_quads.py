@@ -1,0 +1,35 @@
+"""Nodes whose quads a step would turn over stay, but for those that may turn them."""
+
+import numpy as np
+
+from hexmend.surface import Sliding
+from tests.core.grids import grid
+
+
+def folded():
+    """A box whose top has a node that a step takes beyond its neighbour, and that node."""
+    mesh = grid(4)
+    node = int(np.flatnonzero((mesh.points == [2, 2, 4]).all(axis=1))[0])
+    after = mesh.points.copy()
+    after[node, 0] += 2.5
+    return mesh, Sliding(mesh), node, after
+
+
+def test_nodes_of_turned_quads_stay_where_they_are():
+    mesh, sliding, node, after = folded()
+    turned = sliding.turned(mesh.points, after)
+    assert turned.size
+    assert (sliding.boundary.faces[turned] == node).any(axis=1).all()
+    after[0] += 0.01  # of another quad, which is sound
+    back = sliding.unturned(mesh.points, after)
+    np.testing.assert_array_equal(back[node], mesh.points[node])
+    np.testing.assert_array_equal(back[0], after[0])
+
+
+def test_a_quad_of_which_one_node_may_turn_it_is_left_as_it_is():
+    mesh, sliding, node, after = folded()
+    may = np.zeros(mesh.n_nodes, dtype=bool)
+    may[node] = True
+    assert sliding.unturned(mesh.points, after, may) is after
+    may[:] = False
+    np.testing.assert_array_equal(sliding.unturned(mesh.points, after, may), mesh.points)
