@@ -25,11 +25,9 @@ def sample(sources: Mapping[str, str], count: int, seed: int) -> list[Mutant]:
     list of Mutant
         In the order of the files.
     """
-    sizes = {path: statements(text) for path, text in sources.items()}
-    chosen = []
-    for path, share in _shares(sizes, count).items():
-        chosen += _drawn(path, sources[path], seed)[:share]
-    return chosen
+    drawn = {path: _drawn(path, text, seed) for path, text in sources.items()}
+    sizes = {path: min(statements(text), len(drawn[path])) for path, text in sources.items()}
+    return [mutant for path, share in _shares(sizes, count).items() for mutant in drawn[path][:share]]
 
 
 def _shares(sizes: Mapping[str, int], count: int) -> dict[str, int]:
