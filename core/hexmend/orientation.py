@@ -42,8 +42,7 @@ def mirrored_parts(mesh: Mesh) -> np.ndarray:
         rounding = _rounding(mesh)
         wrong, right = volumes < -rounding, volumes > rounding
     part = parts_of(mesh)
-    count = part.max() + 1
-    of_part = (np.bincount(part, wrong, count) > 0) & (np.bincount(part, right, count) == 0)
+    of_part = (np.bincount(part, wrong) > 0) & (np.bincount(part, right) == 0)
     return of_part[part]
 
 

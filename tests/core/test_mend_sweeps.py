@@ -6,7 +6,7 @@ import pytest
 from hexmend.energy import MeshEnergy
 from hexmend.kernels import local
 from hexmend.quality import measure
-from hexmend.smoothers import mend
+from hexmend.smoothers.local_sweeps import local_sweeps
 from tests.core.grids import grid, scrambled
 
 
@@ -23,7 +23,7 @@ def swept(monkeypatch):
         hexes, omitted = np.zeros(mesh.n_hexes, bool), np.zeros(mesh.n_hexes, np.uint8)
         hexes[list(which)], omitted[list(left_out)] = True, 1
         x = energy.scaled(mesh.points)
-        there = mend._swept(energy, x, hexes, omitted, 0.0, sweeps)  # noqa: SLF001
+        there = local_sweeps(energy, x, hexes, omitted, 0.0, sweeps)
         assert len(asked) == sweeps
         np.testing.assert_array_equal(x, energy.scaled(mesh.points))
         asked.clear()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cells import Cells
 from hexmend.io.netcdf3_write import Writer
 from tests.core.grids import grid
 
@@ -36,3 +37,29 @@ def test_ids_at_the_ends_of_32_bits_are_read_again_and_the_file_says_how_wide_th
     begins = data.index(b"int64_status\0") + len(b"int64_status")
     wide = not -(2**31) <= number < 2**31
     assert (b"\x00\x00\x20\x00" in data[begins : begins + 24]) == wide
+
+
+@pytest.mark.parametrize("length", [5, 31, 32, 33, 80])
+def test_every_text_ends_with_a_zero_byte_as_programs_in_c_expect(length, tmp_path):
+    from scipy.io import netcdf_file
+
+    writer = Writer({})
+    writer.add_text("names", "n", ["a" * length, "b"])
+    writer.write(tmp_path / "a.nc")
+    with netcdf_file(tmp_path / "a.nc", mmap=False) as file:
+        letters = file.variables["names"]
+        assert letters.shape == (2, max(33, length + 1))
+        assert b"".join(letters[0]) == b"a" * length  # of zero bytes NumPy makes nothing
+
+
+@pytest.mark.parametrize("where", ["hexes", "quads", "both", "neither"])
+def test_there_is_a_time_step_where_any_block_has_results(where, tmp_path):
+    from scipy.io import netcdf_file
+
+    mesh = grid(2)
+    quads = Cells("quad", mesh.hexes[:1, 4:], {"t": np.array([2.0])} if where in ("quads", "both") else {})
+    mesh = mesh.replace(cells=(quads,), hex_data={"u": np.arange(8.0)} if where in ("hexes", "both") else {})
+    io.write(tmp_path / "a.exo", mesh)
+    with netcdf_file(tmp_path / "a.exo", mmap=False) as file:
+        assert file.variables["time_whole"].shape == ((1,) if where != "neither" else (0,))
+    assert list(io.read(tmp_path / "a.exo").hex_data) == (["u"] if where in ("hexes", "both") else [])

@@ -9,6 +9,7 @@ from scipy.optimize import linprog
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.io import read
+from hexmend.optimise import envelope as envelopes
 from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
 from hexmend.optimise.program import IDLE
 from hexmend.optimise.raising import Limit, Raising
@@ -238,3 +239,18 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
     assert raising.envelope.furthest(raising.points) <= room * (1 + 1e-5)
     change = surface_change(mesh, mesh.with_points(raising.points))
     assert change.furthest <= room * (1 + 1e-5)
+
+
+def test_while_a_boundary_is_brought_into_its_room_its_distances_are_followed(monkeypatch):
+    looked = []
+
+    class Counted(envelopes.Apart):
+        def __init__(self, *given):
+            looked.append(1)
+            super().__init__(*given)
+
+    mesh = slid(ball(3), 0.3, 1)
+    raising = lifted(Sliding(mesh), mesh.points, mesh.mean_edge_length, 4)
+    monkeypatch.setattr(envelopes, "Apart", Counted)
+    assert len(list(raising.into(0.1 * mesh.mean_edge_length))) > 2
+    assert len(looked) <= 1
