@@ -1,5 +1,6 @@
 """What methods prepare before their first step, and how they end where there is nothing to gain."""
 
+import numpy as np
 import pytest
 
 from hexmend.optimise import Outcome
@@ -30,3 +31,13 @@ def test_perfect_cubes_are_converged(name):
     result = smooth(grid(3), METHODS[name](), Stop(max_iterations=5))
     assert result.outcome is not Outcome.NO_DESCENT
     assert abs(result.mesh.points - grid(3).points).max() < 1e-9
+
+
+@pytest.mark.parametrize("exponent", [0.0, 1.0, 3.0])
+def test_weights_of_getme_are_those_of_the_paper_and_never_nothing(exponent):
+    q = np.array([0.0, 0.19, 0.75, 1.0])
+    weigh = METHODS["getme"](weights="paper", exponent=exponent).weigh
+    np.testing.assert_allclose(weigh(q)[:3], (1 - q[:3]) ** (exponent / 2))
+    assert (weigh(q) > 0).all()
+    np.testing.assert_allclose(METHODS["getme"]().weigh(q), [10, 0.19**-0.5, 0.75**-0.5, 1])
+    assert METHODS["getme"](weights="equal").weigh(q).tolist() == [1, 1, 1, 1]

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
-from hexmend.optimise.descent import descend
+from hexmend.optimise.descent import descend, perfect
 from hexmend.optimise.direction import Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
 from tests.core.grids import grid, scrambled
@@ -71,3 +71,12 @@ def test_from_an_infinite_energy_there_is_no_step():
     _, energy, x = problem(1, 2.0)
     assert not np.isfinite(energy.value(x, 0.0))
     assert descend(energy, x, 0.0, steepest_descent, BackLineSearch()) is None
+
+
+@pytest.mark.parametrize("delta", [0.0, 0.1])
+def test_only_what_rounding_leaves_is_perfect(delta):
+    energy = MeshEnergy(grid(3))
+    assert perfect(energy, 0.0, delta)
+    assert perfect(energy, 1e-31, delta)
+    assert not perfect(energy, 1e-6, delta)
+    assert not perfect(energy, 0.9, delta)
