@@ -102,7 +102,8 @@ class Mesh:
         hexes = as_hexes(self.hexes, len(points))
         if not len(hexes):
             raise MeshError("hexes have shape (0, 8): expected (m, 8) with at least one hex")
-        self._set(points=frozen(points), hexes=frozen(hexes))
+        # A view: meshes share one array of hexes only where one was made of the other and has its topology.
+        self._set(points=frozen(points), hexes=frozen(hexes).view())
         self._carry({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
         self._set(topology=Topology(self.hexes, len(points)))
 

@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding as kernels
 from hexmend.mesh import Mesh
-from hexmend.mesh_checks import points_like
+from hexmend.mesh_checks import as_points, points_like
 from hexmend.surface.bends import sliding_boundary
 from hexmend.surface.boundary import Kind, classify
 from hexmend.surface.change import NEAR
@@ -214,10 +214,14 @@ class Sliding(Room):
         return points
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
+        x = as_points(x, "places of sliding nodes")
         try:
             return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
         except MeshError:
-            row = np.flatnonzero(~(np.abs(x) < FARTHEST).all(axis=1))[0]
+            far = np.flatnonzero(~(np.abs(x) < FARTHEST).all(axis=1))
+            if not far.size:
+                raise
+            row = far[0]
             node = int((self.nodes if nodes is None else nodes)[row])
             raise MeshError(
                 f"node {node} cannot slide: no place of the surface is closest to {x[row].tolist()}; expected finite "
