@@ -6,6 +6,7 @@ import pytest
 from hexmend.energy import MeshEnergy
 from hexmend.kernels import local
 from hexmend.quality import measure
+from hexmend.smoothers import mend
 from hexmend.smoothers.local_sweeps import local_sweeps
 from tests.core.grids import grid, scrambled
 
