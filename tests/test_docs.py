@@ -47,6 +47,7 @@ def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, 
         assert texts[0] == texts[1], f"{file}: run make docs"
 
 
+@pytest.mark.slow
 def test_what_the_tutorial_says_can_be_done(tmp_path, monkeypatch, capsys):
     text = (DOCS / "tutorial.md").read_text(encoding="utf-8")
     listed = "".join(re.findall(r"^```\n(.*?)^```", text, re.DOTALL | re.MULTILINE))

@@ -60,6 +60,7 @@ def opened(site, tmp_path_factory):
         yield page, asked
 
 
+@pytest.mark.slow
 def test_search_finds_pages_that_are_read_from_the_disk(opened, site):
     page, asked = opened
     page.get_by_placeholder("Search").click()

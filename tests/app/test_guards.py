@@ -8,6 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+pytestmark = pytest.mark.slow
+
 FOUND = {
     "test_a_thread": "threads are left running: left alone",
     "test_a_thread_of_qt": "threads are left running: Dummy-",

@@ -64,6 +64,7 @@ def test_a_class_that_hides_a_method_of_qt_is_found():
     assert hidden_methods(Hiding) == {"children", "parent"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["window", "actions"])
 def test_qt_can_ask_the_window_for_itself_and_for_its_actions(window, name):
     assert callable(getattr(window, name))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import shiboken6
 from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QAbstractSpinBox, QComboBox, QLineEdit
 
@@ -12,6 +13,8 @@ from hexmend_app.state.scene import Camera
 from tests.app.driving import click, phase
 from tests.app.picturing import everything
 from tests.patience import PATIENCE
+
+pytestmark = pytest.mark.slow
 
 
 def fiddle(window):

@@ -63,6 +63,7 @@ def energy(mesh, smoother):
     return objective(measure(mesh.points, mesh.hexes), *smoother.power)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", MESHES)
 def test_following_a_suggestion_helps(which):
     name, parameters = MESHES[which]

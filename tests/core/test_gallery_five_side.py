@@ -39,6 +39,7 @@ def area(points, quads):
     return (px * qy - py * qx).sum() / 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "quads", "boundary", "free"), THESIS)
 def test_counts_are_those_of_the_thesis(size, quads, boundary, free):
     mesh = make("five-side", size=size)

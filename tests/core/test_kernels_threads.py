@@ -174,6 +174,7 @@ print(time.process_time() - before)
     assert float(program(BEGIN + idle)) < 0.03
 
 
+@pytest.mark.slow
 def test_a_process_ends_quietly_while_threads_wait_or_work():
     assert program(BEGIN) == ""
     beside = """

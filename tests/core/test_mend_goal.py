@@ -36,6 +36,7 @@ def figures(mesh):
     return measured.n_inverted, measured.scaled_jacobian.min(), measured.q.min()
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(
     name=st.sampled_from(sorted(MESHES)),

@@ -35,6 +35,7 @@ def turned(mesh, seed):
     return mesh.with_points(mesh.points @ special_ortho_group.rvs(3, random_state=random).T + random.normal(size=3))
 
 
+@pytest.mark.slow
 @settings(max_examples=12)
 @given(st.sampled_from(sorted(FLAT)), goals, st.floats(0, 0.3), st.sampled_from([0.0, 0.3, "unlimited"]), seeds)
 def test_flat_solids_keep_surface_and_volume(solid, goal, amplitude, tolerance, seed):
@@ -47,6 +48,7 @@ def test_flat_solids_keep_surface_and_volume(solid, goal, amplitude, tolerance, 
     assert result.surface.features_kept == result.surface.features
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(
     solid=st.sampled_from(sorted(SOLIDS)),

@@ -105,6 +105,7 @@ def test_control_c_ends_compare_with_a_table_of_what_was_done(mesh, tmp_path):
     assert record["rows"][1]["iterations"] >= 1
 
 
+@pytest.mark.slow
 def test_control_c_ends_the_study_with_a_report(tmp_path):
     words = ["study", "thesis", "--quick", "--only", "4.5", "--only", "4.11", "-o", tmp_path]
     status, _, err = interrupted(*words, at="local-sd: iteration")

@@ -63,6 +63,7 @@ def test_a_method_without_an_objective_keeps_its_best_iterate_of_equals_the_last
     assert min(ranks) not in ranks[result.kept + 1 :]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, method in METHODS.items() if method.optimises and name != "mend"])
 @settings(max_examples=8)
 @given(mesh=meshes())
@@ -193,6 +194,7 @@ def test_laplacian_ends_with_no_more_inverted_hexes_on_real_meshes(real_mesh, na
     assert result.after.inverted < result.before.inverted or result.after.q_min >= result.before.q_min
 
 
+@pytest.mark.slow
 def test_smart_laplacian_does_not_spoil_the_worst_hex(real_mesh):
     mesh = io.read(real_mesh("pierrot_32735.mesh"))
     result = smooth(mesh, "smart-laplacian")

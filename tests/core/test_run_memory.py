@@ -58,6 +58,7 @@ def limited(megabytes, *words):
     return subprocess.run(command, capture_output=True, text=True, env=os.environ | ALONE)
 
 
+@pytest.mark.slow
 @on_linux
 @pytest.mark.parametrize("name", METHODS)
 def test_a_run_takes_about_what_its_method_declares(name):

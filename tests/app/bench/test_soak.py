@@ -37,6 +37,7 @@ def test_memory_that_a_round_keeps_grows():
     assert leaking.growth == pytest.approx(90, abs=25)
 
 
+@pytest.mark.slow
 def test_a_mesh_that_cannot_be_opened_ends_it(qapp, tmp_path):
     with pytest.raises(FileError, match=r"none\.vtu"):
         list(soak([tmp_path / "none.vtu"], 0))
@@ -51,6 +52,7 @@ def test_where_memory_is_not_told_that_is_said_at_once(qapp, monkeypatch, capsys
     assert "soak needs a system that tells" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_command_works_in_a_window_and_writes_every_round(qapp, tmp_path, capsys):
     write(tmp_path / "small.vtu", make("five-side", size=300, scramble=0.3))
     code = main(["soak", str(tmp_path / "small.vtu"), "--minutes", "0", "--json", str(tmp_path / "soak.json")])

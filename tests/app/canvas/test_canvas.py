@@ -67,6 +67,7 @@ def double_click(canvas, place):
     QTest.mouseRelease(view, LEFT, pos=place)
 
 
+@pytest.mark.slow
 def test_views_are_gone_back_and_forward_through(canvas, qtbot):
     home = pose(canvas)
     assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
@@ -95,6 +96,7 @@ def test_views_are_gone_back_and_forward_through(canvas, qtbot):
     assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
 
 
+@pytest.mark.slow
 def test_going_back_at_once_leads_to_where_the_camera_was(canvas, qtbot):
     home = pose(canvas)
     canvas.look_along("+x")
@@ -107,6 +109,7 @@ def test_going_back_at_once_leads_to_where_the_camera_was(canvas, qtbot):
     assert pose(canvas).looks_like(side)
 
 
+@pytest.mark.slow
 def test_strokes_of_keys_in_a_row_are_one_view(canvas, qtbot):
     home = pose(canvas)
     for _ in range(4):
@@ -127,6 +130,7 @@ def test_a_key_that_says_nothing_does_not_end_a_flight(canvas, qtbot):
     assert not canvas.travel.under_way
 
 
+@pytest.mark.slow
 def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
     home = pose(canvas)
     for h in (3, 60):  # from one to the next
@@ -142,6 +146,7 @@ def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
     assert not canvas.travel.under_way
 
 
+@pytest.mark.slow
 def test_an_excursion_begun_on_the_way_ends_where_the_way_led(canvas, qtbot):
     canvas.fly_to(3)
     canvas.remember_pose()
@@ -152,6 +157,7 @@ def test_an_excursion_begun_on_the_way_ends_where_the_way_led(canvas, qtbot):
     np.testing.assert_allclose(pose(canvas).focal, MESH.points[MESH.hexes[3]].mean(axis=0), atol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_double_click_sets_what_the_camera_turns_about(canvas, qtbot):
     clicks = []
     canvas.clicked.connect(clicks.append)
@@ -246,12 +252,14 @@ def test_a_plane_is_flown_to(canvas, qtbot):
     np.testing.assert_allclose(canvas.viewport.camera.GetDirectionOfProjection(), (0, -1, 0), atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_view_keeps_a_least_size(canvas):
     canvas.resize(50, 50)
     assert canvas.interactor.width() >= 320
     assert canvas.interactor.height() >= 240
 
 
+@pytest.mark.slow
 def test_the_colour_bar_keeps_off_what_closes_views(canvas, qtbot):
     others = [(MESH, FIGURES)] * 3
     for size in ((600, 500), (900, 700), (420, 320)):

@@ -1,9 +1,12 @@
 """Light on the mesh comes beside the window, once nothing moves."""
 
 import numpy as np
+import pytest
 
 from hexmend_app.state.look import Look
 from tests.patience import PATIENCE
+
+pytestmark = pytest.mark.slow
 
 
 def rested(window, qtbot):

@@ -44,6 +44,7 @@ def test_the_project_joins_with_it():
     assert EntryPoint("meshes", value, "hexmend.figures").load() is draw
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("figure", MESH_FIGURES, ids=lambda figure: figure.number)
 def test_a_figure_is_small_and_shows_something(drawn, figure):
     path = drawn[figure.number]

@@ -5,7 +5,11 @@ import signal
 import subprocess
 import sys
 
+import pytest
+
 from hexmend import gallery, io
+
+pytestmark = pytest.mark.slow
 
 #: The program; the signal comes while VTK calls Python back.
 PROGRAM = """

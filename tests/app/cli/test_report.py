@@ -15,6 +15,8 @@ from hexmend.cli import main as program
 from hexmend.run import memory
 from hexmend_app.cli import figure_set, report
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[3]
 METHODS = ["--methods", "laplacian,mend", "--max-iterations", "8"]
 

@@ -10,6 +10,7 @@ from hexmend.study import experiments
 from hexmend_app.cli import figure_set
 
 
+@pytest.mark.slow
 def test_the_figures_of_the_thesis_are_drawn_by_one_command(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(program, "commands", lambda: {"figures": lambda: figure_set.command})
     whole = files("hexmend.study").joinpath("thesis.toml").read_text(encoding="utf-8")

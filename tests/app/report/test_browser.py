@@ -58,6 +58,7 @@ def pixels(picture):
     return np.frombuffer(picture, np.uint8).reshape(-1, 3)
 
 
+@pytest.mark.slow
 def test_it_opens_without_complaint_and_asks_nothing_of_a_network(fresh, written):
     assert colours(fresh.canvas()) > 20
     assert fresh.complaints == []
@@ -92,6 +93,7 @@ def test_reset_brings_back_the_first_picture(fresh):
     assert fresh.canvas() == first
 
 
+@pytest.mark.slow
 def test_mouse_and_keys_turn_it(fresh):
     seen = {fresh.canvas()}
     box = fresh.control("canvas").bounding_box()
@@ -163,6 +165,7 @@ def test_it_counts_what_is_shown(fresh, case):
     assert fresh.text("count").startswith(f"{int((~apart & (first.figures.q <= 0.7)).sum()):,} of")
 
 
+@pytest.mark.slow
 def test_fingers_turn_and_zoom_it(browser, written):
     with browser(has_touch=True) as opened:
         opened.open(written)
@@ -179,6 +182,7 @@ def test_fingers_turn_and_zoom_it(browser, written):
         assert len(seen) == 3
 
 
+@pytest.mark.slow
 def test_without_webgl_the_picture_stands_in_its_place(browser, written):
     with browser(("--disable-3d-apis",)) as opened:
         opened.open(written, alive=False)
@@ -187,6 +191,7 @@ def test_without_webgl_the_picture_stands_in_its_place(browser, written):
         assert not opened.control("canvas").is_visible()
 
 
+@pytest.mark.slow
 def test_drawings_have_texts(fresh):
     plots = fresh.page.locator(".pair svg")
     assert [plots.nth(k).locator("text", has_text="mend").count() > 0 for k in range(plots.count())] == [True, True]
@@ -199,6 +204,7 @@ def test_every_picture_says_what_it_shows(fresh):
     assert "cut open across x at 50 % of its extent" in cut
 
 
+@pytest.mark.slow
 def test_contents_lead_to_every_part_of_several_meshes(browser, case, tmp_path):
     path = tmp_path / "report.html"
     told = [chapter(case, STYLE, [], alive=False, place=place) for place in ("mesh-1", "mesh-2")]
@@ -224,6 +230,7 @@ def test_on_paper_there_are_pictures_and_no_controls(fresh):
         fresh.page.emulate_media(media="screen")
 
 
+@pytest.mark.slow
 def test_it_is_dark_where_that_is_asked_for(fresh):
     shades = []
     for scheme in ("light", "dark"):
@@ -233,6 +240,7 @@ def test_it_is_dark_where_that_is_asked_for(fresh):
     assert shades[0] > 200 > 60 > shades[1]
 
 
+@pytest.mark.slow
 def test_names_from_outside_are_text(browser, case, tmp_path):
     name = "</script><script>document.title='taken'</script><img src=x onerror=\"document.title='taken'\">$x_"
     versions = tuple(replace(one, name=f"{k}{name}") for k, one in enumerate(case.versions))

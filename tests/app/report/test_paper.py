@@ -15,6 +15,7 @@ _MARKED = html.heading(3, "The worst hexes", id="heading") + _TABLE.replace("<ca
 )
 
 
+@pytest.mark.slow
 def test_a_heading_is_on_the_page_of_the_table_that_follows():
     weasyprint = pytest.importorskip("weasyprint")
     style = resource("report/page.css").read_text(encoding="utf-8")

@@ -208,6 +208,7 @@ def test_panels_that_are_no_more_do_not_matter(docks, another):
 # The window
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [(1366, 768), (1920, 1080)], ids="{0[0]} x {0[1]}".format)
 def test_the_view_has_most_of_the_window_in_the_default_layout(window, qtbot, size):
     open_and_wait(qtbot, window, demo_mesh())
@@ -222,6 +223,7 @@ def test_the_view_has_most_of_the_window_in_the_default_layout(window, qtbot, si
     assert view.width() * view.height() >= 0.7 * window.width() * window.height()
 
 
+@pytest.mark.slow
 def test_the_layout_is_kept_from_one_window_to_the_next(fresh_window, qtbot):
     window = fresh_window
     window.show_panel("tags")

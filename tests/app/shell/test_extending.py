@@ -70,6 +70,7 @@ def with_metric(monkeypatch):
     monkeypatch.setattr(METRICS, "_entries", {**METRICS, "oddy": module["ODDY"]})
 
 
+@pytest.mark.slow
 def test_a_metric_is_in_the_lists_and_colours_pictures(with_metric, with_folder, tmp_path):
     boxes = [box for box in with_folder.findChildren(QComboBox) if box.accessibleName() == "Metric"]
     assert boxes

@@ -81,6 +81,7 @@ def test_a_feature_reaches_menu_palette_keys_and_window(with_example, qtbot):
     assert window.in_front("count")
 
 
+@pytest.mark.slow
 def test_whatever_changes_in_a_turn_of_the_event_loop_is_shown_once(with_example, qtbot):
     window = with_example
     example = window.features["counting"]
@@ -115,6 +116,7 @@ def test_every_folder_is_a_feature():
     assert len(names) == len(set(names))
 
 
+@pytest.mark.slow
 def test_the_page_of_keys_in_the_docs_is_what_the_features_declare(window):
     """`make docs` writes it."""
     page = Path(__file__).resolve().parents[3] / "docs" / "keys.md"

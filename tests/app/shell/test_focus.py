@@ -22,6 +22,8 @@ from hexmend_app.scene.palette import BLUE
 from hexmend_app.widgets.section import Section
 from tests.app.driving import LEFT, choose_by_keys, key, named
 
+pytestmark = pytest.mark.slow
+
 SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 

@@ -69,6 +69,7 @@ def test_a_hex_is_tagged_only_under_a_name_and_only_if_there_is_one(window):
     assert window.session.document.now.mesh.hex_sets["bad"].tolist() == [7]
 
 
+@pytest.mark.slow
 def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
     window.session.commands.tag("one", [1])
     choose(window, "laplacian")
@@ -98,6 +99,7 @@ def test_what_a_smooth_cut_takes_away_is_not_tagged_as_shown(window, notch):
     assert mesh.hex_sets["shown"].tolist() == np.flatnonzero(~gone).tolist()
 
 
+@pytest.mark.slow
 def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
     size = np.ptp(window.session.document.now.mesh.points, axis=0)
     low = window.session.document.now.mesh.points.min(axis=0)
@@ -147,6 +149,7 @@ def test_a_mesh_in_other_units_opens_after_a_cut(window, qtbot, tmp_path):
         assert 0 < window.canvas.viewport.shown < mesh.n_hexes
 
 
+@pytest.mark.slow
 def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tmp_path):
     mesh = scrambled(grid(3), 0.3)
     stray = Mesh(np.concatenate([mesh.points, [[1e4, 1e4, 1e4]]]), mesh.hexes)
@@ -156,6 +159,7 @@ def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tm
     assert 0 < window.canvas.viewport.shown < mesh.n_hexes
 
 
+@pytest.mark.slow
 def test_a_picture_has_the_elements_of_the_view_where_nodes_moved_since_the_cut(window, tmp_path):
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), middle(window)))
     window.refresh()
@@ -178,6 +182,7 @@ def _found(view, place):
     return hit and (hit.hex, hit.node)
 
 
+@pytest.mark.slow
 def test_a_click_that_turns_the_mesh_a_little_takes_what_is_under_it(window, qtbot, monkeypatch):
     monkeypatch.setattr(body, "MANY", 10)
     view = window.canvas.viewport

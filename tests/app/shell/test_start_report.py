@@ -19,6 +19,7 @@ def loaded(moment):
     return {name.partition(".")[0] for name in moment["modules"]}
 
 
+@pytest.mark.slow
 def test_the_window_is_there_first_and_then_its_mesh(moments):
     assert list(moments) == list(MOMENTS)
     assert 0 < moments["window"]["seconds"] < moments["picture"]["seconds"]

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import pytest
+
 from hexmend_app.shell.features import FIRST, names
 from hexmend_app.shell.starting import Starting
 from tests.patience import PATIENCE
+
+pytestmark = pytest.mark.slow
 
 
 def test_the_mesh_is_drawn_before_the_other_features_are_there(bare_window, qtbot, mesh_file):

@@ -43,6 +43,8 @@ from tests.app.driving import named, pixels, turn
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 MESH = scrambled(grid(5), 0.9, 4)
 FIGURES = measure(MESH.points, MESH.hexes)
 WORST = int(FIGURES.scaled_jacobian.argmin())

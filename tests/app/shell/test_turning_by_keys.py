@@ -9,6 +9,8 @@ from PySide6.QtTest import QTest
 
 from tests.app.driving import pixels
 
+pytestmark = pytest.mark.slow
+
 SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 

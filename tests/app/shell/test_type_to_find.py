@@ -108,6 +108,7 @@ def test_elsewhere_letters_are_the_windows_and_digits_a_number_boxs(lists):
     assert lists.pressed == ["L", "S"]
 
 
+@pytest.mark.slow
 def test_a_method_is_found_by_typing_and_the_worst_hexes_are_still_gone_through(window):
     box = named(window.features["smooth"].panel, QComboBox, "Method")
     box.setFocus(Qt.FocusReason.TabFocusReason)

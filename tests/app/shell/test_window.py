@@ -16,6 +16,8 @@ from hexmend_app.widgets.section import Section
 from tests.app.driving import LEFT, drag, key, named, pixels
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 
 def test_an_opened_mesh_is_shown_with_its_figures(window):
     assert window.windowTitle().startswith("bridge.vtu")

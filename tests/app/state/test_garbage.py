@@ -43,6 +43,7 @@ def test_it_is_collected_while_the_window_waits(garbage, qtbot):
     assert kept
 
 
+@pytest.mark.slow
 def test_old_garbage_goes_too(garbage):
     went = []
     circle = Circle(went)

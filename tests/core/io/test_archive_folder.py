@@ -105,6 +105,7 @@ def test_where_the_description_cannot_be_written_no_array_is_left(tmp_path):
     assert read_archive(path, KIND, 1)[1][0].tolist() == [0, 1, 2]
 
 
+@pytest.mark.slow
 def test_whenever_its_writer_is_killed_the_tree_is_whole(tmp_path):
     path = tmp_path / "tree"
     for writes in (1, 2, 5, 9, 14):

@@ -24,6 +24,7 @@ def bytes_of(suffix, encoding, folder):
     return path.read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("suffix", "encoding"), WAYS)
 def test_cut_or_flipped_files_give_a_mesh_or_a_clear_error(suffix, encoding, tmp_path):
     good = bytes_of(suffix, encoding, tmp_path)

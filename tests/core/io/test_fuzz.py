@@ -8,6 +8,8 @@ import pytest
 
 from hexmend.io.format import FORMATS
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = Path(__file__).resolve().parents[3] / "scripts/fuzz_readers.py"
 
 #: Formats of which each file is read in a process of its own, which takes its time.

@@ -102,6 +102,7 @@ def test_sets_and_pins_survive_from_format_to_format(first, second, tmp_path):
     assert_carried(mesh, io.read(tmp_path / f"b{second}"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("suffix", "encoding"), EXACT)
 @given(points=arrays(np.float64, (8, 3), elements=st.floats(-1e70, 1e70)))
 def test_every_finite_coordinate_survives(suffix, encoding, points, tmp_path_factory):
@@ -146,6 +147,7 @@ def test_version_5_of_the_legacy_format_is_read(tmp_path):
     assert io.read(tmp_path / "v.vtk").hex_data["id"].tolist() == [7]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".vtk", ".vtu"])
 def test_vtk_itself_reads_what_is_written(suffix, tmp_path):
     import subprocess

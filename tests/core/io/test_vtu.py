@@ -189,6 +189,7 @@ def packed(size, *, blocks=1):
     return (b64encode(head.tobytes()) + b64encode(block * blocks)).decode()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("consistent", [False, True])
 def test_a_small_file_cannot_fill_the_memory(consistent, tmp_path):
     """256 MB of zeros in 260 kB: refused before they are unpacked, whether the piece's counts agree with them or not."""

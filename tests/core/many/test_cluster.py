@@ -13,6 +13,8 @@ import pytest
 from hexmend.cli.main import main
 from tests.core.many.conftest import is_running, wait_until
 
+pytestmark = pytest.mark.slow
+
 pytest.importorskip("distributed", reason="Dask's distributed is not installed")
 
 WAITS = '[[method]]\nmethod = "trial"\nparameters = { does = "wait", number = [1, 2, 3, 4, 5, 6] }'

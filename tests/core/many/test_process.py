@@ -69,6 +69,7 @@ def test_memory_is_held(laboratory):
     assert 100 < row["peak_mb"] < 700
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not hold memory so")
 def test_memory_that_does_not_suffice_for_reading_is_told_as_such(tmp_path):
     io.write(tmp_path / "large.vtu", gallery.make("cube", size=125_000))

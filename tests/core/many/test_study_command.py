@@ -12,6 +12,8 @@ from hexmend.cli.main import main
 from hexmend.study.many.columns import COLUMNS
 from tests.core.many.conftest import is_running, wait_until
 
+pytestmark = pytest.mark.slow
+
 DEEDS = '[[method]]\nmethod = "trial"\nparameters = { does = ["rest", "raise", "crash"] }'
 WAITS = '[[method]]\nmethod = "trial"\nparameters = { does = "wait", number = [1, 2, 3, 4, 5, 6] }'
 

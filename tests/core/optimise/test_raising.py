@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
@@ -59,6 +60,7 @@ def with_locked_corner(mesh):
     return mesh.with_points(points)
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(seeds, st.floats(0.1, 1.2))
 def test_the_least_rises_from_step_to_step_and_fixed_nodes_stay(seed, amplitude):
@@ -75,6 +77,7 @@ def test_the_least_rises_from_step_to_step_and_fixed_nodes_stay(seed, amplitude)
     np.testing.assert_array_equal(raising.corners.values, scaled_jacobians(raising.points, mesh.hexes))
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(seeds, st.floats(0.1, 0.5))
 def test_a_scrambled_grid_is_raised_to_that_of_cubes(seed, amplitude):

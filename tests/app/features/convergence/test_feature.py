@@ -68,6 +68,7 @@ def test_branches_begin_where_they_left_or_at_nought_and_are_forgotten(window, q
     assert [one.shown for one in panel.curves] == [True, False]
 
 
+@pytest.mark.slow
 def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbot, panel):
     drawn = []
     original = panel.set_curves
@@ -85,6 +86,7 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
     qtbot.waitUntil(lambda: drawn[-1] == window.session.smoothing.record.newest + 1, timeout=3000)
 
 
+@pytest.mark.slow
 def test_what_is_behind_other_docks_is_drawn_as_it_comes_to_the_front(window, qtbot):
     panel, record = window.features["convergence"].panel, run(window, qtbot)
     assert record not in [one.record for one in panel.curves]
@@ -92,6 +94,7 @@ def test_what_is_behind_other_docks_is_drawn_as_it_comes_to_the_front(window, qt
     qtbot.waitUntil(lambda: [one.record for one in panel.curves] == [record], timeout=PATIENCE)
 
 
+@pytest.mark.slow
 def test_another_mesh_has_no_curves(window, qtbot, panel, mesh_file):
     run(window, qtbot)
     window.session.document.replace(window.session.document.start, mesh_file)
@@ -99,6 +102,7 @@ def test_another_mesh_has_no_curves(window, qtbot, panel, mesh_file):
     assert panel.curves == []
 
 
+@pytest.mark.slow
 def test_the_charts_are_saved_as_figures_and_all_figures_of_all_runs_as_a_table(window, qtbot, panel, tmp_path):
     first = run(window, qtbot, "mend", 5)
     window.session.timeline.go(first, 2)

@@ -60,6 +60,7 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
     assert window.features["cut"].panel.clip() == after
 
 
+@pytest.mark.slow
 def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "X")
@@ -78,6 +79,7 @@ def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window
     assert window.session.view.look.clip != straight
 
 
+@pytest.mark.slow
 def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
     whole = moving(window)
     key(window, Qt.Key.Key_C)

@@ -26,6 +26,7 @@ def asked(tmp_path, monkeypatch):
     return folder
 
 
+@pytest.mark.slow
 def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtbot, asked):
     stepped(window, qtbot, 4)
     window.session.smoothing.end_now()

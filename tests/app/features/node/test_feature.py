@@ -76,6 +76,7 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
     assert shown(window).energy != step.energy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", list(METHODS))
 def test_every_method_is_explained(at_work, qtbot, name):
     choose_by_keys(at_work, name)
@@ -124,6 +125,7 @@ def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
     assert not window.window_actions["next_node"].isEnabled()
 
 
+@pytest.mark.slow
 def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_made(at_work, qtbot):
     window = at_work
     with qtbot.waitSignal(window.session.smoothing.phase_changed, timeout=PATIENCE):
@@ -159,6 +161,7 @@ def test_nothing_is_worked_out_while_another_panel_is_in_front(at_work, qtbot):
 # What is seen
 
 
+@pytest.mark.slow
 def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictures(at_work, qtbot, tmp_path):
     window = at_work
     box = patch_alone(window)

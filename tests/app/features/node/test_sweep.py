@@ -102,6 +102,7 @@ def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, t
     np.testing.assert_array_equal(window.session.document.now.mesh.points, stepped.mesh.points)
 
 
+@pytest.mark.slow
 def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qtbot):
     window = at_work
     choose_by_keys(window, "laplacian")

@@ -43,6 +43,7 @@ def mesh(tmp_path):
     return tmp_path / "mesh.vtu"
 
 
+@pytest.mark.slow
 def test_a_picture_brings_back_mesh_look_and_camera(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     look, stand = looked_at(window, qtbot)
@@ -60,6 +61,7 @@ def test_a_picture_brings_back_mesh_look_and_camera(window, qtbot, mesh, tmp_pat
     assert np.abs(one.astype(int) - other).mean() < 0.2
 
 
+@pytest.mark.slow
 def test_what_ran_comes_back_as_a_recipe(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     stage = Stage(METHODS["laplacian"](), Stop(max_iterations=3))

@@ -68,6 +68,7 @@ def run(window, qtbot):
     window.refresh()
 
 
+@pytest.mark.slow
 def test_what_no_file_gives_is_said(window, qtbot, files, tmp_path):
     open_and_wait(qtbot, window, files["one"])
     session = window.session
@@ -86,6 +87,7 @@ def test_what_no_file_gives_is_said(window, qtbot, files, tmp_path):
     assert "“a result” is not shown: it is an iteration, or a result, of a run on one.vtu, which the file alone" in text
 
 
+@pytest.mark.slow
 def test_of_a_session_results_come_back_too(window, qtbot, files, tmp_path):
     open_and_wait(qtbot, window, files["one"])
     session = window.session

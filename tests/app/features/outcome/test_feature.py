@@ -125,6 +125,7 @@ def test_a_run_that_is_taken_back_is_explained_as_one_whose_result_is_not_shown(
     assert "The mesh is shown as it was" not in said(window)
 
 
+@pytest.mark.slow
 def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", gallery.make("bridge-sharp", size=864))
     open_and_wait(qtbot, window, tmp_path / "sound.vtu")

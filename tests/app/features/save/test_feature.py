@@ -58,6 +58,7 @@ def test_a_picture_has_the_size_asked_for_whatever_the_window(window, tmp_path, 
     assert colourful.mean() > 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("views", [1, 2, "wipe"])
 def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, views):
     session = window.session

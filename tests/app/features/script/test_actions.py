@@ -152,6 +152,7 @@ def can_be_done(window, action):
     return action.isEnabled()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("group", TOLD)
 def test_what_an_action_does_is_seen_in_the_script(window, qtbot, others, group):
     script = window.features["script"].script

@@ -20,6 +20,8 @@ from hexmend_app.state.run import Phase
 from tests.app.driving import choose, open_and_wait, phase
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 SHORT = Stop(max_iterations=4, tolerance=0)
 
 #: Columns that are other figures each time.

@@ -150,6 +150,7 @@ def test_a_mesh_that_is_saved_in_a_pause_is_that_of_the_iteration(session, qtbot
     same_again(session, tmp_path)
 
 
+@pytest.mark.slow
 def test_an_iteration_that_was_gone_back_to_is_where_a_branch_begins(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
     session.commands.pin(3, True)
@@ -161,6 +162,7 @@ def test_an_iteration_that_was_gone_back_to_is_where_a_branch_begins(session, qt
     same_again(session, tmp_path)
 
 
+@pytest.mark.slow
 def test_a_sweep_node_by_node_is_made_again(session, tmp_path):
     smoother = METHODS["local-sd"]()
     session.stepping.advance(smoother, 12)
@@ -170,6 +172,7 @@ def test_a_sweep_node_by_node_is_made_again(session, tmp_path):
     assert text.count("sweep = Sweep(") == 2
 
 
+@pytest.mark.slow
 def test_what_the_doctor_mends_is_mended_again(session, qtbot, tmp_path):
     one = make("cube", size=27)
     other = one.points + [np.ptp(one.points[:, 0]), 0, 0]
@@ -186,6 +189,7 @@ def test_what_the_doctor_mends_is_mended_again(session, qtbot, tmp_path):
     assert f"repair(mesh_1, ('{first.kind}',))[0].keeping_surface()" in text
 
 
+@pytest.mark.slow
 def test_a_method_that_was_compared_and_taken_is_run_again(session, qtbot, tmp_path):
     session.commands.pin(7, True)
     session.comparison.start([METHODS["laplacian"](), METHODS["getme"](relaxation=0.75)], SHORT)
@@ -196,6 +200,7 @@ def test_a_method_that_was_compared_and_taken_is_run_again(session, qtbot, tmp_p
     same_again(session, tmp_path)
 
 
+@pytest.mark.slow
 def test_a_session_that_is_opened_is_gone_on_from_with_its_way_back(session, qtbot, tmp_path):
     session.commands.pin(7, True)
     run(qtbot, session, stage("laplacian"))
@@ -210,6 +215,7 @@ def test_a_session_that_is_opened_is_gone_on_from_with_its_way_back(session, qtb
     assert "read_session(" in same_again(session, tmp_path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["x\nraise SystemExit(3) #", "x\rraise SystemExit(3) #", "x\0"])
 def test_what_a_session_calls_a_run_ends_no_comment(session, qtbot, tmp_path, name):
     session.script.scene = Scene
@@ -222,6 +228,7 @@ def test_what_a_session_calls_a_run_ends_no_comment(session, qtbot, tmp_path, na
     same_again(session, tmp_path)
 
 
+@pytest.mark.slow
 def test_begun_anew_after_a_run_it_goes_on_from_what_the_run_made(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
     session.script.begin_anew()
@@ -245,6 +252,7 @@ def test_begun_anew_after_runs_from_one_start_it_goes_on_from_there(session, qtb
     assert "save it under this name first" in session.script.text
 
 
+@pytest.mark.slow
 def test_a_comparison_that_a_session_holds_is_read_from_it(session, qtbot, tmp_path):
     session.comparison.start([METHODS["local-sd"](), METHODS["laplacian"]()], SHORT)
     qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
@@ -261,6 +269,7 @@ def test_a_comparison_that_a_session_holds_is_read_from_it(session, qtbot, tmp_p
     same_again(session, tmp_path)
 
 
+@pytest.mark.slow
 def test_a_session_that_is_saved_over_is_read_by_its_new_numbers(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
     run(qtbot, session, stage("laplacian"))

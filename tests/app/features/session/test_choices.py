@@ -19,6 +19,8 @@ from tests.app.resetting import setting_of
 from tests.app.test_resetting import known, live
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 #: What there is to compare of two windows besides their widgets, and what of it is a run's, or of the place of panels.
 _KEPT = ("session.", "camera ", "look that", "hexes that", "action ")
 _NOT_KEPT = (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
@@ -20,6 +21,8 @@ from hexmend_app.state.run import Phase
 from hexmend_app.state.scene import Camera
 from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
+
+pytestmark = pytest.mark.slow
 
 
 def run(window, qtbot, method, iterations=4):

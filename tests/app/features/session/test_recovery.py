@@ -20,6 +20,8 @@ from hexmend_app.state.places import VARIABLE
 from tests.app.driving import open_and_wait, press
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 #: A window that smooths a mesh, tells what it has come to once that is kept, and never ends by itself.
 _PROGRAM = """
 import hashlib, json, sys

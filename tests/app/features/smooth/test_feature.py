@@ -40,6 +40,7 @@ def counts(window):
     return named(window, QLabel, "Counts").text()
 
 
+@pytest.mark.slow
 def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
     window, document = endless, endless.session.document
     start = document.now
@@ -89,6 +90,7 @@ def test_what_is_said_of_a_run_goes_as_its_result_does_and_comes_back_with_it(wi
     assert named(panel, QLabel, "Progress").text() == progress
 
 
+@pytest.mark.slow
 def test_keys_step_and_stop(window, qtbot):
     start = window.session.document.now
     key(window, Qt.Key.Key_F10)
@@ -98,6 +100,7 @@ def test_keys_step_and_stop(window, qtbot):
     assert window.session.document.now is not start
 
 
+@pytest.mark.slow
 def test_the_picture_follows_the_iterations(window, qtbot):
     before = pixels(window)
     click(window, "Step")
@@ -163,6 +166,7 @@ def running_window(fresh_window, qtbot):
     return fresh_window
 
 
+@pytest.mark.slow
 def test_closing_while_running_leaves_no_thread(running_window):
     assert "smoother local-sd" in [task.name for task in running()]
     running_window.close()
@@ -170,6 +174,7 @@ def test_closing_while_running_leaves_no_thread(running_window):
     assert not running_window.isVisible()
 
 
+@pytest.mark.slow
 def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatch):
     window = fresh_window
     click(window, "Step")

@@ -35,6 +35,7 @@ def asked(window, monkeypatch):
     return asked
 
 
+@pytest.mark.slow
 def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
     session = window.session
     before = session.document.now
@@ -54,6 +55,7 @@ def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
     assert session.document.now is not before
 
 
+@pytest.mark.slow
 def test_nothing_is_asked_where_memory_suffices(window, qtbot, asked):
     choose(window, "laplacian", Stop(max_iterations=2))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):

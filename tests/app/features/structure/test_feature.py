@@ -25,6 +25,8 @@ from tests.core.surface.solids import ball, slid
 from tests.core.test_structure import tetrahedron
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("name", ["irregular", "sharp", "fixed", "free"])
 def test_a_key_shows_and_hides_a_layer(five, name):

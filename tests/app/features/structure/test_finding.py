@@ -21,6 +21,7 @@ def begin_searching(window):
     assert window.session.finder.busy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("searching", [False, True])
 def test_closing_before_it_is_found_leaves_no_thread(fresh_window, qtbot, mesh_file, searching):
     window = fresh_window

@@ -121,6 +121,7 @@ def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, pan
     assert listed(panel)[0][0] == "three"
 
 
+@pytest.mark.slow
 def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot):
     window.session.commands.tag("kept", [5])
     choose(window, "laplacian")

@@ -68,6 +68,7 @@ def ink(image):
     return np.mean(view.max(axis=2) - view.min(axis=2) > 40)
 
 
+@pytest.mark.slow
 def test_the_command_draws_at_the_size_asked_for(pictures):
     whole = pictures("--view", "iso")
     assert whole.shape == (240, 320, 3)
@@ -245,6 +246,7 @@ def test_a_picture_is_written_as_what_it_is(tmp_path, capsys):
         page.write(tmp_path / "p.jpg")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("panels", [1, 2])
 @pytest.mark.parametrize("lines", [{"edges": True}, {"outline": True}, {"structure": Structure(sharp=True)}])
 def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
@@ -260,6 +262,7 @@ def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
     assert shares[1] == pytest.approx(shares[0], rel=0.4)
 
 
+@pytest.mark.slow
 def test_each_caption_of_a_figure_stands_above_its_view():
     grey = {"background": "#c0c0c0"}
     drawn = np.asarray(sheet(*[grid(2)] * 4, pixels=(640, 430), bar=False, **grey).image().convert("L")).astype(int)

@@ -71,6 +71,7 @@ def test_a_page_has_exactly_the_pixels_asked_for(tmp_path, page, size):
             assert float(image.info["dpi"][0]) == pytest.approx(page.resolution, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["p.pdf", "p.svg", "p.png", "p.tif"])
 def test_the_same_page_is_the_same_file(tmp_path, name):
     files = []
@@ -82,6 +83,7 @@ def test_the_same_page_is_the_same_file(tmp_path, name):
     assert b"Date" not in files[0].replace(b"CreationDate (D", b"")
 
 
+@pytest.mark.slow
 def test_vectors_have_the_size_in_millimetres_and_texts_that_stay_texts(tmp_path):
     sheet = drawn(grid(2), grid(2), page=Page(170, 80), bar=Bar(title="quality $x_1$ <b>"))
     sheet.write(tmp_path / "p.svg")
@@ -96,6 +98,7 @@ def test_vectors_have_the_size_in_millimetres_and_texts_that_stay_texts(tmp_path
     assert [float(side) / 72 * 25.4 for side in box.groups()] == pytest.approx([170, 80], abs=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", [Place.BELOW, Place.RIGHT])
 def test_the_gradient_of_the_bar_has_no_seams(place):
     image = pixels(drawn(grid(1), page=Page(pixels=(1600, 1000)), bar=Bar(place), show=Show(quality=(0, 0.1))))
@@ -139,6 +142,7 @@ def test_a_margin_stays_free():
     assert (image[:25] == 255).all() and (image[:, :25] == 255).all() and (image[-25:] == 255).all()  # noqa: PT018
 
 
+@pytest.mark.slow
 def test_edges_are_as_thick_as_asked_whatever_the_resolution():
     shares = []
     for edges, dpi in ((0.0, 300), (0.5, 150), (0.5, 300), (1.0, 300)):
@@ -150,6 +154,7 @@ def test_edges_are_as_thick_as_asked_whatever_the_resolution():
     assert 1.4 < (thick - none) / (fine - none) < 3.2
 
 
+@pytest.mark.slow
 def test_axes_stand_in_the_corner_that_is_asked_for():
     colours = {}
     for corner in Corner:
@@ -175,6 +180,7 @@ def test_one_mesh_is_seen_from_several_directions():
     assert np.abs(left - right).mean() > 10
 
 
+@pytest.mark.slow
 def test_a_wipe_shows_one_mesh_on_either_side():
     plain, tangled = grid(5), scrambled(grid(5), 0.7)
     scene = Scene(panels=(Panel(wipe=Wiped(2, 0.5)),), page=Page(pixels=(600, 400), shading=False), **BARE)
@@ -191,6 +197,7 @@ def test_panels_share_a_range_that_is_fitted():
     assert np.abs(drawn_together - pixels(drawn(good, bad, scene=pinned))).mean() < 0.5
 
 
+@pytest.mark.slow
 def test_what_has_moved_is_drawn_from_the_first_mesh_on():
     before, after = grid(3), scrambled(grid(3), 0.4)
     first, second = subjects(before, after)
@@ -208,6 +215,7 @@ def test_hexes_that_the_mesh_has_not_are_refused():
         drawn(grid(2), panels=(Panel(mesh=2),))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["a" * 300, "$x^2$ \\alpha {", "‮×", ""])
 def test_a_name_is_written_as_it_is_and_never_beyond_its_panel(name):
     page = Page(pixels=(500, 260))

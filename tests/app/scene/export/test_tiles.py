@@ -24,6 +24,7 @@ def images(scene, **how):
     return [np.asarray(image).astype(int) for image in found]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("supersampling", [1, 2, 3])
 @pytest.mark.parametrize(
     "tables",

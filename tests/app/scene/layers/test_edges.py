@@ -46,6 +46,7 @@ def test_edges_fade_before_they_are_all_that_is_seen(colour):
     assert smallest < 1  # 1.3 pixels: none
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pen", [2.0, 4.0])
 def test_edges_grow_with_the_pen(pen):
     """In a picture so many times as large lines take the same share."""

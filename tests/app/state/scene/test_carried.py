@@ -121,6 +121,7 @@ def test_what_cannot_be_used_is_said(tmp_path, keyword, text, said):
         read_carried(written(tmp_path / "p.png", carried))
 
 
+@pytest.mark.slow
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_whatever_a_picture_holds_is_read_or_refused(picture, tmp_path, data):
@@ -151,6 +152,7 @@ def test_whatever_a_text_says_is_read_or_refused(tmp_path, text, keyword):
         assert str(error).startswith("p.png: ")
 
 
+@pytest.mark.slow
 def test_hexes_that_are_named_one_by_one_fit_into_a_picture(tmp_path):
     scene = Scene(show=Show(hidden=tuple(np.arange(200_000).tolist())))
     path = written(tmp_path / "p.png", carrying(scene, [Pictured("", "0" * 64, "0" * 64)]))
