@@ -1,14 +1,17 @@
 """Which nodes mend's local sweeps move: around what is inverted or poor, but never where corners are left out."""
 
+import itertools
+
 import numpy as np
 import pytest
 
-from hexmend.energy import MeshEnergy
+from hexmend.energy import MeshEnergy, SlidingEnergy
 from hexmend.kernels import local
 from hexmend.quality import measure
 from hexmend.smoothers import mend
 from hexmend.smoothers.local_sweeps import local_sweeps
 from tests.core.grids import grid, scrambled
+from tests.core.surface.solids import wavy
 
 
 @pytest.fixture
@@ -78,3 +81,22 @@ def test_corners_that_resist_are_left_out_as_those_that_are_locked():
     inverted = mend.inverted_corners(points, mesh.hexes)
     np.testing.assert_array_equal(left_out, inverted | locked)
     assert (inverted & ~locked).any()
+
+
+@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+def test_what_resists_is_given_up_after_so_many_deltas_that_mended_nothing(boundary, monkeypatch):
+    """Nothing is ever mended here: each delta has one round of sweeps."""
+    mesh = scrambled(grid(3), 1.5, 1)
+    method = mend.Mend(boundary=boundary)
+    energy = SlidingEnergy(method.sliding(mesh)) if method.slides else MeshEnergy(mesh)
+    monkeypatch.setattr(mend, "tangled_in", lambda *_: (5, -0.1))
+    deltas = [step.notes["delta"] for step in method._untangled(mesh, energy, mend.locked_corners(mesh))  # noqa: SLF001
+              if "sweeps" in step.notes]  # fmt: skip
+    assert len(deltas) == (mend.SLIDING_PATIENCE if energy.faceted else mend.PATIENCE)
+    assert (np.diff(deltas) < 0).all()
+
+
+def test_a_run_at_its_optimum_has_no_iteration_that_only_repeats_the_last():
+    steps = list(itertools.islice(mend.Mend().steps(wavy(grid(3), 0.2)), 300))
+    assert 2 < len(steps) < 300
+    assert all((one.points != other.points).any() for one, other in itertools.pairwise(steps))

@@ -6,8 +6,8 @@ import pytest
 
 from hexmend.optimise.raising import Limit, Raising
 from hexmend.quality.worse import JUDGED
-from hexmend.smoothers import METHODS
-from hexmend.smoothers.raised import lifted
+from hexmend.smoothers import METHODS, raised
+from hexmend.smoothers.raised import TOGETHER, lifted
 from hexmend.surface import Sliding
 from tests.core.surface.solids import ball, slid
 
@@ -61,3 +61,18 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     assert steps[-1].points is other.points
     assert steps[-1].notes == {"least": other.corners.lowest}
     assert all(step.more for step in steps)
+
+
+def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(monkeypatch):
+    mesh = slid(ball(3), 0.3, 1)
+    room = 0.01 * mesh.mean_edge_length
+    sliding = Sliding(mesh, room=room)
+    other = Raising(sliding.mesh, mesh.points, sliding)
+    *_, limit = other.steps()
+    monkeypatch.setattr(raised, "AIM", 0.7)
+    made, into = [], Raising.into
+    monkeypatch.setattr(Raising, "into", lambda *given: (made.append(step.points) or step for step in into(*given)))
+    steps = list(lifted(Raising(sliding.mesh, mesh.points, sliding), room, other, limit))
+    assert len(made) > TOGETHER
+    shown = [k for k, points in enumerate(made) if any(step.detour and step.points is points for step in steps)]
+    assert shown == list(range(0, len(made), TOGETHER))

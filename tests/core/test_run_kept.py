@@ -200,3 +200,16 @@ def test_smart_laplacian_does_not_spoil_the_worst_hex(real_mesh):
     result = smooth(mesh, "smart-laplacian")
     assert result.history[-1]["q_min"] < 0.1 < result.before.q_min <= result.after.q_min
     assert f"Kept is iteration {result.kept}" in result.message
+
+
+def test_a_method_that_takes_over_may_keep_where_it_begins(bridge):
+    """Of iterates that are as good an optimiser keeps the last, where Laplacian smoothing had kept an earlier one."""
+    run = iterate(bridge, "laplacian", SHORT)
+    for _ in range(12):
+        newest = next(run)
+        if run.reached is not newest and newest.figures.q.min() > run.result().before.q_min:
+            break
+    kept = run.reached
+    assert kept.number < newest.number
+    run.go_on_with("local-sd", Stop(max_iterations=newest.number))
+    assert run.reached.number == newest.number

@@ -171,7 +171,7 @@ class Raising:
             return False
         holding = np.unique(self.corners.nodes_of(8 * limit.hexes + limit.corners))
         nodes = holding[envelope.slides(holding)]
-        if not nodes.size and limit.least < 0:
+        if not nodes.size and limit.least <= 0:
             nodes = holding[sliding.yields[holding] & ~mesh.free[holding]]
             fixed = mesh.fixed.copy()
             fixed[nodes] = False

@@ -160,3 +160,13 @@ def test_data_and_names_that_the_format_cannot_have_are_told(tmp_path):
     assert list(back.side_sets) == ["unnamed"]
     np.testing.assert_array_equal(back.node_data["t"], np.arange(27))
     np.testing.assert_array_equal(back.node_data["v_x"], np.arange(27))
+
+
+@pytest.mark.parametrize(("most", "status"), [(9, 0), (2**31 - 1, 0), (2**31, 0x2000)])
+def test_the_head_says_how_wide_numbers_are(most, status, tmp_path):
+    netCDF4 = pytest.importorskip("netCDF4")
+    io.write(tmp_path / "a.exo", grid(2).replace(hex_data={"id": np.arange(8) + most - 7}))
+    with netCDF4.Dataset(tmp_path / "a.exo") as file:
+        assert (file.int64_status, file.file_size, file.floating_point_word_size) == (status, 1, 8)
+        assert file.api_version == file.version == np.float32(8.03)
+        assert file["elem_num_map"][:].max() == most

@@ -136,3 +136,38 @@ def test_a_file_cut_short_is_one_clear_error(tmp_path):
         (tmp_path / "a.med").write_bytes(data[:end])
         with pytest.raises(FileError):
             io.read(tmp_path / "a.med")
+
+
+def test_each_group_and_array_has_the_attributes_that_others_look_for(tmp_path):
+    """As in files that MED's own library writes: what comes next, how much there is, and that no step is meant."""
+    h5py = pytest.importorskip("h5py")
+    mesh = with_everything()
+    io.write(tmp_path / "a.med", mesh)
+    with h5py.File(tmp_path / "a.med") as file:
+
+        def numbers(group):
+            return {name: int(value) for name, value in group.attrs.items() if np.asarray(value).dtype.kind == "i"}
+
+        assert numbers(file["INFOS_GENERALES"]) == {"MAJ": 4, "MIN": 1, "REL": 0}
+        (title,) = file["ENS_MAA"]
+        about = file["ENS_MAA"][title]
+        assert numbers(about) == {"DIM": 3, "ESP": 3, "NXI": -1, "NXT": -1, "REP": 0, "SRT": 0, "TYP": 0}
+        (step,) = about.values()
+        assert step.name.endswith(f"{-1:020d}{-1:020d}")
+        none = dict.fromkeys(["NDT", "NOR", "NXI", "NXT", "PVI", "PVT"], -1)
+        assert numbers(step) == {"CGT": 1} | none
+        assert step.attrs["PDT"] == -1.0
+        assert numbers(step["NOE"]) == {"CGT": 1, "CGS": 1}
+        for name, values in step["NOE"].items():
+            assert numbers(values) == {"CGT": 1, "NBR": mesh.n_nodes}, name
+        assert numbers(step["MAI"]) == {"CGT": 1}
+        for cells in step["MAI"].values():
+            assert numbers(cells).keys() == {"CGT", "CGS", "GEO"}
+            assert (cells.attrs["CGT"], cells.attrs["CGS"]) == (1, 1)
+            count = len(cells["FAM"])
+            assert all(numbers(values) == {"CGT": 1, "NBR": count} for values in cells.values())
+        families = file["FAS"][title]
+        assert numbers(families["FAMILLE_ZERO"]) == {"NUM": 0}
+        for place, sign in (("NOEUD", 1), ("ELEME", -1)):
+            own = [int(family.attrs["NUM"]) for family in families[place].values()]
+            assert sorted(sign * number for number in own) == list(range(1, len(own) + 1))

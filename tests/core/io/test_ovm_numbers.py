@@ -21,3 +21,12 @@ def test_whole_numbers_are_kept_up_to_the_greatest(most, tmp_path):
 def test_a_greater_one_is_said_to_be_lost(tmp_path):
     values = np.full(8, MOST + 1, np.uint64)
     assert io.left_out(tmp_path / "a.ovm", grid(2).replace(hex_data={"key": values})) != []
+
+
+@pytest.mark.parametrize("least", [-(2**31), -(2**31) - 1, -(2**63)])
+def test_whole_numbers_are_kept_down_to_the_least(least, tmp_path):
+    values = np.array([least, 0, 0, 0, 0, 0, 0, 5], np.int64)
+    io.write(tmp_path / "a.ovm", grid(2).replace(hex_data={"key": values}))
+    kind = "int" if least >= -(2**31) else "long"
+    assert f'CProp {kind} "key"' in (tmp_path / "a.ovm").read_text()
+    assert io.read(tmp_path / "a.ovm").hex_data["key"].tolist() == values.tolist()

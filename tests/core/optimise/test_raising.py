@@ -1,7 +1,5 @@
 """The least scaled Jacobian is raised as far as it goes; what stops it is told."""
 
-import itertools
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,8 +7,6 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.io import read
-from hexmend.optimise import envelope as envelopes
 from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
 from hexmend.optimise.program import IDLE
 from hexmend.optimise.raising import Limit, Raising
@@ -180,80 +176,3 @@ def test_the_boundary_slides_in_its_room(seed, solid, share):
     np.testing.assert_array_equal(raising.points[sliding.mesh.fixed], mesh.points[sliding.mesh.fixed])
     on = raising.points[sliding.nodes]
     np.testing.assert_allclose(sliding.put_back(on), on, atol=1e-9)
-
-
-def lifted(sliding, points, wide, times):
-    """A boundary that has left its surface where that raises the least, up to so far, and as often as it has to."""
-    raising = Raising(sliding.mesh, points, sliding)
-    raising.envelope.room = wide
-    for _ in range(times):
-        _, limit = raised(raising, aim=0.5)
-        if not raising.lift(limit):
-            break
-    return raising
-
-
-def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
-    mesh = slid(ball(3), 0.3, 1)
-    edge = mesh.mean_edge_length
-    sliding = Sliding(mesh)
-    raising = lifted(sliding, mesh.points, edge, 4)
-    assert raising.envelope.lifted.any()
-    assert sliding.slides(np.flatnonzero(raising.envelope.lifted)).all()
-    far = raising.envelope.furthest(raising.points)
-    assert 0.1 * edge < far <= edge * (1 + 1e-9)
-    for step in raising.into(0.1 * edge):
-        assert np.isfinite(step.points).all()
-    assert raising.envelope.furthest(raising.points) <= 0.1 * edge * (1 + 1e-5)
-    assert surface_change(mesh, mesh.with_points(raising.points)).max <= 0.1 * (1 + 1e-5)
-    assert raising.envelope.room == 0.1 * edge
-    least = raising.corners.least
-    steps, _ = raised(raising)
-    assert all(step.least > least for step in steps)
-    assert raising.envelope.furthest(raising.points) <= 0.1 * edge * (1 + 1e-5)
-
-
-def test_nothing_is_lifted_off_a_surface_without_room():
-    mesh = slid(ball(3), 0.3, 1)
-    sliding = Sliding(mesh, room=0.0)
-    raising = Raising(sliding.mesh, mesh.points, sliding)
-    _, limit = raised(raising)
-    raising.envelope.room = 0.0
-    assert not raising.lift(limit)
-    assert not raising.envelope.lifted.any()
-    fixed = Raising(mesh, mesh.points)
-    assert not fixed.lift(raised(fixed)[1])
-
-
-def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
-    mesh = read(real_mesh("bunny.vtk"))
-    room = 0.4 * mesh.mean_edge_length
-    sliding = Sliding(mesh)
-    raising = Raising(sliding.mesh, mesh.points, sliding)
-    raising.envelope.room = 1.5 * mesh.mean_edge_length
-    for _ in range(5):
-        for step in itertools.islice(raising.steps(0.0), 10):
-            limit = step
-        if not isinstance(limit, Limit) or not raising.lift(limit):
-            break
-    assert raising.envelope.furthest(raising.points) > room
-    for _ in raising.into(room):
-        pass
-    assert raising.envelope.furthest(raising.points) <= room * (1 + 1e-5)
-    change = surface_change(mesh, mesh.with_points(raising.points))
-    assert change.furthest <= room * (1 + 1e-5)
-
-
-def test_while_a_boundary_is_brought_into_its_room_its_distances_are_followed(monkeypatch):
-    looked = []
-
-    class Counted(envelopes.Apart):
-        def __init__(self, *given):
-            looked.append(1)
-            super().__init__(*given)
-
-    mesh = slid(ball(3), 0.3, 1)
-    raising = lifted(Sliding(mesh), mesh.points, mesh.mean_edge_length, 4)
-    monkeypatch.setattr(envelopes, "Apart", Counted)
-    assert len(list(raising.into(0.1 * mesh.mean_edge_length))) > 2
-    assert len(looked) <= 1

@@ -1,5 +1,6 @@
 """Bends of curves that hold a hex's corner open do not slide."""
 
+import numpy as np
 import pytest
 
 from hexmend.run import Stop, smooth
@@ -33,3 +34,13 @@ def test_no_corner_is_flattened_on_a_straight_piece_of_its_curve(name):
     result = smooth(slid(cylinder(16, 3), 0.3), METHODS[name](boundary="slide"), Stop(max_iterations=200))
     assert result.after.inverted == 0
     assert result.after.scaled_jacobian_min > 0.1
+
+
+@pytest.mark.parametrize("which", range(8))
+def test_only_the_bend_of_the_inverted_corner_slides(which):
+    mesh = cylinder(16, 3)
+    boundary = boundary_of(mesh)
+    bends = kept_bends(mesh, boundary)
+    points = mesh.points.copy()
+    points[bends[which], :2] *= 0.5
+    assert kept_bends(mesh.with_points(points), boundary).tolist() == np.delete(bends, which).tolist()

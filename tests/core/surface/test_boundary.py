@@ -204,3 +204,14 @@ def test_a_collapsed_hex_has_kinds():
 def test_kinds_do_not_depend_on_how_the_inside_lies():
     before, after = (make("cube", size=125, scramble=amount) for amount in (0, 2))
     np.testing.assert_array_equal(boundary_of(before).kind, boundary_of(after).kind)
+
+
+def test_a_surface_of_no_faces_has_no_patch_and_no_curve():
+    nothing = classify(np.zeros((3, 3)), np.empty((0, 4), np.int32))
+    assert (nothing.n_patches, nothing.n_curves) == (0, 0)
+    assert not nothing.kind.any()
+
+
+def test_an_edge_is_a_feature_beyond_the_angle_and_not_at_it():
+    assert boundary_of(grid(2), 90.0).n_curves == 0
+    assert boundary_of(grid(2), 89.999).n_curves == 12

@@ -137,3 +137,21 @@ def test_a_ridge_that_a_file_marks_on_a_flat_face_is_no_feature_that_could_be_lo
     marked = mesh.replace(cells=(line,))
     assert len(boundary_of(marked).segments) == len(boundary_of(mesh).segments) + 3
     assert surface_change(marked, marked).features == surface_change(mesh, mesh).features == 36
+
+
+def test_an_edge_that_ends_at_the_very_angle_of_a_feature_is_not_kept():
+    cube = grid(2, 12, 2)  # so long that its edges are no whiskers
+    leaning = cube.with_points(cube.points + 0.5 * cube.points[:, [2]] * [1, 0, 0])
+    change = surface_change(leaning, cube, 90.0)
+    assert change.features > 0
+    assert change.features_kept == 0
+
+
+def test_an_edge_at_the_very_angle_is_no_feature_though_a_file_marks_it():
+    mesh = grid(3)
+    edge = np.flatnonzero((mesh.points[:, 2] == 3) & (mesh.points[:, 1] == 0))
+    line = Cells("line", np.stack([edge[:-1], edge[1:]], axis=1), {"medit:ridge": np.ones(3, np.int64)})
+    marked = mesh.replace(cells=(line,))
+    assert len(boundary_of(marked, 90.0).segments) == 3
+    assert surface_change(marked, marked, 90.0).features == 0
+    assert surface_change(marked, marked, 89.999).features == 36
