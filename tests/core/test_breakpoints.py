@@ -1,5 +1,6 @@
 """What a run pauses at."""
 
+import dataclasses
 from itertools import pairwise
 
 import numpy as np
@@ -64,3 +65,29 @@ def test_cuts_of_the_line_search():
     assert Breakpoints(cuts=5).hit(still, cut, 1.0) is None
     assert "5 times, to 0.17" in Breakpoints(cuts=4).hit(still, cut, 1.0).sentence
     assert Breakpoints(cuts=0).hit(cut, still, 1.0) is None
+
+
+@pytest.mark.parametrize(
+    "one", [{"inverts": True}, {"q_min_falls": True}, {"node": 0}, {"hex": 0}, {"cuts": 0}], ids=str
+)
+def test_each_of_them_alone_is_something_to_pause_at(one):
+    assert Breakpoints(**one).any
+
+
+def test_how_many_elements_inverted_is_said(run):
+    def said(*hexes):
+        sigma = np.ones(MESH.n_hexes)
+        sigma[list(hexes)] = 0.0
+        figures = dataclasses.replace(run[0].figures, sigma=sigma)
+        return Breakpoints(inverts=True).hit(run[0], dataclasses.replace(run[1], figures=figures), 1.0).sentence
+
+    assert said(4) == "Hex 4 inverted"
+    assert said(4, 9) == "Hex 4 and 1 more inverted"
+    assert said(4, 9, 12) == "Hex 4 and 2 more inverted"
+
+
+def test_where_several_are_reached_the_first_is_told(run):
+    cut = iteration(2, run[-1].points, cuts=5)
+    both = Breakpoints(inverts=True, cuts=1)
+    assert both.hit(run[0], cut, 1.0).hexes
+    assert "5 times" in both.hit(cut, cut, 1.0).sentence

@@ -1,5 +1,7 @@
 """One element looked at closely, and the order of the worst."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -78,3 +80,13 @@ def test_a_node_of_no_hex_is_unused_and_goes_nowhere():
     one = node(Mesh(np.concatenate([mesh.points, [[9.0, 9, 9]]]), mesh.hexes), 8)
     assert (one.kind, one.ring.size, one.energy, one.downhill.tolist()) == ("unused", 0, 0.0, [0, 0, 0])
     assert one.point.tolist() == [9, 9, 9]
+
+
+@pytest.mark.parametrize("count", [0, 1, 7, 100, 2_999, 3_000, 4_000])
+@pytest.mark.parametrize("levels", [2, 40, 10**9])
+def test_of_many_hexes_the_worst_are_found_without_sorting_all(count, levels):
+    random = np.random.default_rng(count)
+    q, scaled = (random.integers(0, levels, 3_000) / levels for _ in range(2))
+    order = np.lexsort((np.arange(3_000), scaled, q))
+    figures = SimpleNamespace(q=q, scaled_jacobian=scaled)
+    assert worst(q, figures, count).tolist() == order[:count].tolist()

@@ -1,5 +1,7 @@
 """Algorithm 5.1: its two decisions, in words."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -68,3 +70,8 @@ def test_sizes_are_similar_up_to_the_ratio_that_is_given(monkeypatch, ratio, nam
     result = smooth(scrambled(grid(3), 0.1), method, Stop(max_iterations=2))
     assert f"{'similar' if ratio <= 2.5 else 'different'} sizes" in result.message
     assert f"no inverted hexes: {METHODS[name].title}." in result.message
+
+
+def test_every_step_of_getme_says_that_more_is_to_come():
+    steps = list(itertools.islice(General(getme_iterations=3).steps(make("five-side", size=150)), 6))
+    assert [step.more for step in steps] == [True] * 4 + [False] * 2

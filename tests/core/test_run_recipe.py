@@ -213,3 +213,19 @@ def test_a_method_that_cannot_be_prepared_leaves_the_run_as_it_was(mesh, monkeyp
     with pytest.raises(MemoryError):
         run.go_on_with(METHODS["laplacian"](update="simultaneous"))
     assert len(list(run)) == 3
+
+
+def test_the_seconds_that_are_left_are_those_of_the_stage_less_what_it_has_taken(mesh):
+    run = iterate(mesh, "laplacian", Stop(max_iterations=50, max_seconds=1000))
+    for _ in range(3):
+        next(run)
+    assert run.recipe.stages[0].stop.max_seconds == 1000
+    run.go_on_with("local-sd")
+    spent = run.last.seconds
+    next(run)
+    cut, rest = run.recipe.stages
+    assert (cut.stop.max_seconds, rest.stop.max_seconds) == (1000, pytest.approx(1000 - spent))
+    assert (cut.stop.max_iterations, rest.stop.max_iterations) == (3, 47)
+    run.go_on_with("local-nr", Stop(max_seconds=1e-9, max_iterations=2))
+    assert run.recipe.stages[-1].stop.max_seconds == 1e-3  # 0 would be no limit
+    assert run.recipe.stages[-1].stop.max_iterations == 0

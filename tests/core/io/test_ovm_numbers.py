@@ -18,8 +18,9 @@ def test_whole_numbers_are_kept_up_to_the_greatest(most, tmp_path):
     assert io.read(tmp_path / "a.ovm").hex_data["key"].tolist() == values.tolist()
 
 
-def test_a_greater_one_is_said_to_be_lost(tmp_path):
-    values = np.full(8, MOST + 1, np.uint64)
+@pytest.mark.parametrize("least", [0, MOST + 1])
+def test_a_greater_one_is_said_to_be_lost(least, tmp_path):
+    values = np.array([least] * 7 + [MOST + 1], np.uint64)
     assert io.left_out(tmp_path / "a.ovm", grid(2).replace(hex_data={"key": values})) != []
 
 

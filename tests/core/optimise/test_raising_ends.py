@@ -1,8 +1,13 @@
 """When the raising of the least scaled Jacobian ends: where steps gain little, and how little depends on the least."""
 
+import itertools
+
+import numpy as np
 import pytest
 
+from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise import raising
+from hexmend.optimise.corners import scaled_jacobians
 from tests.core.grids import grid, scrambled
 
 
@@ -43,3 +48,22 @@ def test_what_is_begun_again_begins_with_the_first_radius_and_few_corners():
     again = [step.radius for step in raise_.steps() if isinstance(step, raising.Raised)]
     assert first[0] == again[0] == raising.FIRST
     assert max(first[1:]) > raising.FIRST  # it had changed
+
+
+@pytest.mark.parametrize(("radius", "band"), [(0.3, 0.1), (0.01, 0.04), (0.001, 0.01)])
+def test_the_corners_of_a_program_are_those_within_a_band_that_narrows_with_the_radius(monkeypatch, radius, band):
+    for name, value in {"FEW": 10**6, "FIRST": radius, "LARGEST": radius, "SHRINK": 1.0}.items():
+        monkeypatch.setattr(raising, name, value)
+    mesh = scrambled(grid(4), 0.2, 3)
+    before, counts = mesh.points, []
+    for step in itertools.islice(raising.Raising(mesh, mesh.points).steps(), 30):
+        if isinstance(step, raising.Raised):
+            values = scaled_jacobians(before, mesh.hexes)[movable(mesh)]
+            assert step.corners == np.count_nonzero(values < values.min() + band)
+            counts.append(step.corners)
+            before = step.points
+    assert counts
+
+
+def movable(mesh):
+    return mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)

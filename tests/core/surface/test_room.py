@@ -79,3 +79,11 @@ def test_places_that_move_with_a_node_are_its_own_and_those_of_its_edges_and_fac
     at = room.middles_at(np.array([0]))
     assert (room.middles[at] == 0).any(axis=1).all()
     assert len(at) == (room.middles == 0).any(axis=1).sum() == 7  # a corner: itself, three edges, three faces
+
+
+def test_a_room_is_no_narrower_than_rounding_of_the_size_of_the_boundary():
+    mesh, room = room_of(size=0.0)
+    assert room.room == pytest.approx(1e-9 * np.sqrt(12))
+    assert room_of(size=0.5)[1].room == 0.5
+    nothing = Room(mesh.points, np.empty((0, 4), np.int32), mesh.points, None, 0.0)
+    assert nothing.room == 0
