@@ -1,0 +1,77 @@
+"""Nodes of one boundary on another surface: which slide on a curve, which on a patch, and which stay."""
+
+import numpy as np
+import pytest
+
+from hexmend.surface import Kind, Surface, boundary_of
+from hexmend.surface.locked import freed_by_sliding
+from hexmend.surface.vectors import triangle_normals, vertex_normals
+from tests.core.grids import grid
+
+
+@pytest.fixture(scope="module")
+def cube():
+    mesh = grid(4)
+    return mesh, boundary_of(mesh)
+
+
+@pytest.mark.parametrize(
+    ("shift", "reach", "curve"), [(0.24, 1.0, Kind.CURVE), (0.26, 1.0, Kind.PATCH), (0.26, 1.1, Kind.CURVE)]
+)
+def test_nodes_of_a_curve_slide_on_a_curve_within_a_quarter_of_the_reach(cube, shift, reach, curve):
+    """The nodes of the edge x = 0, y = 0, moved into the face y = 0: it is still near that face."""
+    mesh, boundary = cube
+    on = np.flatnonzero((boundary.kind == Kind.CURVE) & (mesh.points[:, 0] == 0) & (mesh.points[:, 1] == 0))
+    points = mesh.points.copy()
+    points[on, 0] += shift
+    attached = Surface(mesh.points, boundary).attached(points, boundary, reach)
+    assert (attached.kind[on] == curve).all()
+    (part,) = set(attached.part[on].tolist())
+    if curve == Kind.CURVE:
+        assert {part} == set(boundary.part[on].tolist())
+    else:
+        side = (boundary.kind == Kind.PATCH) & (mesh.points[:, 1] == 0)
+        assert {part} == set(boundary.part[side].tolist())
+
+
+@pytest.mark.parametrize(("shift", "kind"), [(0.99, Kind.PATCH), (1.01, Kind.CORNER)])
+def test_what_is_out_of_reach_of_all_patches_stays(cube, shift, kind):
+    mesh, boundary = cube
+    top = np.flatnonzero((boundary.kind == Kind.PATCH) & (mesh.points[:, 2] == 4))
+    points = mesh.points.copy()
+    points[top, 2] += shift
+    attached = Surface(mesh.points, boundary).attached(points, boundary, 1.0)
+    assert (attached.kind[top] == kind).all()
+    assert ((attached.part[top] >= 0) == (kind == Kind.PATCH)).all()
+
+
+def test_on_its_own_surface_each_node_slides_where_it_did(cube):
+    mesh, boundary = cube
+    attached = Surface(mesh.points, boundary).attached(mesh.points, boundary, 1.0)
+    np.testing.assert_array_equal(attached.kind, boundary.kind)
+    on = boundary.kind == Kind.CURVE
+    np.testing.assert_array_equal(attached.part[on], boundary.part[on])
+
+
+def test_normals_at_the_vertices_of_a_patch_are_weighted_by_angles_and_do_not_mix_with_other_patches():
+    """Three faces of a cube: one patch, or three."""
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0]], float)
+    triangles = np.array([[0, 2, 4], [0, 4, 1], [0, 1, 3], [0, 3, 2]], np.int32)  # below in two halves
+    together = vertex_normals(vertices, triangles, np.zeros(4, np.int32))
+    np.testing.assert_allclose(together[:, 0], np.tile(-np.ones(3) / np.sqrt(3), (4, 1)), atol=1e-12)
+    apart = vertex_normals(vertices, triangles, np.array([0, 0, 1, 2]))
+    np.testing.assert_allclose(apart, np.repeat(triangle_normals(vertices, triangles)[:, None], 3, axis=1), atol=1e-12)
+
+
+def test_of_locked_hexes_those_are_freed_whose_inverted_corners_may_leave_their_plane_or_line():
+    mesh = grid(3)
+    boundary = boundary_of(mesh)
+    points = mesh.points.copy()
+    points[0] += 0.5  # a corner of the solid is kept, its three neighbours slide on its edges
+    pushed = mesh.with_points(points)
+    locked = np.zeros(27, bool)
+    locked[0] = True
+    freed = freed_by_sliding(pushed, locked)
+    assert boundary.n_patches == 6
+    assert freed.tolist() == [True] + [False] * 26
+    assert freed_by_sliding(mesh, np.zeros(27, bool)).tolist() == [False] * 27

@@ -1,0 +1,49 @@
+"""Which values of a metric are unacceptable, at the ends of its range too, and which hexes are wound the other way."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from hexmend.orientation import TURNED_CORNERS, mirrored_parts
+from hexmend.quality.metric import METRICS
+from tests.core.grids import grid
+
+VALUES = np.array([-1.0, 0.2, 0.5, 0.8, 2.0, np.nan])
+
+
+@pytest.mark.parametrize(
+    ("better", "unacceptable"),
+    [
+        (1, [True, False, False, False, False, True]),
+        (-1, [False, False, False, False, True, True]),
+        (0, [True, False, False, False, True, True]),
+    ],
+)
+def test_what_is_worse_than_the_acceptable_range_is_unacceptable_and_its_ends_are_not(better, unacceptable):
+    metric = dataclasses.replace(METRICS["scaled-jacobian"], acceptable=(0.2, 0.8), better=better)
+    assert metric.unacceptable(VALUES).tolist() == unacceptable
+
+
+def folded(shift):
+    """Two cubes one above the other, both wound the other way; the top of the upper one is lowered by so much."""
+    mesh = grid(1, 1, 2)
+    points = mesh.points.copy()
+    points[points[:, 2] == 2, 2] -= shift
+    return mesh.rebuilt(hexes=mesh.hexes[:, TURNED_CORNERS]).with_points(points)
+
+
+@pytest.mark.parametrize(
+    ("shift", "mirrored"),
+    [(0.0, True), (1 - 1e-6, True), (1 - 1e-17, True), (1.0, True), (1 + 1e-15, True), (1 + 1e-6, False), (2, False)],
+)
+def test_a_part_of_which_a_hex_is_flat_but_for_rounding_is_wound_as_the_others_are(shift, mirrored):
+    assert mirrored_parts(folded(shift)).tolist() == [mirrored] * 2
+
+
+def test_rounding_grows_with_the_distance_from_the_origin_and_the_size():
+    mesh = folded(1.0)
+    far = mesh.with_points(1e3 * mesh.points + 1e9)
+    points = far.points.copy()
+    points[-1, 2] += 2e-7  # a bit of such coordinates
+    assert mirrored_parts(far.with_points(points)).all()
