@@ -60,3 +60,18 @@ def test_a_newton_direction_is_as_good_as_its_tolerance_says():
     step, count = Minres(tolerance=1e-6, iterations=10_000)(hessian, right)
     assert count < 10_000
     assert np.linalg.norm(right - hessian @ step) == pytest.approx(0, abs=2e-6 * np.linalg.norm(right))
+
+
+@pytest.mark.parametrize("sound", [0, 1, 2])
+def test_the_last_iterate_is_given_where_the_matrix_leaves_the_range_of_numbers(sound):
+    matrix, calls = np.diag([3.0, 2.0, 1.0, 0.5]), []
+
+    def product(x):
+        calls.append(1)
+        return matrix @ x if len(calls) <= sound else np.full(4, np.inf)
+
+    with np.errstate(all="ignore"):
+        x, count = minres(product, np.ones(4), 1e-12, 10)
+    assert count == sound + 1
+    expected, _ = minres(matrix.__matmul__, np.ones(4), 1e-12, sound) if sound else (np.zeros(4), 0)
+    np.testing.assert_array_equal(x, expected)

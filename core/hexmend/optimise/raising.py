@@ -61,7 +61,7 @@ class Raised:
     corners: int
     radius: float
 
-    def step(self, detour: bool = False) -> Step:
+    def step(self, detour: bool) -> Step:
         """As a smoother yields it; see `Step.detour`."""
         notes = {"least": self.least, "corners": self.corners, "radius": self.radius}
         return Step(self.points, notes, more=True, detour=detour)

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
-from hexmend.optimise.descent import descend, perfect
+from hexmend.optimise.descent import LONGEST, descend, perfect, shorten_to_range
 from hexmend.optimise.direction import Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
 from tests.core.grids import grid, scrambled
@@ -80,3 +80,17 @@ def test_only_what_rounding_leaves_is_perfect(delta):
     assert perfect(energy, 1e-31, delta)
     assert not perfect(energy, 1e-6, delta)
     assert not perfect(energy, 0.9, delta)
+
+
+@pytest.mark.parametrize("longest", [1e200, -1e200, -1e101])
+@pytest.mark.parametrize("unit", [1.0, 1e3])
+def test_a_step_out_of_the_range_of_numbers_is_shortened_and_keeps_its_direction(longest, unit):
+    step = np.array([[longest, 0.5 * longest, 0.0], [0.0, -0.25 * longest, 1.0]])
+    shortened = step.copy()
+    shorten_to_range(shortened, unit)
+    assert np.abs(shortened).max() == pytest.approx(LONGEST / unit)
+    np.testing.assert_allclose(shortened / shortened[0, 0], step / longest, rtol=1e-12)
+    within = np.array([[-0.99, 0.5, 0.0]]) * LONGEST / unit
+    again = within.copy()
+    shorten_to_range(again, unit)
+    np.testing.assert_array_equal(again, within)
