@@ -107,3 +107,35 @@ def test_a_table_compares_methods_by_one_objective_and_names_it(mesh):
     assert "objective Σ η², offset 0" in [line[0] for line in table.rows]
     heuristics = table_of(compare(mesh, ["laplacian"], Stop(max_iterations=2)).record())
     assert "objective Σ η²" in [line[0] for line in heuristics.rows]
+
+
+@pytest.mark.parametrize("offset", [0.0, 1.0])
+def test_mend_records_each_p_as_it_is_raised_and_no_objective_rises(offset):
+    mesh = make("five-side", size=500)
+    rows = smooth(mesh, METHODS["mend"](highest_p=16.0, offset=offset), Stop(keep_last=True)).history[1:]
+    stretches = [rows[first:end] for first, end in pairwise([0, *objective_changes(rows), len(rows)])]
+    assert [one[0]["objective_formula"] for one in stretches] == [Power(p, offset).formula for p in (2, 4, 8, 16)]
+    for one in stretches:
+        values = [row["objective"] for row in one]
+        assert len(values) > 1
+        assert values[-1] < values[0]
+        assert all(later <= before * (1 + 1e-12) for before, later in pairwise(values))
+
+
+def test_the_best_iterate_of_a_mend_that_raises_p_is_that_of_the_final_objective():
+    mesh = make("five-side", size=500)
+    run = iterate(mesh, METHODS["mend"](highest_p=16.0), Stop(max_iterations=8))
+    kept, values = 0, [objective(run.start.figures, 16.0)]
+    for it in run:
+        values.append(objective(it.figures, 16.0))
+        kept = it.number if values[-1] <= values[0] else kept
+    assert run.history[-1]["objective_formula"] != "Σ η¹⁶"
+    assert run.result().kept == kept
+
+
+def test_steps_that_raise_the_least_scaled_jacobian_record_the_final_objective():
+    mesh = make("five-side", size=150, scramble=0.3)
+    rows = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", highest_p=8.0), Stop(keep_last=True)).history[1:]
+    raising = [row["objective_formula"] for row in rows][objective_changes(rows)[-1] :]
+    assert len(raising) > 3
+    assert set(raising) == {"Σ η⁸"}

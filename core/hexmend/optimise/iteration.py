@@ -76,6 +76,8 @@ class Step:
         True where nodes are further than the method may leave them: such an iterate is no result.
     limits : Limits, optional
         What lets the method go no further, where it has found that out.
+    power : Power, optional
+        p and offset of the objective that this step was to lower, where it is another than the smoother's `power`.
     """
 
     points: np.ndarray
@@ -85,6 +87,7 @@ class Step:
     figures: ElementQuality | None = None
     detour: bool = False
     limits: Limits | None = None
+    power: Power | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +109,8 @@ class Iteration:
     notes : mapping
         From the step, and "stage" (the number of the recipe's, from 1) and "method" (the name of the one at work).
     power : Power
-        p and offset of the objective that the method at work minimises.
+        p and offset of the objective that is recorded: the one that the step was to lower, or, where the step names
+        none, the smoother's `power`. Number 0 has that of the first smoother.
     """
 
     number: int
@@ -119,13 +123,17 @@ class Iteration:
 
     @property
     def objective(self) -> float | None:
-        """The objective that the method at work minimises, at delta = 0; None while any hex is inverted."""
+        """The objective of `power`, at delta = 0; None while any hex is inverted.
+
+        It rises where a step was not made to lower it: while mend raises the least scaled Jacobian, for example.
+        """
         return objective(self.figures, *self.power)
 
     def row(self) -> dict[str, float | int | str | None]:
         """The row of the history: `iteration seconds objective q_min q_mean inverted largest_move`.
 
-        `objective_formula` says which objective it is: stages of a recipe may have different ones.
+        `objective_formula` says which objective it is: stages of a recipe, and steps of a method that raises p, have
+        different ones.
         """
         return {
             "iteration": self.number,

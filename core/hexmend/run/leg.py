@@ -115,7 +115,7 @@ class Leg:
         figures = step.figures if step.figures is not None else measure(points, self._hexes)
         notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
         now = self.last = self.at = Iteration(
-            self.last.number + 1, points, figures, seconds, move, notes, self.smoother.power
+            self.last.number + 1, points, figures, seconds, move, notes, step.power or self.smoother.power
         )
         self.decision, self.limits = step.decision, step.limits or self.limits
         if not step.detour:
@@ -180,7 +180,7 @@ class Leg:
         """Whether an optimiser's objective still falls: beside the barrier steps are short, however much they gain."""
         if not self.smoother.optimises:
             return False
-        power = self.smoother.power  # the step before may be another method's
+        power = now.power  # the step before may have had another objective
         then, later = objective(before.figures, *power), now.objective
         if then is None or later is None:
             return False

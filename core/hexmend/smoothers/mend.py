@@ -87,7 +87,11 @@ class Mend(Objective):
 
     @property
     def power(self) -> Power:
-        """The highest p and the offset: the objective that a run ends with the optimum of."""
+        """The highest p and the offset: the objective at whose optimum a run ends.
+
+        Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
+        minimise an energy: they record this one, for comparison, and it may rise.
+        """
         return Power(max(self.p, self.highest_p), self.offset)
 
     def steps(self, mesh: Mesh) -> Steps:
@@ -132,7 +136,7 @@ class Mend(Objective):
         energy = energy.but(energy.power, locked)
         points, left_out = yield from self._untangled(mesh, energy, locked)
         if left_out.any() and not self.slides:
-            yield Step(points, decision=what_is_left(left_out, locked), more=True)
+            yield Step(points, decision=what_is_left(left_out, locked), more=True, power=energy.power)
         return (yield from self._optimum(mesh, energy, points, left_out, more))
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
@@ -169,7 +173,7 @@ class Mend(Objective):
         near = brought_near(mesh, figures)
         if near is not points:
             points, figures = near, measure(near, mesh.hexes)
-            yield Step(points, more=True, figures=figures)
+            yield Step(points, more=True, figures=figures, power=energy.power)
         x = energy.scaled(points)
         tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
         least, idle = tangled, 0
@@ -185,7 +189,7 @@ class Mend(Objective):
                     break
                 x, points = taken.x, energy.placed(taken.x)
                 figures = measure(points, mesh.hexes)
-                yield Step(points, taken.notes(delta), more=True, figures=figures)
+                yield Step(points, taken.notes(delta), more=True, figures=figures, power=energy.power)
                 tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
                 if not tangled:
                     break
@@ -193,7 +197,8 @@ class Mend(Objective):
                 x = local_sweeps(energy, x, figures.inverted, locked, delta, sweeps)
                 points = energy.placed(x)
                 figures = measure(points, mesh.hexes)
-                yield Step(points, {"delta": delta, "sweeps": sweeps}, more=True, figures=figures)
+                notes = {"delta": delta, "sweeps": sweeps}
+                yield Step(points, notes, more=True, figures=figures, power=energy.power)
                 tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
             idle = 0 if tangled < least else idle + 1
             least = min(least, tangled)
@@ -224,7 +229,7 @@ class Mend(Objective):
                     return points, Outcome.NO_IMPROVEMENT
                 move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))
                 x, points, whole = taken.x, energy.placed(taken.x), taken.cuts == 0
-                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises or more)
+                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises or more, power=energy.power)
                 if rises and move < SETTLED:
                     break
             if not rises:

@@ -44,9 +44,10 @@ class Smoother(Parametrised, ABC):
 
     @property
     def power(self) -> Power:
-        """p and offset of the objective that is recorded of its runs: the one that it minimises.
+        """p and offset of the objective that its runs end at the minimum of.
 
-        A method that minimises nothing has the default ones.
+        It is recorded of every step that names no other (`Step.power`). A method that minimises nothing has the default
+        values.
         """
         return SQUARES
 
