@@ -204,3 +204,24 @@ def test_damping_adds_a_multiple_of_the_diagonal_and_makes_the_matrix_positive_d
     indefinite = hessian.shifted(-1.0).assembled()
     assert indefinite.solve(right, 1e-3, 100).negative_curvature
     assert not indefinite.solve(right, 1e-3, 100, 20.0).negative_curvature
+
+
+@pytest.mark.parametrize("precision", [np.float32, np.float64])
+@pytest.mark.parametrize("size", [1e-300, 1e-40, 1e-30, 1e-20, 1e-15, 1e14, 1e20, 1e40, 1e300, 2.0**1023])
+def test_the_solution_is_as_large_as_the_right_hand_side(size, precision):
+    hessian = hessian_of(scrambled(grid(5), 0.15, 3), shift=0.5)
+    right = np.random.default_rng(2).normal(size=hessian.shape[0])
+    right /= np.abs(right).max()
+    assembled = hessian.assembled(precision)
+    usual, other = assembled.solve(right, 1e-3, 100), assembled.solve(size * right, 1e-3, 100)
+    assert usual.iterations > 0
+    assert (other.iterations, other.negative_curvature) == (usual.iterations, False)
+    np.testing.assert_allclose(other.x / size, usual.x, atol=1e-5 * np.abs(usual.x).max())
+
+
+def test_a_solution_beyond_the_range_of_numbers_is_infinite_and_one_below_it_is_0():
+    assembled = hessian_of(scrambled(grid(4), 0.15, 3)).assembled(np.float64)
+    tiny = Assembled(assembled.couplings, assembled.off, assembled.diagonal, -100)
+    assert np.isinf(tiny.solve(np.full(tiny.shape[0], 2.0**1000), 1e-3, 100).x).any()
+    huge = Assembled(assembled.couplings, assembled.off, assembled.diagonal, 1000)
+    assert not huge.solve(np.full(huge.shape[0], 2.0**-900), 1e-3, 100).x.any()

@@ -14,8 +14,8 @@ from hexmend.kernels import conjugate_gradients as kernels
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-#: A right-hand side with larger numbers than this is scaled: its squares would leave the range of single precision.
-_LARGE = 1e15
+#: Where the largest number of a matrix is smaller than this, single precision has no digits for the others.
+_SMALL = 1e-25
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,11 +47,13 @@ class Assembled(SymmetricOperator):
         Blocks above the diagonal, by rows; the last is no block (see `conjugate_gradients`).
     diagonal : (k, 6) of the same
         xx xy xz yy yz zz of each slot.
+    exponent : int
+        The matrix is 2^exponent times what the blocks hold.
     """
 
-    def __init__(self, couplings: Couplings, off: np.ndarray, diagonal: np.ndarray):
+    def __init__(self, couplings: Couplings, off: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
         super().__init__(3 * couplings.nodes.size)
-        self.couplings, self.off, self.diagonal = couplings, off, diagonal
+        self.couplings, self.off, self.diagonal, self.exponent = couplings, off, diagonal, exponent
         self.order = couplings.order
         self._work = np.empty(64 * couplings.nodes.size + 16, off.dtype)
 
@@ -59,6 +61,7 @@ class Assembled(SymmetricOperator):
         """The same room for another matrix, all zero; this one is gone."""
         self.off.fill(0)
         self.diagonal.fill(0)
+        self.exponent = 0
         return self
 
     @classmethod
@@ -67,11 +70,21 @@ class Assembled(SymmetricOperator):
         off = np.zeros((couplings.blocks + 1, 9), dtype)
         return cls(couplings, off, np.zeros((couplings.nodes.size, 6), dtype))
 
+    def too_small(self) -> bool:
+        """Whether the blocks are so small that single precision rounds them or loses them."""
+        return float(np.abs(self.diagonal).max(initial=0.0)) < _SMALL
+
+    def normalised(self, dtype: type) -> Assembled:
+        """The same matrix with blocks of another precision, the largest number on the diagonal between 1/2 and 1."""
+        exponent = int(np.frexp(np.abs(self.diagonal).max(initial=0.0))[1])
+        off, diagonal = (np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off, self.diagonal))
+        return Assembled(self.couplings, off, diagonal, self.exponent + exponent)
+
     def matvec(self, v: np.ndarray) -> np.ndarray:
         x = np.ascontiguousarray(v, dtype=np.float64).reshape(-1, 3)
         y = np.empty_like(x)
         kernels.product(*self.couplings.pattern, self.off, self.diagonal, self.order, x, y)
-        return y.ravel()
+        return np.ldexp(y.ravel(), self.exponent) if self.exponent else y.ravel()
 
     def _slotted(self, v: np.ndarray) -> np.ndarray:
         """v (3 k,) by slots, (k, 4) in the precision of the matrix: the fourth is 0."""
@@ -84,6 +97,10 @@ class Assembled(SymmetricOperator):
 
         What has been reached before a direction of negative curvature is returned, or, if it is the first, that
         direction: one of descent for right = -gradient either way. It is 0 for a right-hand side that is not finite.
+        Numbers of the solution that leave the range of float64 are infinite.
+
+        The right-hand side is scaled by a power of two so that its largest number lies between 1/2 and 1: squares of
+        very small or very large ones would leave the range of single precision.
 
         Parameters
         ----------
@@ -96,20 +113,22 @@ class Assembled(SymmetricOperator):
             The diagonal blocks, made positive definite, are added this many times.
         """
         size = float(np.abs(right).max(initial=0.0))
-        if not np.isfinite(size):
+        if size == 0 or not np.isfinite(size):
             return Solved(np.zeros(right.size), 0, False)
-        unit = 1.0 if size < _LARGE else 2.0 ** np.frexp(size)[1]  # a power of two, by which x keeps its bits
-        b = self._slotted(right / unit)
+        exponent = int(np.frexp(size)[1])
+        b = self._slotted(np.ldexp(right, -exponent))  # scaled by a power of two, x keeps its bits
         x = np.empty_like(b)
         count, end = kernels.solve(
             *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x, self._work
         )
-        return Solved(unit * x[self.order, :3].astype(np.float64).ravel(), count, end == kernels.NEGATIVE_CURVATURE)
+        with np.errstate(over="ignore"):
+            solution = np.ldexp(x[self.order, :3].astype(np.float64).ravel(), exponent - self.exponent)
+        return Solved(solution, count, end == kernels.NEGATIVE_CURVATURE)
 
     @property
     def own_blocks(self) -> np.ndarray:
         """The 3 x 3 blocks that couple a node with itself, (k, 6): xx xy xz yy yz zz."""
-        return self.diagonal[self.order]
+        return np.ldexp(self.diagonal[self.order].astype(np.float64), self.exponent)
 
     def matrix(self) -> csr_array:
         """The same as a sparse matrix of SciPy's, (3 k, 3 k), some 243 entries a free node."""
@@ -124,6 +143,7 @@ class Assembled(SymmetricOperator):
         row = 3 * free[i][:, None, None] + np.arange(3)[:, None]
         column = 3 * free[j][:, None, None] + np.arange(3)
         row, column = np.broadcast_arrays(row, column)
+        blocks = np.ldexp(blocks.astype(np.float64), self.exponent)
         return coo_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=self.shape).tocsr()
 
 

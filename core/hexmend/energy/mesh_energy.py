@@ -193,16 +193,24 @@ class Hessian(SymmetricOperator):
         Parameters
         ----------
         dtype : numpy.float32 or numpy.float64
-            Of the blocks.
+            Of the blocks. Where single precision cannot hold numbers so small (near the optimum of a high p), the
+            matrix is assembled in double precision and scaled before it is rounded.
         room : Assembled, optional
             Another matrix that is not needed any more: this one takes its place if its pattern and precision are the
             same. Memory that has been touched before is faster.
         """
-        energy, couplings = self.energy, self.energy.couplings
+        couplings = self.energy.couplings
         fits = room is not None and room.couplings is couplings and room.off.dtype == dtype
         matrix = room.cleared() if fits else Assembled.zero(couplings, dtype)
-        assembly.assemble(
-            self.x, self.delta, energy.power, energy.left_out, *couplings.shares(threads()), matrix.off, matrix.diagonal
-        )
-        matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], dtype)
+        self._assemble(matrix)
+        if dtype == np.float32 and matrix.too_small():
+            wide = Assembled.zero(couplings, np.float64)
+            self._assemble(wide)
+            return wide.normalised(dtype)
         return matrix
+
+    def _assemble(self, matrix: Assembled) -> None:
+        """Add this Hessian to a matrix of zeros."""
+        energy, shares = self.energy, self.energy.couplings.shares(threads())
+        assembly.assemble(self.x, self.delta, energy.power, energy.left_out, *shares, matrix.off, matrix.diagonal)
+        matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)

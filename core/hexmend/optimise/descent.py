@@ -123,7 +123,7 @@ def shorten_to_range(step: np.ndarray, unit: float) -> None:
 #: stay.
 TRIALS = 6
 
-#: By how many roundings the energy of a cube may be off.
+#: By how many roundings the eta of a cube may differ from 0.
 ROUNDING = 8
 
 #: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others; of
@@ -163,6 +163,6 @@ def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) 
 
 def perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
     """Whether every hex is a cube but for rounding, so that gradient and Hessian are nothing but noise."""
-    eps, hexes = np.finfo(float).eps, energy.mesh.n_hexes
-    least = energy.least if delta == 0 else 0.0  # softened, a hex may have less energy than a cube
-    return value <= (1 + ROUNDING * eps) * least + hexes * eps ** min(energy.power.p, 2.0)
+    eta, power = ROUNDING * np.finfo(float).eps, energy.power
+    highest = power.of(eta) if delta == 0 else eta**power.p  # softened, a hex may have less energy than a cube
+    return bool(value <= energy.mesh.n_hexes * highest)

@@ -136,6 +136,10 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
 
     start = np.ones(hessian.shape[0])  # ARPACK's own would be random
     matrix = hessian.assembled()
+    size = float(np.abs(matrix.own_blocks).max(initial=0.0))
+    if size == 0:
+        return 0.0, 0.0
+    exponent = int(np.frexp(size)[1])  # ARPACK takes very small numbers for 0
 
     def top(operator: LinearOperator) -> float | None:
         try:
@@ -146,8 +150,12 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
         except ArpackNoConvergence:
             return None
 
-    greatest = top(matrix)
+    def product(v: np.ndarray) -> np.ndarray:
+        return np.ldexp(matrix @ v, -exponent)
+
+    greatest = top(LinearOperator(hessian.shape, matvec=product, dtype=np.float64))
     if greatest is None:
         return 0.0, float(np.linalg.eigvalsh(full(matrix.own_blocks)).max())
-    distance = top(LinearOperator(hessian.shape, matvec=lambda v: greatest * v - matrix @ v, dtype=np.float64))
-    return (0.0 if distance is None else greatest - distance), greatest
+    distance = top(LinearOperator(hessian.shape, matvec=lambda v: greatest * v - product(v), dtype=np.float64))
+    least = 0.0 if distance is None else greatest - distance
+    return float(np.ldexp(least, exponent)), float(np.ldexp(greatest, exponent))

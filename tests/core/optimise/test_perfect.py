@@ -1,0 +1,47 @@
+"""Optimisers end at cubes, however high p is: what is small is not taken for nothing."""
+
+import numpy as np
+import pytest
+
+from hexmend.energy import MeshEnergy, Power
+from hexmend.gallery import make
+from hexmend.optimise import Outcome
+from hexmend.optimise.descent import perfect
+from hexmend.run import smooth
+from hexmend.smoothers import METHODS
+from tests.core.grids import grid, scrambled
+
+EXPONENTS = [1.0, 2.0, 4.0, 8.0, 16.0]
+
+
+@pytest.mark.parametrize("p", EXPONENTS)
+@pytest.mark.parametrize("name", ["global-nr", "global-mnr", "local-sd", "local-nr", "local-mnr", "mend"])
+def test_optimisers_reach_the_cubes_of_a_scrambled_grid_whatever_p(name, p):
+    result = smooth(make("cube", size=64, scramble=0.4), METHODS[name](p=p), max_iterations=1000)
+    assert result.outcome is Outcome.CONVERGED
+    assert result.after.q_min == pytest.approx(1.0, abs=2e-5)
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("p", [*EXPONENTS, 32.0])
+def test_a_mesh_of_cubes_is_perfect_and_one_a_little_away_is_not(p, offset):
+    cubes, other = grid(4), scrambled(grid(4), 0.01)
+    for mesh, answer in ((cubes, True), (other, False)):
+        energy = MeshEnergy(mesh, Power(p, offset))
+        assert perfect(energy, energy.value(energy.scaled(mesh.points)), 0.0) == answer
+
+
+@pytest.mark.parametrize("p", [8.0, 16.0, 32.0])
+def test_a_hessian_below_the_range_of_single_precision_keeps_its_digits(p):
+    mesh = scrambled(grid(4), 0.005)
+    energy = MeshEnergy(mesh, Power(p))
+    hessian = energy.hessian(energy.scaled(mesh.points))
+    v = np.random.default_rng(0).normal(size=hessian.shape[0])
+    product = hessian @ v
+    size = np.abs(product).max()
+    np.testing.assert_allclose((hessian.assembled() @ v) / size, product / size, atol=1e-5)
+    matrix = hessian.assembled()
+    np.testing.assert_allclose((matrix.matrix() @ v) / size, product / size, atol=1e-5)
+    solved = matrix.solve(product, 1e-6, 500, damping=0.0)
+    if not solved.negative_curvature:
+        np.testing.assert_allclose((hessian @ solved.x) / size, product / size, atol=1e-3)
