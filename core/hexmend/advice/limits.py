@@ -9,8 +9,8 @@ from hexmend.optimise import Outcome, Stop
 from hexmend.smoothers.optimiser import Optimiser
 
 
-def longer(now: Situation) -> tuple[Stop, str]:
-    """Limits that let it go on for longer, and the words for that."""
+def raised_limits(now: Situation) -> tuple[Stop, str]:
+    """The limits of the run, raised where they ended it, and the sentence part that says so."""
     stop = now.stop
     if now.result.outcome is Outcome.MAX_ITERATIONS:
         stop = replace(stop, max_iterations=min(max(2 * stop.max_iterations, 100), 1_000_000))
@@ -21,8 +21,8 @@ def longer(now: Situation) -> tuple[Stop, str]:
     return stop, ""
 
 
-def to_the_last(now: Situation, stop: Stop) -> tuple[Stop, str]:
-    """Limits under which a method that descends keeps what it gains, and the words for that.
+def keeping_last(now: Situation, stop: Stop) -> tuple[Stop, str]:
+    """The limits with `keep_last` for a method that descends, and the sentence that says so.
 
     Near its optimum the least q(H) goes up and down by a little while the objective falls. Where it happens to be high
     as a run begins, every later iteration would be taken for worse, and the mesh be left as it was.

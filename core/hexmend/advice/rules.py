@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hexmend.advice.limits import longer, to_the_last
+from hexmend.advice.limits import keeping_last, raised_limits
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
 from hexmend.optimise import Outcome, Stop
@@ -88,8 +88,8 @@ def go_on(now: Situation) -> Suggestion | None:
     """An optimiser that was cut short while it still gained."""
     if not now.cut_short or not now.smoother.optimises or (now.loose.size and not _is_mend(now)) or not now.improving:
         return None
-    stop, more = longer(now)
-    stop, keeping = to_the_last(now, stop)
+    stop, more = raised_limits(now)
+    stop, keeping = keeping_last(now, stop)
     gain = "inverted" if now.loose.size else now.aim
     gained = {
         "inverted": "fewer hexes were inverted",
@@ -107,7 +107,7 @@ def begin_again(now: Situation) -> Suggestion | None:
     detours = _is_mend(now) and (now.smoother.slides or now.smoother.goal != "shape")
     if not (limited and detours) or go_on(now) is not None:
         return None
-    stop, more = longer(now)
+    stop, more = raised_limits(now)
     return Suggestion(
         "The same from before the run, longer",
         f"Begin the same again from before the run{more}: it was cut short before it had raised the worst corners, and "
@@ -138,7 +138,7 @@ def tighten(now: Situation) -> Suggestion | None:
         return None
     if now.stop.tolerance <= usual or not now.improving:
         return None
-    stop, keeping = to_the_last(now, replace(now.stop, tolerance=usual))
+    stop, keeping = keeping_last(now, replace(now.stop, tolerance=usual))
     return Suggestion(
         "Tighter tolerance",
         f"Run the same again with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: it still gained."
