@@ -6,6 +6,7 @@ from base64 import b64encode
 from collections.abc import Sequence
 from html import escape
 
+from hexmend.energy.power import SQUARES
 from hexmend.figures import Figure
 from hexmend.mesh import Mesh
 from hexmend.notebook.sparkline import sparkline
@@ -47,7 +48,7 @@ def of_result(result: Result, picture: bytes | None = None, problem: str = "") -
         f"{_cell(one, result.after, one.key in result.worse)}<td>{_line(one, result)}</td></tr>"
         for one in FIGURES.values()
     ]
-    table = f"<table>{head}{''.join(rows)}</table>"
+    table = f"<table>{head}{''.join(rows)}{_own_objective(result)}</table>"
     return _page(_title(result.mesh), picture, problem, table, f'<p style="{_SAID}">{escape(result.message)}</p>')
 
 
@@ -74,9 +75,38 @@ def _cell(figure: Figure, summary: Summary, worse: bool = False) -> str:
     return f'<td style="{_WORSE}">{text}</td>' if worse else f"<td>{text}</td>"
 
 
-def _line(figure: Figure, result: Result) -> str:
-    if figure.key not in _LINES:
+def _own_objective(result: Result) -> str:
+    """A row of the objective that the method minimises, where it is not that of the summaries: as the history has it.
+
+    Each value is followed by its formula where it is another before and after.
+    """
+    before, after = result.history[0], result.history[result.kept]
+    if _has_one_objective(result):
         return ""
-    values: Sequence[float | int | None] = [row[figure.key] for row in result.history]
-    breaks = objective_changes(result.history) if figure.key == "objective" else ()
-    return sparkline(values, f"{HISTORY[figure.key].label} by iteration", result.kept, breaks)
+    figure = HISTORY["objective"]
+    formulas = [str(row["objective_formula"]) for row in (before, after)]
+    same = formulas[0] == formulas[1]
+    label = f"{figure.label} {formulas[0]}" if same else f"{figure.label} of the method"
+    cells = ""
+    for row, formula in zip((before, after), formulas, strict=True):
+        text = "∞" if row["objective"] is None else figure.text(row["objective"])
+        cells += f"<td>{escape(text if same else f'{text} ({formula})')}</td>"
+    head = f'<th style="{_LEFT}"><span title="{escape(figure.help)}">{escape(label)}</span></th>'
+    return f"<tr>{head}{cells}<td>{_sparkline('objective', result)}</td></tr>"
+
+
+def _has_one_objective(result: Result) -> bool:
+    """Whether all iterations recorded the objective that summaries have."""
+    return all(row["objective_formula"] == SQUARES.formula for row in result.history)
+
+
+def _line(figure: Figure, result: Result) -> str:
+    if figure.key not in _LINES or (figure.key == "objective" and not _has_one_objective(result)):
+        return ""
+    return _sparkline(figure.key, result)
+
+
+def _sparkline(key: str, result: Result) -> str:
+    values: Sequence[float | int | None] = [row[key] for row in result.history]
+    breaks = objective_changes(result.history) if key == "objective" else ()
+    return sparkline(values, f"{HISTORY[key].label} by iteration", result.kept, breaks)

@@ -17,8 +17,8 @@ HISTORY: dict[str, Figure] = {
         Figure(
             "objective",
             "objective",
-            "The objective that the method minimises at this step, Σ η(H)^p with its p and offset (3.3): infinite while "
-            "any element is inverted. Steps that raise the least scaled Jacobian do not minimise it.",
+            "The objective that the method minimises at this step, Σ η(H)^p with its p and offset (3.3): infinite "
+            "while any element is inverted. Steps that raise the least scaled Jacobian do not minimise it.",
             objective,
             -1,
         ),
