@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.carried import arrays_of, no_numbers, rounded
+from hexmend.io.carried import no_numbers, rounded
 from hexmend.io.content import ID, Block, hex_blocks, unused
+from hexmend.io.exodus_columns import column_titles, columns, form, whole_numbers
 from hexmend.io.exodus_elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.exodus_ids import IDS, ids_of
 from hexmend.io.exodus_records import add_records
@@ -54,27 +55,28 @@ def write(path: Path, mesh: Mesh) -> None:
     _add_node_sets(file, mesh)
     _add_element_sets(file, mesh, parts, blocks)
     _add_side_sets(file, mesh, numbers)
-    nodes = _columns({name: values for name, values in mesh.node_data.items() if name != held_by_pins(mesh)})
-    cells = [_columns(block.data) for block in blocks]
+    node_data, cell_data = _node_data(mesh), [block.data for block in blocks]
+    nodes = columns(node_data, column_titles([node_data]))
+    cells = [columns(data, titles) for titles in [column_titles(cell_data)] for data in cell_data]
     file.add("time_whole", {"time_step": 0}, np.zeros(int(bool(nodes) or any(cells))))
     _add_results(file, nodes, cells)
     file.write(path)
 
 
 def cannot(mesh: Mesh) -> list[str]:
-    """Data that are no numbers or are rounded, and names with spaces around, in words."""
+    """Data that are no numbers or are rounded, and names that the format cannot have or that clash, in words."""
     left, titles = rounded(mesh) + no_numbers(mesh), {}
-    for what, arrays in arrays_of(mesh).items():
-        left += renamed(distinct((name for name, _ in arrays), _form), what)
+    cell_data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
+    left += renamed(column_titles([_node_data(mesh)]), "point data") + renamed(column_titles(cell_data), "cell data")
     sets = [name for one in mesh.cells for name in one.sets]
     for names in (mesh.node_sets, [*mesh.hex_sets, *sets], mesh.side_sets):
-        titles |= distinct(names, _form)
+        titles |= distinct(names, form)
     return left + renamed(titles)
 
 
-def _form(name: str, end: str) -> str:
-    """A name as the format can have it: without spaces around it, and up to a zero."""
-    return (name.split("\0")[0].strip() or "unnamed") + end
+def _node_data(mesh: Mesh) -> dict[str, np.ndarray]:
+    """Data of the nodes without those that say which are pinned."""
+    return {name: values for name, values in mesh.node_data.items() if name != held_by_pins(mesh)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,15 +120,15 @@ def _add_blocks(file: Writer, mesh: Mesh, blocks: list[_Piece]) -> None:
 
 
 def _add_ids(file: Writer, mesh: Mesh, parts: list[Block]) -> None:
-    if _whole(mesh.node_data.get(ID)):
+    if whole_numbers(mesh.node_data.get(ID)):
         file.add("node_num_map", {"num_nodes": mesh.n_nodes}, mesh.node_data[ID])
-    if any(_whole(part.data.get(ID)) for part in parts):
-        known = [np.asarray(part.data[ID]) for part in parts if _whole(part.data.get(ID))]
+    if any(whole_numbers(part.data.get(ID)) for part in parts):
+        known = [np.asarray(part.data[ID]) for part in parts if whole_numbers(part.data.get(ID))]
         free = max(int(values.max()) for values in known) + 1  # for cells that have none
         rows = []
         for part in parts:
-            rows.append(np.asarray(part.data[ID]) if _whole(part.data.get(ID)) else free + np.arange(len(part)))
-            free += 0 if _whole(part.data.get(ID)) else len(part)
+            rows.append(np.asarray(part.data[ID]) if whole_numbers(part.data.get(ID)) else free + np.arange(len(part)))
+            free += 0 if whole_numbers(part.data.get(ID)) else len(part)
         file.add("elem_num_map", {"num_elem": sum(len(part) for part in parts)}, np.concatenate(rows))
 
 
@@ -172,12 +174,12 @@ def _add_side_sets(file: Writer, mesh: Mesh, numbers: np.ndarray) -> None:
 def _add_results(file: Writer, nodes: Mapping[str, np.ndarray], cells: list[Mapping[str, np.ndarray]]) -> None:
     """Data of nodes and cells, as results of one time step."""
     if nodes:
-        file.add_text("name_nod_var", "num_nod_var", list(distinct(nodes, _form).values()))
+        file.add_text("name_nod_var", "num_nod_var", list(nodes))
         for v, values in enumerate(nodes.values(), 1):
             file.add(f"vals_nod_var{v}", {"time_step": 0, "num_nodes": len(values)}, values)
     names = list(dict.fromkeys(name for those in cells for name in those))
     if names:
-        file.add_text("name_elem_var", "num_elem_var", list(distinct(names, _form).values()))
+        file.add_text("name_elem_var", "num_elem_var", names)
         table = np.array([[name in those for name in names] for those in cells])
         file.add("elem_var_tab", {"num_el_blk": len(cells), "num_elem_var": len(names)}, table)
         for k, those in enumerate(cells, 1):
@@ -187,37 +189,15 @@ def _add_results(file: Writer, nodes: Mapping[str, np.ndarray], cells: list[Mapp
                     file.add(f"vals_elem_var{v}eb{k}", shape, those[name])
 
 
-def _columns(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Numbers alone; an array of several columns as several: a_x a_y a_z where it is a vector, else a_1 a_2 ..."""
-    answer = {}
-    for name, values in data.items():
-        values = np.asarray(values)
-        if values.dtype.kind not in "biuf" or (name == ID and _whole(values)):
-            continue
-        rows = values.astype(np.float64).reshape(len(values), -1)
-        ends = ["_x", "_y", "_z"] if rows.shape[1] == 3 else [f"_{k}" for k in range(1, rows.shape[1] + 1)]
-        ends = [""] if rows.shape[1] == 1 else ends
-        for k, end in enumerate(ends):
-            column = name + end
-            answer[column if column not in {*answer, *data} or not end else unused(column, {*answer, *data})] = rows[
-                :, k
-            ]
-    return answer
-
-
 def _add_list(file: Writer, mesh: Mesh, start: str, dimension: str, names: list[str]) -> None:
     """Ids, states and names of the blocks or sets of one sort."""
     if names:
         shape = {dimension: len(names)}
         file.add(f"{start}_status", shape, np.ones(len(names), np.int32))
         file.add(f"{start}_prop1", shape, np.array(ids_of(mesh.field_data.get(IDS), start, names)), name="ID")
-        titles = distinct((name for name in names if name or start != "eb"), _form)  # a block may have no name
+        titles = distinct((name for name in names if name or start != "eb"), form)  # a block may have no name
         file.add_text(f"{start}_names", dimension, [titles.get(name, "") for name in names])
 
 
-def _whole(values: object) -> bool:
-    return values is not None and np.asarray(values).dtype.kind in "iu" and np.ndim(values) == 1
-
-
 def _wide(values: np.ndarray) -> bool:
-    return _whole(values) and bool(values.size) and (values.max() >= 2**31 or values.min() < -(2**31))
+    return whole_numbers(values) and bool(values.size) and (values.max() >= 2**31 or values.min() < -(2**31))

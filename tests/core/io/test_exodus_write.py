@@ -137,6 +137,24 @@ def test_whole_numbers_that_are_rounded_are_told(tmp_path):
     np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], large)
 
 
+def test_columns_that_have_the_names_of_other_data_are_renamed_together_and_that_is_said(tmp_path):
+    rng = np.random.default_rng(0)
+    vector, pair, scalar = rng.normal(size=(27, 3)), rng.normal(size=(27, 2)), rng.normal(size=27)
+    nodes = {"v": vector, "v_x": scalar, "w": pair, "w_3": scalar, "free": vector}
+    mesh = grid(2).replace(node_data=nodes, hex_data={"s": rng.normal(size=(8, 3)), "s_z": np.arange(8.0)})
+    assert io.left_out(tmp_path / "a.exo", mesh) == [
+        "names of point data as they are (v, w)",
+        "names of cell data as they are (s)",
+    ]
+    io.write(tmp_path / "a.exo", mesh)
+    back = io.read(tmp_path / "a.exo")
+    assert set(back.node_data) == {"v_2", "v_x", "w_2", "w_3", "free"}
+    assert set(back.hex_data) == {"s_2", "s_z"}
+    for title, values in {"v_2": vector, "v_x": scalar, "w_2": pair, "w_3": scalar, "free": vector}.items():
+        np.testing.assert_array_equal(back.node_data[title], values)
+    np.testing.assert_array_equal(back.hex_data["s_2"], mesh.hex_data["s"])
+
+
 def test_data_and_names_that_the_format_cannot_have_are_told(tmp_path):
     names = [" lead", "lead", "S", "s", ""]
     mesh = grid(2).replace(
@@ -149,7 +167,7 @@ def test_data_and_names_that_the_format_cannot_have_are_told(tmp_path):
     assert io.left_out(tmp_path / "a.exo", mesh) == [
         "point data that are no numbers (phase)",
         "cell data that are no numbers (label)",
-        "names of point data as they are ( t)",
+        "names of point data as they are ( t, v)",
         "names of sets as they are (,  lead)",
     ]
     io.write(tmp_path / "a.exo", mesh)
