@@ -12,7 +12,7 @@ import numpy as np
 from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
 from hexmend.io.allowance import Allowance
-from hexmend.io.content import HEX_KINDS, ID, Block, Content
+from hexmend.io.content import HEX_KINDS, ID, Block, Content, unused
 from hexmend.io.content import to_mesh as mesh_of
 from hexmend.io.numbering import places
 from hexmend.io.source import shown
@@ -40,7 +40,7 @@ ORDER = {
     "pyramid13": [0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12],
 }
 
-#: Name of the data of cells that hold their partition.
+#: Name of the data of cells that hold their partition, unless the file has data of that name.
 PARTITION = "partition"
 
 #: Name of field data that holds the lines of $PhysicalNames, so that groups keep their numbers.
@@ -150,16 +150,18 @@ def to_mesh(path: Path, read: Read) -> Mesh:
             f"{left:,} elements of types that Hexmend does not keep (orders above 2, prisms of 18 nodes) are left out."
         )
     partitioned = any(part.partitions is not None and part.partitions.any() for part in read.elements)
+    own = {one.name for one in read.data if not one.of_nodes}
+    partition = unused(PARTITION, own) if PARTITION in own else PARTITION
     if partitioned:
         notes.append(
-            f"The mesh is in parts for several processors: the data {PARTITION!r} says which cell is in which."
+            f"The mesh is in parts for several processors: the data {partition!r} says which cell is in which."
         )
     for number in dict.fromkeys(part.type for part in read.elements):
         parts = [part for part in read.elements if part.type == number and len(part.tags)]
         if parts and number in KINDS:
-            block = _block(path, KINDS[number], parts, read.tags, titles, notes)
-            own = block.data if partitioned else {ID: block.data[ID]}
-            blocks.append(replace(block, data={**_data(read.data, False, block.data[ID], allowance), **own}))
+            block, partitions = _block(path, KINDS[number], parts, read.tags, titles, notes)
+            data = _data(read.data, False, block.data[ID], allowance) | ({partition: partitions} if partitioned else {})
+            blocks.append(replace(block, data=data | block.data))
     blocks.sort(key=lambda block: block.kind not in HEX_KINDS)
     field_data = {PHYSICAL: read.names} if read.names else {}
     node_data = {**_data(read.data, True, read.tags, allowance), ID: read.tags}
@@ -174,7 +176,8 @@ def _block(
     node_tags: np.ndarray,
     titles: Mapping[tuple[int, int], str],
     notes: list[str],
-) -> Block:
+) -> tuple[Block, np.ndarray]:
+    """The elements of one kind, and the partition of each."""
     nodes = np.concatenate([part.nodes for part in parts])
     tags = np.concatenate([part.tags for part in parts])
     partitions = np.concatenate(
@@ -205,7 +208,7 @@ def _block(
         chosen = np.concatenate(rows)
         chosen = np.unique(place[chosen]) if place is not None else chosen
         sets[titles.get((dimension_of(kind), number)) or f"physical {number}"] = chosen
-    return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: tags, PARTITION: partitions}, sets)
+    return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: tags}, sets), partitions
 
 
 def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray, allowance: Allowance) -> dict[str, np.ndarray]:

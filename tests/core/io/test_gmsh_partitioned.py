@@ -64,3 +64,19 @@ def test_a_partitioned_mesh_keeps_its_groups_and_says_which_cell_is_in_which_par
     again = io.read(tmp_path / "b.msh")
     assert again.hex_data["partition"].tolist() == [1, 2, 3]
     assert again.hex_sets.keys() == mesh.hex_sets.keys()
+
+
+@pytest.mark.parametrize("own", [[], [b"partition_2"]], ids=["partition", "both"])
+def test_data_of_the_file_called_partition_are_kept_beside_the_partition_numbers(own, tmp_path):
+    data = b"".join(
+        b'$ElementData\n1\n"%s"\n1\n0\n3\n0\n1\n3\n4 42\n5 43\n6 44\n$EndElementData\n' % name
+        for name in [b"partition", *own]
+    )
+    (tmp_path / "a.msh").write_bytes(partitioned(2, False) + data)
+    mesh = io.read(tmp_path / "a.msh")
+    title = "partition_3" if own else "partition_2"
+    assert mesh.hex_data["partition"].tolist() == [42, 43, 44]
+    assert mesh.hex_data[title].tolist() == [1, 2, 3]
+    assert any(f"the data {title!r} says which cell" in note for note in mesh.notes)
+    io.write(tmp_path / "b.msh", mesh)
+    assert io.read(tmp_path / "b.msh").hex_data[title].tolist() == [1, 2, 3]
