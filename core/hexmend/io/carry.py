@@ -116,8 +116,13 @@ def to_content(path: Path, grid: Grid) -> Content:
 
 
 def from_mesh(mesh: Mesh) -> Grid:
-    """The grid that holds a mesh, hexahedra first; sets are arrays named "set:...", pins one named "fixed"."""
-    return of_content(replace(content_of(mesh), node_data=with_marks(mesh)))
+    """The grid that holds a mesh, hexahedra first; sets are arrays named "set:...", pins one named "fixed".
+
+    Data of cells and nodes that VTK's formats have no type for, such as complex numbers, are left out.
+    """
+    content = content_of(mesh)
+    blocks = tuple(replace(block, data=_numbers_and_texts(block.data)) for block in content.blocks)
+    return of_content(replace(content, blocks=blocks, node_data=_numbers_and_texts(with_marks(mesh))))
 
 
 def of_content(content: Content) -> Grid:
@@ -142,6 +147,10 @@ def of_content(content: Content) -> Grid:
         ),
         field_data=content.field_data,
     )
+
+
+def _numbers_and_texts(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return {name: values for name, values in data.items() if np.asarray(values).dtype.kind in "biufU"}
 
 
 def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
