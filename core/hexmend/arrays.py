@@ -5,35 +5,46 @@ from __future__ import annotations
 import numpy as np
 
 
-def immutable(array: np.ndarray) -> bool:
-    """True where nobody can write to an array: neither it nor any array that it is a view of is writable.
+class _Memory:
+    """Memory of an array that only this object refers to, given out for reading alone.
+
+    NumPy refuses to make an array writable whose memory is of an object that is neither an array nor a buffer. An array
+    that owns its memory, or has it from `bytes`, proves nothing: it may have been writable before, and views made then
+    still are.
+    """
+
+    __slots__ = ("__array_interface__", "_owner")
+
+    def __init__(self, owner: np.ndarray):
+        self._owner = owner
+        self.__array_interface__ = owner.__array_interface__ | {"data": (owner.ctypes.data, True)}
+
+
+def is_immutable(array: np.ndarray) -> bool:
+    """True for an array that `as_immutable` made and for views of it: nobody can write to them, now or later.
 
     >>> values = np.zeros(2)
-    >>> immutable(values), immutable(frozen(values))
+    >>> is_immutable(values), is_immutable(as_immutable(values))
     (False, True)
     """
     owner: object = array
     while isinstance(owner, np.ndarray):
-        if owner.flags.writeable:
-            return False
         owner = owner.base
-    return owner is None or isinstance(owner, bytes)
+    return type(owner) is _Memory
 
 
-def frozen(array: np.ndarray) -> np.ndarray:
-    """The array if it is immutable, otherwise a contiguous read-only copy of it; the given array stays as it is."""
-    if immutable(array):
+def as_immutable(array: np.ndarray) -> np.ndarray:
+    """The array if it is immutable, otherwise a contiguous copy that is; the given array stays as it is.
+
+    Copies of arrays of Python objects are read-only, but never count as immutable.
+    """
+    if is_immutable(array):
         return array
-    copy = np.array(array, order="C", copy=True)
+    copy = np.array(array, order="C", copy=True, subok=False)
+    if not copy.dtype.hasobject:
+        return np.asarray(_Memory(copy))
     copy.flags.writeable = False
     return copy
-
-
-def freeze(array: np.ndarray) -> np.ndarray:
-    """The array made read-only in place, for one that the caller has made and gives up; of a view a read-only copy."""
-    if array.base is None:
-        array.flags.writeable = False
-    return frozen(array)
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> float:

@@ -11,12 +11,13 @@ from typing import Protocol
 
 import numpy as np
 
-from hexmend.arrays import freeze, frozen
+from hexmend.arrays import as_immutable
 from hexmend.cells import Cells
 from hexmend.edge_length import mean_edge_length
 from hexmend.errors import MeshError
-from hexmend.mesh_checks import as_hexes, as_points, check_finite, check_size, points_like, switches
+from hexmend.mesh_checks import as_bools, as_hexes, as_points, check_finite, points_like
 from hexmend.mesh_fields import checked
+from hexmend.mesh_limits import check_size
 from hexmend.second_order import following
 from hexmend.showing import html_of
 from hexmend.topology import Topology
@@ -70,7 +71,7 @@ class Mesh:
     ------
     MeshError
         Where a coordinate is no finite number, a node number is not whole or out of range, a set names what does not
-        exist, or an array has the wrong shape or type. Numbers that are switches, complex or text are refused.
+        exist, or an array has the wrong shape or type. Numbers that are booleans, complex or text are refused.
 
     Examples
     --------
@@ -103,9 +104,19 @@ class Mesh:
         if not len(hexes):
             raise MeshError("hexes have shape (0, 8): expected (m, 8) with at least one hex")
         # A view: meshes share one array of hexes only where one was made of the other and has its topology.
-        self._set(points=frozen(points), hexes=frozen(hexes).view())
+        self._set(points=as_immutable(points), hexes=as_immutable(hexes).view())
         self._carry({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
         self._set(topology=Topology(self.hexes, len(points)))
+
+    def __deepcopy__(self, memo: dict[int, object]) -> Mesh:
+        return self  # it is immutable
+
+    def __setstate__(self, state: Mapping[str, object]) -> None:
+        """Take over the state of a pickle, whose arrays are writable: they are made immutable again."""
+        self._set(**state)
+        self._set(**{name: as_immutable(array) for name, array in state.items() if isinstance(array, np.ndarray)})
+        self._set(hexes=self.topology.hexes)  # which meshes of one lineage share
+        self._carry({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
 
     def _carry(self, values: Mapping[str, object]) -> None:
         """Check the values of some fields and keep them; points and hexes stay."""
@@ -131,12 +142,12 @@ class Mesh:
     def fixed(self) -> np.ndarray:
         """True for each node that no method moves: boundary, pinned, and nodes that no hex uses; (n,) bool."""
         fixed = self.topology.boundary | ~self.topology.used
-        return freeze(fixed if self.pinned is None else fixed | self.pinned)
+        return as_immutable(fixed if self.pinned is None else fixed | self.pinned)
 
     @cached_property
     def free(self) -> np.ndarray:
         """True for each node that methods may move, (n,) bool."""
-        return freeze(~self.fixed)
+        return as_immutable(~self.fixed)
 
     @cached_property
     def mean_edge_length(self) -> float:
@@ -173,9 +184,9 @@ class Mesh:
         points = points_like(points, self.points.shape)
         check_finite(points)
         if self.mid_nodes is not None:
-            points = freeze(following(self.points, points, self.hexes, self.mid_nodes))
+            points = following(self.points, points, self.hexes, self.mid_nodes)
         mesh = self._copy("fixed", "free")
-        mesh._set(points=frozen(points))
+        mesh._set(points=as_immutable(points))
         return mesh
 
     @property
@@ -229,7 +240,7 @@ class Mesh:
             For another length or type.
         """
         copy = self._copy()
-        copy._set(fixed=frozen(switches(fixed, "fixed", self.n_nodes)), _surface=self.surface)
+        copy._set(fixed=as_immutable(as_bools(fixed, "fixed", self.n_nodes)), _surface=self.surface)
         return copy
 
     def replace(self, **changes: object) -> Mesh:

@@ -7,15 +7,9 @@ import weakref
 
 import numpy as np
 
-from hexmend.arrays import immutable
+from hexmend.arrays import is_immutable
 from hexmend.errors import MeshError
-
-#: The largest coordinate and the least size of a mesh: beyond them fourth powers of lengths are no numbers.
-LARGEST, SMALLEST = 1e75, 1e-75
-
-#: Nodes have numbers of 32 bits, and so have corners, each of which is 8 * hex + corner.
-MOST_NODES = 2**31 - 1
-MOST_HEXES = MOST_NODES // 8
+from hexmend.mesh_limits import MOST_HEXES, MOST_NODES
 
 # Lowest and highest number in each immutable array that was checked, by its `id`, for as long as the array lives.
 _RANGES: dict[int, tuple[weakref.ref, int, int]] = {}
@@ -35,7 +29,7 @@ def real_numbers(values: object, what: str) -> np.ndarray:
     Raises
     ------
     MeshError
-        For switches, complex numbers, text and objects.
+        For booleans, complex numbers, text and objects.
     """
     array = as_array(values, what)
     if not array.size:
@@ -59,7 +53,7 @@ def whole_numbers(values: object, what: str, places: tuple[str, ...]) -> np.ndar
     Raises
     ------
     MeshError
-        For switches, complex numbers, text and objects, and naming the first number that is not whole.
+        For booleans, complex numbers, text and objects, and naming the first number that is not whole.
     """
     array = as_array(values, what)
     if array.dtype.kind in "iu":
@@ -85,7 +79,7 @@ def place(names: tuple[str, ...], at: tuple[int, ...]) -> str:
     return ", ".join(f"{name} {i}" for name, i in zip(names, at, strict=False)) + " (counted from 0)"
 
 
-def switches(values: object, what: str, count: int) -> np.ndarray:
+def as_bools(values: object, what: str, count: int) -> np.ndarray:
     """Values as (count,) bool; zeros and ones are taken for them.
 
     Raises
@@ -206,7 +200,7 @@ def _range(numbers: np.ndarray) -> tuple[int, int]:
     if not numbers.size:
         return 0, -1
     least, greatest = int(numbers.min()), int(numbers.max())
-    if immutable(numbers):
+    if is_immutable(numbers):
         key = id(numbers)
         _RANGES[key] = weakref.ref(numbers, lambda _, pop=_RANGES.pop: pop(key, None)), least, greatest
     return least, greatest
@@ -228,18 +222,6 @@ def number(value: object, count: int, what: str) -> int:
     if isinstance(value, bool | np.bool_) or not 0 <= found < count:
         raise MeshError(f"there is no {what} {value}: {expected}")
     return found
-
-
-def check_size(points: np.ndarray) -> None:
-    """Raise `MeshError` where points (n, 3) are so far apart, or so near, that volumes are no numbers."""
-    if not len(points):
-        return
-    low, high = points.min(axis=0), points.max(axis=0)
-    far, size = max(-low.min(), high.max()), float((high - low).max())
-    if far > LARGEST:
-        raise MeshError(f"coordinates go up to {far:.3g}: expected {LARGEST:g} at most; choose a larger unit of length")
-    if 0 < size < SMALLEST:
-        raise MeshError(f"the mesh is {size:.3g} wide: expected {SMALLEST:g} at least; choose a smaller unit of length")
 
 
 def check_finite(points: np.ndarray) -> None:

@@ -6,13 +6,11 @@ from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
-from hexmend.arrays import frozen
+from hexmend.arrays import as_immutable
 from hexmend.cells import CELL_KINDS, Cells
 from hexmend.errors import MeshError
-from hexmend.mesh_checks import as_array, check_node_numbers, place, switches, whole_numbers
-
-#: Nodes that a hex of second order may have besides its corners.
-MID_NODES = 19
+from hexmend.mesh_checks import as_array, as_bools, check_node_numbers, place, whole_numbers
+from hexmend.second_order import MID_PLACES
 
 
 def checked(field: str, value: object, nodes: int, hexes: int) -> object:
@@ -44,8 +42,8 @@ def check_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
         For another shape or type, and for a node that does not exist.
     """
     array = whole_numbers(mid_nodes, "mid_nodes", ("hex", "mid-node"))
-    if array.shape != (hexes, MID_NODES):
-        raise MeshError(f"mid_nodes have shape {array.shape}: expected ({hexes}, {MID_NODES})")
+    if array.shape != (hexes, len(MID_PLACES)):
+        raise MeshError(f"mid_nodes have shape {array.shape}: expected ({hexes}, {len(MID_PLACES)})")
     check_node_numbers(array, nodes, ("hex", "mid-node"), -1)
     return np.ascontiguousarray(array, dtype=np.int32)
 
@@ -102,44 +100,56 @@ def rows(values: object, what: str, count: int) -> np.ndarray:
     return array
 
 
-def check_cells(cells: Cells, nodes: int) -> None:
-    """Raise `MeshError` where cells that are no hexes have an unknown kind, or use a node which is none of `nodes`."""
+def check_cells(cells: object, nodes: int) -> Cells:
+    """Cells that are no hexes with int32 node numbers below `nodes`, their data and sets; all arrays immutable.
+
+    Raises
+    ------
+    MeshError
+        For an unknown kind of cells, another shape or type of an array, and a node or cell that does not exist.
+    """
     if not isinstance(cells, Cells):
-        raise MeshError(f"cells hold a {type(cells).__name__}: expected hexmend.Cells")
-    if cells.kind not in CELL_KINDS:
-        raise MeshError(f"there is no kind of cells {cells.kind!r}: expected one of {', '.join(CELL_KINDS)}")
-    places, width = (cells.kind, "corner"), CELL_KINDS[cells.kind].nodes
-    array = whole_numbers(cells.nodes, f"{cells.kind} cells", places)
+        raise MeshError(f"cells hold {type(cells).__name__}: expected hexmend.Cells")
+    kind = cells.kind
+    if not isinstance(kind, str) or kind not in CELL_KINDS:
+        raise MeshError(f"there is no kind of cells {kind!r}: expected one of {', '.join(CELL_KINDS)}")
+    places, width = (kind, "corner"), CELL_KINDS[kind].nodes
+    array = whole_numbers(cells.nodes, f"{kind} cells", places)
     if array.ndim != 2 or array.shape[1] != width:
-        raise MeshError(f"{cells.kind} cells have shape {array.shape}: expected (k, {width})")
+        raise MeshError(f"{kind} cells have shape {array.shape}: expected (k, {width})")
     check_node_numbers(array, nodes, places)
+    return Cells(
+        kind,
+        as_immutable(np.asarray(array, dtype=np.int32)),
+        _arrays(cells.data, f"data of {kind} cells", len(array), rows),
+        _arrays(cells.sets, f"set of {kind} cells", len(array), members),
+    )
 
 
 def _pinned(value: object, nodes: int, hexes: int) -> np.ndarray | None:
-    return None if value is None else frozen(switches(value, "pinned", nodes))
+    return None if value is None else as_immutable(as_bools(value, "pinned", nodes))
 
 
 def _mid_nodes(value: object, nodes: int, hexes: int) -> np.ndarray | None:
-    return None if value is None else frozen(check_mid_nodes(value, nodes, hexes))
+    return None if value is None else as_immutable(check_mid_nodes(value, nodes, hexes))
 
 
-def _cells(value: Iterable[Cells], nodes: int, hexes: int) -> tuple[Cells, ...]:
-    every = tuple(value)
-    for cells in every:
-        check_cells(cells, nodes)
-    return every
+def _cells(value: object, nodes: int, hexes: int) -> tuple[Cells, ...]:
+    if not isinstance(value, Iterable):
+        raise MeshError(f"cells are of type {type(value).__name__}: expected a tuple of hexmend.Cells")
+    return tuple(check_cells(cells, nodes) for cells in value)
+
+
+def _arrays(value: object, what: str, count: int, check: Callable[[object, str, int], np.ndarray]) -> dict:
+    """Named arrays, each checked by a function of the array, its name in messages and a count, and immutable."""
+    if not isinstance(value, Mapping):
+        raise MeshError(f"{what}: found {type(value).__name__}, expected a mapping of names to arrays")
+    return {name: as_immutable(check(array, f"{what} {name!r}", count)) for name, array in value.items()}
 
 
 def _table(what: str, of_nodes: bool, check: Callable[[object, str, int], np.ndarray]) -> Callable[..., object]:
-    """A check of named arrays, each by a check that takes the array, what to call it, and how many nodes or hexes."""
-
-    def table(value: object, nodes: int, hexes: int) -> dict[str, np.ndarray]:
-        if not isinstance(value, Mapping):
-            raise MeshError(f"{what}s are of type {type(value).__name__}: expected a mapping of names to arrays")
-        count = nodes if of_nodes else hexes
-        return {name: frozen(check(array, f"{what} {name!r}", count)) for name, array in value.items()}
-
-    return table
+    """A check of named arrays, one row or member for each of the nodes or hexes."""
+    return lambda value, nodes, hexes: _arrays(value, what, nodes if of_nodes else hexes, check)
 
 
 _CHECKS: dict[str, Callable[..., object]] = {

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from hexmend.arrays import as_immutable
 from hexmend.hexahedron import FACES
 from hexmend.kernels import incidence, structure, visiting
-from hexmend.mesh_checks import as_hexes, switches
+from hexmend.mesh_checks import as_bools, as_hexes
 from hexmend.mesh_fields import members
+from hexmend.mesh_limits import MOST_ITEMS, too_many
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,7 @@ class Topology:
     Parameters
     ----------
     hexes : (m, 8) int32
-        Corner nodes, numbered as in `hexmend.hexahedron`.
+        Corner nodes, numbered as in `hexmend.hexahedron`; copied unless nobody can change them.
     n : int
         Number of nodes, used by a hex or not.
 
@@ -63,8 +65,12 @@ class Topology:
     """
 
     def __init__(self, hexes: np.ndarray, n: int):
-        self.hexes = as_hexes(hexes, n)
+        self.hexes = as_immutable(as_hexes(hexes, n))
         self.n = n
+
+    def __setstate__(self, state: Mapping[str, object]) -> None:
+        self.__dict__.update(state)
+        self.hexes = as_immutable(self.hexes)  # arrays that come out of a pickle are writable
 
     @cached_property
     def node_corners(self) -> Rows:
@@ -140,12 +146,15 @@ class Topology:
     @cached_property
     def rings(self) -> Rows:
         """Edge neighbours of each node, ascending."""
-        return Rows(*incidence.node_rings(self.hexes, self.node_corners.start, self.node_corners.items))
+        rows = self.node_corners
+        with too_many("neighbours of nodes"):
+            return Rows(*incidence.node_rings(self.hexes, rows.start, rows.items, MOST_ITEMS))
 
     @cached_property
     def _edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         rows = self.node_corners
-        return structure.edges(self.hexes, rows.start, rows.items, self.face_neighbours)
+        with too_many("edges"):
+            return structure.edges(self.hexes, rows.start, rows.items, self.face_neighbours, MOST_ITEMS)
 
     @property
     def edges(self) -> np.ndarray:
@@ -201,7 +210,7 @@ class Topology:
         MeshError
             For an array of another length or type.
         """
-        rows, chosen = self.node_corners, switches(chosen, "chosen", self.n)
+        rows, chosen = self.node_corners, as_bools(chosen, "chosen", self.n)
         colour = incidence.greedy_colours(rows.start, rows.items, chosen)
         count = int(colour.max(initial=-1)) + 1
         return Rows(*incidence.grouped(colour, count))
@@ -240,4 +249,4 @@ class Topology:
             For an array of another length or type.
         """
         rings = self.rings
-        return visiting.levels(rings.start, rings.items, switches(start, "start", self.n))
+        return visiting.levels(rings.start, rings.items, as_bools(start, "start", self.n))

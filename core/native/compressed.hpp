@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "rows.hpp"
 #include "threads.hpp"
@@ -32,25 +35,34 @@ inline int widest(Indices start) {
     return most;
 }
 
-// Counts, in start[i] that of row i, become ends of rows.
-inline void accumulate(std::span<std::int32_t> start) {
+// The most items that rows may have: their ends are numbers of 32 bits.
+constexpr std::int64_t MOST_ITEMS = std::numeric_limits<std::int32_t>::max();
+
+// Turn counts, start[i] being that of row i, into the ends of the rows. Throws where there are more than `most` items.
+inline void accumulate(std::span<std::int32_t> start, std::int64_t most = MOST_ITEMS) {
+    std::int64_t total = 0;
+    for (auto count : start) total += count;
+    if (total > most)
+        throw std::overflow_error("there are " + std::to_string(total) + " items: expected " + std::to_string(most) +
+                                  " at most");
     for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
 }
 
 template <class Item> class CompressedRows {
   public:
-    // row(i, items) writes row i, of at most `most` items, and returns how many they are.
-    template <class Row> CompressedRows(std::int64_t count, std::int64_t most, const Row &row) {
+    // row(i, items) writes row i, of at most `width` items, and returns how many they are; all rows together may have
+    // `most`.
+    template <class Row> CompressedRows(std::int64_t count, std::int64_t width, std::int64_t most, const Row &row) {
         start_.resize(count + 1);
         chunks_.resize((count + ROWS - 1) / ROWS);
         parallel_chunks(count, ROWS, [&](std::int64_t begin, std::int64_t end) {
-            std::vector<Item> items(most), &chunk = chunks_[begin / ROWS];
+            std::vector<Item> items(width), &chunk = chunks_[begin / ROWS];
             for (std::int64_t i = begin; i < end; ++i) {
                 int size = start_[i + 1] = row(i, items.data());
                 chunk.insert(chunk.end(), items.data(), items.data() + size);
             }
         });
-        accumulate(start_);
+        accumulate(start_, most);
     }
 
     std::int64_t size() const { return start_.back(); }

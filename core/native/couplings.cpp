@@ -13,7 +13,8 @@ constexpr std::int64_t PIECES = 16;
 }  // namespace
 
 std::tuple<Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t, PAIRS>> pattern(Hexes slots, Indices nodes,
-                                                                                      Indices start, Indices corners) {
+                                                                                      Indices start, Indices corners,
+                                                                                      std::int64_t most) {
     std::int64_t count = nodes.size(), size = std::max<std::int64_t>((count + PIECES - 1) / PIECES, 1);
     std::vector<std::int32_t> row_start(count + 1), found[PIECES];
     parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {
@@ -31,7 +32,7 @@ std::tuple<Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t, PAIRS>> pa
             row_start[i + 1] = static_cast<std::int32_t>(columns.size() - first);
         }
     });
-    accumulate(row_start);
+    accumulate(row_start, most);
 
     std::vector<std::int32_t> columns(row_start[count]), target(slots.size() * PAIRS, -1);
     parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {

@@ -106,8 +106,8 @@ std::int64_t parts(Hexes hexes, std::span<const bool> used) {
     return count;
 }
 
-RowsMade node_rings(Hexes hexes, Indices start, Indices corners) {
-    return arrays(CompressedRows<Node>(start.size() - 1, 3 * widest(start) + 1, [&](std::int64_t i, Node *ring) {
+RowsMade node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most) {
+    return arrays(CompressedRows<Node>(start.size() - 1, 3 * widest(start) + 1, most, [&](std::int64_t i, Node *ring) {
         int size = 0;
         for (auto s = start[i]; s < start[i + 1]; ++s)
             for (int k = 1; k < 4; ++k) {

@@ -16,7 +16,7 @@ std::pair<Made<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indi
 
 std::int64_t parts(Hexes hexes, std::span<const bool> used);
 
-RowsMade node_rings(Hexes hexes, Indices start, Indices corners);
+RowsMade node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most);
 
 Made<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen);
 

@@ -7,7 +7,8 @@
 
 namespace hexmend {
 
-std::tuple<Made<Node, 2>, Made<std::int32_t>, Made<bool>> edges(
-    Hexes hexes, Indices start, Indices corners, std::span<const std::array<std::int32_t, 6>> neighbours);
+std::tuple<Made<Node, 2>, Made<std::int32_t>, Made<bool>> edges(Hexes hexes, Indices start, Indices corners,
+                                                                std::span<const std::array<std::int32_t, 6>> neighbours,
+                                                                std::int64_t most);
 
 }  // namespace hexmend

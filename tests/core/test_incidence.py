@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from hexmend import kernels
 from hexmend.energy.couplings import Couplings
+from hexmend.errors import MeshError
 from hexmend.hexahedron import EDGES, FACES
 from hexmend.kernels import couplings, incidence, structure
 from hexmend.mesh import Mesh
@@ -141,3 +142,33 @@ def test_no_hexes_are_no_trouble():
         assert (ends.shape, valence.size, outside.dtype) == ((0, 2), 0, bool)
     rows, columns, target = couplings.pattern(hexes, np.empty(0, np.int32), start, corners)
     assert (rows.tolist(), columns.size, target.shape) == ([0], 0, (0, 28))
+
+
+def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_written():
+    hexes = grid(2, 1, 1).hexes
+    start, corners = incidence.node_corners(hexes, 12)
+    neighbours, _ = incidence.face_neighbours(hexes, start, corners)
+    slots = np.ascontiguousarray(hexes)
+    for make, items in [
+        (lambda most: incidence.node_rings(hexes, start, corners, most), 40),
+        (lambda most: structure.edges(hexes, start, corners, neighbours, most), 20),
+        (lambda most: couplings.pattern(slots, np.arange(12, dtype=np.int32), start, corners, most), 50),
+    ]:
+        make(items)
+        with pytest.raises(OverflowError, match=f"there are {items} items: expected {items - 1} at most"):
+            make(items - 1)
+
+
+@pytest.mark.parametrize(
+    ("module", "most", "make", "words"),
+    [
+        ("topology", 39, lambda: grid(2, 1, 1).topology.rings, "neighbours of nodes, .* there are 40 items: .* divide"),
+        ("topology", 19, lambda: grid(2, 1, 1).topology.edges, "edges, .* there are 20 items"),
+        ("energy.couplings", 27, lambda: Couplings(grid(3)), "pairs of free nodes .* there are 28 items"),
+    ],
+)
+def test_a_mesh_whose_neighbours_cannot_be_numbered_is_to_be_divided(monkeypatch, module, most, make, words):
+    make()
+    monkeypatch.setattr(f"hexmend.{module}.MOST_ITEMS", most)
+    with pytest.raises(MeshError, match=f"the mesh has too many {words}"):
+        make()

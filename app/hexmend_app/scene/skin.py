@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.kernels import skin
 from hexmend.mesh import Mesh
-from hexmend.mesh_checks import as_points, check_node_numbers, switches
+from hexmend.mesh_checks import as_bools, as_points, check_node_numbers
 
 #: Elements up to which all are drawn where they are shrunk; of more, those in sight. So many take 50 ms a frame without
 #: a graphics card.
@@ -103,7 +103,7 @@ class Skin:
 
     def _kept(self, keep: np.ndarray | None) -> np.ndarray:
         """A byte for each hex; `MeshError` for an array of another length."""
-        return self._all if keep is None else switches(keep, "keep", len(self._hexes))
+        return self._all if keep is None else as_bools(keep, "keep", len(self._hexes))
 
     def _faces_of(self, keep: np.ndarray, chosen: np.ndarray, hidden: bool) -> tuple[np.ndarray, ...]:
         return skin.faces_of(self._hexes, self._neighbours, keep, chosen, hidden)

@@ -9,6 +9,7 @@ import numpy as np
 from hexmend.kernels import couplings as kernels
 from hexmend.kernels import ordering
 from hexmend.mesh import Mesh
+from hexmend.mesh_limits import MOST_ITEMS, too_many
 
 #: Slots are divided into parts that threads solve side by side: from so many slots on into 2, 4 and 8.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
@@ -24,6 +25,11 @@ class Couplings:
     mesh : Mesh
     parts : int, optional
         In how many parts the slots are; by their number where it is not given.
+
+    Raises
+    ------
+    MeshError
+        For more blocks than 32 bits can number.
 
     Attributes
     ----------
@@ -51,9 +57,10 @@ class Couplings:
         slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
         self.order = np.argsort(self.nodes)
         self.slots = slot[mesh.hexes]
-        self.row_start, self.columns, self.target = kernels.pattern(
-            self.slots, self.nodes, corners.start, corners.items
-        )
+        with too_many("pairs of free nodes that share a hex"):
+            self.row_start, self.columns, self.target = kernels.pattern(
+                self.slots, self.nodes, corners.start, corners.items, MOST_ITEMS
+            )
         self._hexes = mesh.hexes
         self._shares: dict[int, tuple[np.ndarray, ...]] = {}
 

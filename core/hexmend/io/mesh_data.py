@@ -10,7 +10,8 @@ import numpy as np
 from hexmend.cells import CELL_KINDS, Cells
 from hexmend.errors import MeshError
 from hexmend.mesh import Mesh, Target
-from hexmend.mesh_checks import check_finite, check_node_numbers, check_size
+from hexmend.mesh_checks import check_finite, check_node_numbers
+from hexmend.mesh_limits import check_size
 
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
 #: The fields of a mesh, by the version of sessions that they are in from then on.

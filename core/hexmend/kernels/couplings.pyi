@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 PAIRS: int = 28
 
-def pattern(slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 28))]]:
+def pattern(slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most: int = 2147483647) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 28))]]:
     """
     The blocks above the diagonal, and which of them each pair of a hex's corners adds to; all int32.
 
@@ -19,4 +19,5 @@ def pattern(slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='
 
     Returns row_start (k + 1,) and columns, ascending within a row; and target (m, 28), of the pairs 01, 02...
     07, 12...: the block, -1 where a corner is fixed, -2 - slot where both are one node: that node's own.
+    OverflowError where there are more than `most` blocks.
     """

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import binning
-from hexmend.mesh_checks import real_numbers, switches
+from hexmend.mesh_checks import as_bools, real_numbers
 
 
 def bin_counts(
@@ -41,6 +41,6 @@ def bin_counts(
     values = real_numbers(values, "values")
     if values.ndim != 1:
         raise MeshError(f"values have shape {values.shape}: expected (m,)")
-    inverted = switches(inverted, "inverted", len(values))
+    inverted = as_bools(inverted, "inverted", len(values))
     binning.count(values, inverted, float(low), bins / (high - low), open_low, open_high, counts)
     return counts

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import elements
-from hexmend.mesh_checks import as_hexes, as_points, switches
+from hexmend.mesh_checks import as_bools, as_hexes, as_points
 from hexmend.mesh_fields import members
 
 
@@ -88,8 +88,8 @@ def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: n
     (m,) bool
     """
     points = as_points(points)
-    hexes, fixed = as_hexes(hexes, len(points)), switches(fixed, "fixed", len(points))
-    where = np.flatnonzero(switches(inverted, "inverted", len(hexes)))
+    hexes, fixed = as_hexes(hexes, len(points)), as_bools(fixed, "fixed", len(points))
+    where = np.flatnonzero(as_bools(inverted, "inverted", len(hexes)))
     held = fixed[hexes[where][:, CORNER_TETRAHEDRA]].all(axis=2)
     answer = np.zeros(len(hexes), dtype=bool)
     answer[where] = (held & ~(corner_determinants(points, hexes, where) > 0)).any(axis=1)

@@ -8,7 +8,7 @@ from time import perf_counter
 
 import numpy as np
 
-from hexmend.arrays import freeze
+from hexmend.arrays import as_immutable
 from hexmend.mesh import Mesh
 from hexmend.mesh_checks import points_like
 from hexmend.optimise import Iteration, Limits, Outcome, StageResult, Stop
@@ -106,7 +106,8 @@ class Leg:
             return None
         seconds = self.last.seconds + perf_counter() - began
         before = self.at
-        points = freeze(points_like(step.points, before.points.shape, f"{self.smoother.name}: the points of a step"))
+        what = f"{self.smoother.name}: the points of a step"
+        points = as_immutable(points_like(step.points, before.points.shape, what))
         moves = points - before.points
         move = float(np.sqrt(np.square(moves).sum(axis=1).max())) / self._unit
         if not np.isfinite(move):

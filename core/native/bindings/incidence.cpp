@@ -1,5 +1,6 @@
 #include "../incidence.hpp"
 
+#include "../compressed.hpp"
 #include "arrays.hpp"
 
 namespace hexmend {
@@ -15,8 +16,9 @@ void bind_incidence(nb::module_ &m) {
           "counted once a hex. A face belongs to its lowest node; there those of equal nodes are paired.");
     m.def("parts", &parts, "hexes"_a, "used"_a, Unlocked(),
           "How many parts, hanging together by nodes, the used nodes (n,) bool are in.");
-    m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, Unlocked(),
-          "Edge neighbours of each node, ascending, as compressed rows (ring_start (n + 1,), ring), both int32.");
+    m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, "most"_a = MOST_ITEMS, Unlocked(),
+          "Edge neighbours of each node, ascending, as compressed rows (ring_start (n + 1,), ring), both int32.\n\n"
+          "OverflowError where the rows have more than `most` items.");
     m.def("greedy_colours", &greedy_colours, "start"_a, "corners"_a, "chosen"_a, Unlocked(),
           "Colour the chosen nodes (n,) bool so that two of one hex never share a colour, greedily in node order.\n\n"
           "Returns (n,) int32, -1 for nodes that were not chosen.");

@@ -1,0 +1,41 @@
+"""Limits of a mesh: how large and how small its coordinates may be, and how much of it 32 bits can number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from hexmend.errors import MeshError
+
+#: The largest coordinate and the least size of a mesh: beyond them fourth powers of lengths are no numbers.
+LARGEST, SMALLEST = 1e75, 1e-75
+
+#: Nodes have numbers of 32 bits, and so have corners, each of which is 8 * hex + corner.
+MOST_NODES = 2**31 - 1
+MOST_HEXES = MOST_NODES // 8
+
+#: Items of compressed rows, such as the neighbours of all nodes, are numbered by 32 bits too.
+MOST_ITEMS = MOST_NODES
+
+
+@contextmanager
+def too_many(what: str) -> Iterator[None]:
+    """Turn a kernel's `OverflowError`, about more items than it can number, into a `MeshError` that names them."""
+    try:
+        yield
+    except OverflowError as error:
+        raise MeshError(f"the mesh has too many {what}, whose numbers have 32 bits: {error}; divide the mesh") from None
+
+
+def check_size(points: np.ndarray) -> None:
+    """Raise `MeshError` where points (n, 3) are so far apart, or so near, that volumes are no numbers."""
+    if not len(points):
+        return
+    low, high = points.min(axis=0), points.max(axis=0)
+    far, size = max(-low.min(), high.max()), float((high - low).max())
+    if far > LARGEST:
+        raise MeshError(f"coordinates go up to {far:.3g}: expected {LARGEST:g} at most; choose a larger unit of length")
+    if 0 < size < SMALLEST:
+        raise MeshError(f"the mesh is {size:.3g} wide: expected {SMALLEST:g} at least; choose a smaller unit of length")
