@@ -51,27 +51,30 @@ class Parameter:
         hexmend.errors.ParameterError: rho = 2 is out of range: expected a number from 0 to 1
         """
         if self.choices is not None:
-            if value not in self.choices:
-                raise ParameterError(f"{self.name} = {value!r} is unknown: expected one of {', '.join(self.choices)}")
+            if not isinstance(value, str) or value not in self.choices:
+                raise ParameterError(
+                    f"{self.name} = {_shown(value)} is unknown: expected one of {', '.join(self.choices)}"
+                )
             return value
         if self.type is bool:
             if not isinstance(value, bool):
-                raise ParameterError(f"{self.name} = {value!r} is not a switch: expected true or false")
+                raise ParameterError(f"{self.name} = {_shown(value)} is not a switch: expected true or false")
             return value
         if self.type is str:
             return str(value)
-        if self.no_limit and value in (self.no_limit, math.inf):
-            return self.no_limit
+        if self.no_limit and isinstance(value, str) and value == self.no_limit:
+            return value
         try:
-            if isinstance(value, bool | complex):
+            if isinstance(value, bool | complex) or getattr(value, "ndim", 0):
                 raise ValueError
             number = self.type(value)
             if math.isnan(number) or number != float(value):
                 raise ValueError
         except (TypeError, ValueError, OverflowError):
             kind = "a whole number" if self.type is int else "a number"
-            said = " ".join(repr(value).split())[:80]
-            raise ParameterError(f"{self.name} = {said} is not {kind}: expected {self.range}") from None
+            raise ParameterError(f"{self.name} = {_shown(value)} is not {kind}: expected {self.range}") from None
+        if self.no_limit and number == math.inf:
+            return self.no_limit
         if (self.low is not None and number < self.low) or (self.high is not None and number > self.high):
             raise ParameterError(f"{self.name} = {value} is out of range: expected {self.range}")
         return number
@@ -127,6 +130,11 @@ class Parameter:
             "unit": self.unit,
             "help": self.help,
         }
+
+
+def _shown(value: object) -> str:
+    """A value for a message: on one line, of an array its beginning."""
+    return " ".join(repr(value).split())[:80]
 
 
 def parameter(

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import numpy as np
 import pytest
 
 from hexmend.errors import ParameterError
@@ -49,6 +50,19 @@ def test_a_limit_may_have_a_word_for_none():
             Sample(most=wrong)
     with pytest.raises(ParameterError, match=r"rho = 'unlimited' is not a number: expected a number from 0 to 1$"):
         Sample(rho="unlimited")
+
+
+def test_infinity_is_no_limit_however_it_is_written():
+    for value in (float("inf"), "inf", np.inf, np.float32("inf")):
+        assert Sample(most=value).most == "unlimited"
+
+
+@pytest.mark.parametrize("name", ["rho", "count", "kind", "strict", "most"])
+@pytest.mark.parametrize("value", [np.array([1.0, 2.0]), np.array([1.0]), np.array(["unlimited", "a"]), [1], None])
+def test_an_array_is_no_value_of_a_parameter(name, value):
+    with pytest.raises(ParameterError, match=f"{name} = .* is .*: expected") as error:
+        Sample(**{name: value})
+    assert "\n" not in str(error.value)
 
 
 def test_numbers_take_their_declared_type():
