@@ -36,6 +36,14 @@ def test_a_method_without_a_text_is_refused(word, text):
         method(named(**{word: text}))
 
 
+@pytest.mark.parametrize("word", ["name", "title"])
+def test_a_method_that_a_run_could_not_name_is_refused_when_it_is_made(word):
+    nameless = named(**{word: None})
+    nameless.__abstractmethods__ = frozenset()
+    with pytest.raises(TypeError, match=f"Toy has no {word}: expected a text"):
+        nameless()
+
+
 def announce(monkeypatch, module, *found):
     """Let the entry points of a module's group hold these objects."""
 

@@ -42,6 +42,10 @@ class Smoother(Parametrised, ABC):
     #: measures it, and a fifth more. See `hexmend.run.memory`.
     bytes_per_hex: ClassVar[int] = 1000
 
+    def __post_init__(self) -> None:
+        _check_texts(type(self), "name", "title")
+        super().__post_init__()
+
     @property
     def power(self) -> Power:
         """p and offset of the objective that its runs end at the minimum of.
@@ -65,8 +69,8 @@ class Smoother(Parametrised, ABC):
         """Yield the initial points once what the method prepares is ready, then the points after each step.
 
         The generator goes on until nobody asks for more, or returns the outcome where the method has no further step.
-        Yielded arrays are never changed afterwards, and a run makes them read-only; rows of nodes that it may not move
-        stay as they are to the last bit.
+        A run copies what is yielded, unless it is immutable already. Rows of nodes that the method may not move stay as
+        they are to the last bit.
         """
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
@@ -113,6 +117,13 @@ def _take(name: str, found: object) -> None:
 METHODS: Registry[type[Smoother]] = Registry("method", add_third_parties)
 
 
+def _check_texts(cls: type, *names: str) -> None:
+    """Raise `TypeError` where a class does not give a text under each of some names."""
+    for name in names:
+        if not isinstance(getattr(cls, name, None), str):
+            raise TypeError(f"{cls.__name__} has no {name}: expected a text in the class")
+
+
 def method(cls: S) -> S:
     """Class decorator: register a smoother under its name.
 
@@ -125,8 +136,6 @@ def method(cls: S) -> S:
     """
     if not issubclass(cls, Smoother):
         raise TypeError(f"{cls.__name__} is no hexmend.Smoother")
-    for word in ("name", "title", "help", "source"):
-        if not isinstance(getattr(cls, word, None), str):
-            raise TypeError(f"{cls.__name__} has no {word}: expected a text in the class")
+    _check_texts(cls, "name", "title", "help", "source")
     METHODS.add(cls.name, cls)
     return cls
