@@ -21,6 +21,7 @@ from hexmend.node_step import Sweep, explain
 from hexmend.patches import grown
 from hexmend.quality import METRICS, corner_determinants, corner_qualities, element, locked, node, worst
 from hexmend.quality.binning import bin_counts
+from hexmend.smoothers.local_sweeps import local_sweeps
 from hexmend.surface import Skin, Sliding, Trees, boundary_of, classify
 from hexmend.tags import tagged
 from hexmend.topology import Topology
@@ -35,6 +36,8 @@ ENERGY = MeshEnergy(MESH)
 SKIN = Skin(X, FACES)
 SLIDING = Sliding(MESH)
 SD = hx.LocalSteepestDescent()
+MATRIX = ENERGY.hessian(ENERGY.scaled(X)).assembled()
+SLIDING_HESSIAN = SlidingEnergy(SLIDING).hessian(ENERGY.scaled(X))
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,10 @@ CALLS: dict[str, Callable[[object], object]] = {
     "Mesh, mid_nodes": lambda v: hx.Mesh(X, H, mid_nodes=v),
     "Mesh, cells": lambda v: hx.Mesh(X, H, cells=(hx.Cells("quad", v),)),
     "Mesh, kind of cells": lambda v: hx.Mesh(X, H, cells=(v,)),
+    "Mesh, all cells": lambda v: hx.Mesh(X, H, cells=v),
+    "Mesh, data of cells": lambda v: hx.Mesh(X, H, cells=(hx.Cells("quad", FACES, {"a": v}),)),
+    "Mesh, set of cells": lambda v: hx.Mesh(X, H, cells=(hx.Cells("quad", FACES, {}, {"a": v}),)),
+    "Mesh, tables of cells": lambda v: hx.Mesh(X, H, cells=(hx.Cells("quad", FACES, v, v),)),
     "Mesh, table": lambda v: hx.Mesh(X, H, node_sets=v),
     **{
         f"Mesh, {table}": lambda v, table=table: hx.Mesh(X, H, **{table: {"a": v}})
@@ -99,6 +106,15 @@ CALLS: dict[str, Callable[[object], object]] = {
     "MeshEnergy.placed": ENERGY.placed,
     "MeshEnergy.moved": lambda v: ENERGY.moved(ENERGY.scaled(X), v),
     "Hessian": lambda v: ENERGY.hessian(ENERGY.scaled(X)).matvec(v),
+    "Assembled": lambda v: MATRIX.matvec(v),
+    "Assembled.solve": lambda v: MATRIX.solve(v, 1e-3, 5),
+    "SlidingHessian": lambda v: SLIDING_HESSIAN.matvec(v),
+    "SlidingHessian, assembled": lambda v: SLIDING_HESSIAN.assembled().matvec(v),
+    "local_sweeps": lambda v: local_sweeps(ENERGY, v, np.ones(M, bool), np.zeros(M, np.uint8), 0.0, 1),
+    "local_sweeps, around": lambda v: local_sweeps(ENERGY, X.copy(), v, np.zeros(M, np.uint8), 0.0, 1),
+    "local_sweeps, left out": lambda v: local_sweeps(ENERGY, X.copy(), np.ones(M, bool), v, 0.0, 1),
+    "parameter, number": lambda v: hx.LocalSteepestDescent(surface_tolerance=v),
+    "parameter, choice": lambda v: hx.LocalSteepestDescent(boundary=v),
     "Topology": lambda v: Topology(v, N).node_corners,
     "colouring": MESH.topology.colouring,
     "wavefronts": MESH.topology.wavefronts,
@@ -154,7 +170,7 @@ NEAR = st.sampled_from(
 )
 
 
-@settings(max_examples=1500, deadline=None, derandomize=True, database=None)
+@settings(max_examples=1800, deadline=None, derandomize=True, database=None)
 @given(st.sampled_from(sorted(CALLS)), st.one_of(arrays(), ODD, NEAR))
 def nothing_crashes(name: str, value: object) -> None:
     """Every call takes the value, or says in one sentence what is wrong with it."""

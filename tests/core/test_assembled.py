@@ -5,11 +5,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.energy import MeshEnergy, Power
+from hexmend.energy import MeshEnergy, Power, SlidingEnergy
 from hexmend.energy.assembled import Assembled, full
 from hexmend.energy.couplings import Couplings
+from hexmend.errors import MeshError
 from hexmend.kernels import conjugate_gradients
 from hexmend.mesh import Mesh
+from hexmend.surface import Sliding
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)
@@ -225,3 +227,17 @@ def test_a_solution_beyond_the_range_of_numbers_is_infinite_and_one_below_it_is_
     assert np.isinf(tiny.solve(np.full(tiny.shape[0], 2.0**1000), 1e-3, 100).x).any()
     huge = Assembled(assembled.couplings, assembled.off, assembled.diagonal, 1000)
     assert not huge.solve(np.full(huge.shape[0], 2.0**-900), 1e-3, 100).x.any()
+
+
+@pytest.mark.parametrize("of", [MeshEnergy, lambda mesh: SlidingEnergy(Sliding(mesh))], ids=["free", "sliding"])
+@pytest.mark.parametrize("shape", [(3,), (30_000,), (1, 24), (8, 3)])
+def test_a_vector_of_another_length_is_refused_by_every_matrix(of, shape):
+    mesh = grid(3)
+    energy = of(mesh)
+    hessian = energy.hessian(energy.scaled(mesh.points))
+    assembled, vector, words = hessian.assembled(), np.ones(shape), rf"has shape .*: expected \({hessian.shape[0]},\)"
+    for take in (hessian.matvec, assembled.matvec, lambda v: assembled.solve(v, 1e-3, 5)):
+        with pytest.raises(MeshError, match=words):
+            take(vector)
+    with pytest.raises(MeshError, match="the right-hand side are of type complex128"):
+        assembled.solve(np.ones(hessian.shape[0]) + 0j, 1e-3, 5)

@@ -80,8 +80,8 @@ class Assembled(SymmetricOperator):
         off, diagonal = (np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off, self.diagonal))
         return Assembled(self.couplings, off, diagonal, self.exponent + exponent)
 
-    def matvec(self, v: np.ndarray) -> np.ndarray:
-        x = np.ascontiguousarray(v, dtype=np.float64).reshape(-1, 3)
+    def _product(self, v: np.ndarray) -> np.ndarray:
+        x = v.reshape(-1, 3)
         y = np.empty_like(x)
         kernels.product(*self.couplings.pattern, self.off, self.diagonal, self.order, x, y)
         return np.ldexp(y.ravel(), self.exponent) if self.exponent else y.ravel()
@@ -111,7 +111,13 @@ class Assembled(SymmetricOperator):
             Limit, after which the solution so far is taken as it is.
         damping : float
             The diagonal blocks, made positive definite, are added this many times.
+
+        Raises
+        ------
+        MeshError
+            For a right-hand side of another shape or type.
         """
+        right = self._vector(right, "the right-hand side")
         size = float(np.abs(right).max(initial=0.0))
         if size == 0 or not np.isfinite(size):
             return Solved(np.zeros(right.size), 0, False)

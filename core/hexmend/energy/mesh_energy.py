@@ -14,11 +14,10 @@ from hexmend.energy.couplings import Couplings
 from hexmend.energy.hexahedral import corners_left_out, energies
 from hexmend.energy.operator import SymmetricOperator
 from hexmend.energy.power import SQUARES, Power
-from hexmend.errors import MeshError
 from hexmend.kernels import assembly, reach, threads
 from hexmend.kernels import objective as kernels
 from hexmend.mesh import Mesh
-from hexmend.mesh_checks import points_like, real_numbers
+from hexmend.mesh_checks import points_like
 
 
 class MeshEnergy:
@@ -167,11 +166,8 @@ class Hessian(SymmetricOperator):
         """H + shift I."""
         return Hessian(self.energy, self.x, self.delta, self.shift + shift)
 
-    def matvec(self, v: np.ndarray) -> np.ndarray:
-        energy, v = self.energy, real_numbers(v, "the vector")
-        if v.size != self.shape[0]:
-            raise MeshError(f"the vector has {v.size} numbers: expected {self.shape[0]}")
-        v = v.reshape(-1, 3)
+    def _product(self, v: np.ndarray) -> np.ndarray:
+        energy, v = self.energy, v.reshape(-1, 3)
         kernels.hessian_product(
             self.x,
             energy.mesh.hexes,

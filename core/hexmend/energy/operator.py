@@ -6,6 +6,9 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
+from hexmend.errors import MeshError
+from hexmend.mesh_checks import real_numbers
+
 
 class SymmetricOperator(ABC):
     """A symmetric matrix of double precision, known by its products; SciPy's solvers take it as it is.
@@ -21,9 +24,26 @@ class SymmetricOperator(ABC):
     def __init__(self, size: int):
         self.shape = size, size
 
-    @abstractmethod
     def matvec(self, v: np.ndarray) -> np.ndarray:
-        """The product with v (size,) float64."""
+        """The product with v (size,), float64.
+
+        Raises
+        ------
+        MeshError
+            For a vector of another shape or type.
+        """
+        return self._product(self._vector(v))
+
+    @abstractmethod
+    def _product(self, v: np.ndarray) -> np.ndarray:
+        """The product with v (size,), checked: float64, contiguous."""
+
+    def _vector(self, v: object, what: str = "the vector") -> np.ndarray:
+        """A vector as (size,) float64, contiguous; `MeshError` where it has another shape or type."""
+        array = real_numbers(v, what)
+        if array.shape != self.shape[1:]:
+            raise MeshError(f"{what} has shape {array.shape}: expected {self.shape[1:]}")
+        return array
 
     def __matmul__(self, v: np.ndarray) -> np.ndarray:
         if v.shape[0] != self.shape[1]:

@@ -106,14 +106,14 @@ class SlidingHessian(Hessian):
         other.shift = self.shift + shift
         return other
 
-    def matvec(self, v: np.ndarray) -> np.ndarray:
+    def _product(self, v: np.ndarray) -> np.ndarray:
         energy = self.energy
         rows, along = energy._rows, energy.projectors(self.x)
-        v = np.array(v, dtype=np.float64).reshape(-1, 3)
+        v = v.reshape(-1, 3).copy()
         off = v[rows]
         v[rows] = np.einsum("kij,kj->ki", along, off)
         off -= v[rows]
-        product = super().matvec(v.ravel()).reshape(-1, 3)
+        product = super()._product(v.ravel()).reshape(-1, 3)
         product[rows] = np.einsum("kij,kj->ki", along, product[rows]) + off
         return product.ravel()
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.energy import MeshEnergy
+from hexmend.energy.hexahedral import corners_left_out
 from hexmend.kernels import local
+from hexmend.mesh_checks import as_bools, points_like
 
 
 def local_sweeps(
@@ -31,8 +33,15 @@ def local_sweeps(
     -------
     (n, 3) float64
         Where the nodes are then.
+
+    Raises
+    ------
+    MeshError
+        For an array of another shape or type.
     """
     mesh = energy.mesh
+    x = points_like(x, mesh.points.shape)
+    around, left_out = as_bools(around, "around", mesh.n_hexes), corners_left_out(left_out, mesh.n_hexes)
     near = np.zeros(mesh.n_nodes, dtype=bool)
     near[mesh.hexes[around]] = True
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
