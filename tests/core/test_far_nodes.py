@@ -70,7 +70,7 @@ def test_the_command_line_says_nothing_on_standard_error(tmp_path, capsys, name,
     assert np.isfinite(read(out).points).all()
 
 
-@pytest.mark.parametrize("wrong", [np.nan, np.inf, 1e200])
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, 1e200, -1e200])
 def test_a_node_that_cannot_slide_is_named(wrong):
     sliding = Sliding(grid(2))
     x = sliding.mesh.points[sliding.nodes].copy()

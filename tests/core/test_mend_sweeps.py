@@ -100,3 +100,20 @@ def test_a_run_at_its_optimum_has_no_iteration_that_only_repeats_the_last():
     steps = list(itertools.islice(mend.Mend().steps(wavy(grid(3), 0.2)), 300))
     assert 2 < len(steps) < 300
     assert all((one.points != other.points).any() for one, other in itertools.pairwise(steps))
+
+
+@pytest.mark.parametrize("few", [True, False])
+def test_where_few_hexes_are_inverted_they_are_swept_longer_and_the_whole_mesh_steps_at_every_third_delta(
+    few, monkeypatch
+):
+    mesh = scrambled(grid(3), 1.5, 1)
+    monkeypatch.setattr(mend, "tangled_in", lambda *_: (5, -0.1))  # nothing is ever mended
+    monkeypatch.setattr(mend, "FEW", 6 / 27 if few else 5 / 27)
+    walk = mend.Mend()._untangled(mesh, MeshEnergy(mesh), mend.locked_corners(mesh))  # noqa: SLF001
+    steps = [step.notes for step in walk]
+    swept = [notes["sweeps"] for notes in steps if "sweeps" in notes]
+    assert swept == [mend.MANY_SWEEPS if few else mend.SWEEPS] * mend.PATIENCE
+    deltas = list(dict.fromkeys(notes["delta"] for notes in steps))
+    stepped = {deltas.index(notes["delta"]) for notes in steps if "sweeps" not in notes}
+    assert stepped <= set(range(2, mend.PATIENCE, 3) if few else range(mend.PATIENCE))
+    assert stepped

@@ -2,6 +2,7 @@
 
 import itertools
 
+import numpy as np
 import pytest
 
 from hexmend.optimise.raising import Limit, Raising
@@ -76,3 +77,24 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
     assert len(made) > TOGETHER
     shown = [k for k, points in enumerate(made) if any(step.detour and step.points is points for step in steps)]
     assert shown == list(range(0, len(made), TOGETHER))
+
+
+def test_what_is_better_off_the_surface_and_back_in_its_room_is_taken(monkeypatch):
+    mesh = slid(ball(3), 0.3, 1)
+    room = 0.1 * mesh.mean_edge_length
+    sliding = Sliding(mesh, room=room)
+    other, off = (Raising(sliding.mesh, mesh.points, sliding) for _ in range(2))
+    limit = Limit(other.corners.least, np.array([0]), np.array([0]))
+    monkeypatch.setattr(raised, "AIM", 0.3)
+    walk = lifted(off, room, other, limit)
+    while True:
+        try:
+            next(walk)
+        except StopIteration as end:
+            best, of = end.value
+            break
+    assert best is off
+    assert of is not limit
+    assert off.corners.lowest > other.corners.lowest
+    assert 0.5 * room < off.envelope.furthest(off.points) <= room * (1 + 1e-5)
+    assert not off.envelope.turns

@@ -164,3 +164,20 @@ def test_a_step_that_is_no_number_ends_the_run_and_the_last_good_one_is_kept():
     assert result.iterations == 2
     assert np.isfinite(result.mesh.points).all()
     assert "no numbers" in result.message
+
+
+@pytest.mark.parametrize(("inverted", "said"), [(0, "no hex is"), (1, "1 hex still"), (2, "2 hexes still")])
+def test_the_message_counts_iterations_and_inverted_hexes(inverted, said):
+    """Corners of the solid, whose nodes are all fixed, are pushed in."""
+    mesh = make("cube", size=64)
+    points = mesh.points.copy()
+    ends = [int((sign * points.sum(axis=1)).argmax()) for sign in (1, -1)][:inverted]
+    points[ends] += 0.7 * (points.mean(axis=0) - points[ends])
+    run = iterate(mesh.with_points(points), "laplacian", Stop(max_iterations=2, tolerance=0))
+    assert f"{said} inverted" in run.message
+    assert "moved a node" not in run.message
+    assert run.message.startswith("Running. 0 iterations in 0 s; ")
+    next(run)
+    assert f"1 iteration in {run.last.seconds:.3g} s; the last one moved a node by" in run.message
+    list(run)
+    assert run.message.startswith(Outcome.MAX_ITERATIONS.value + " 2 iterations in ")

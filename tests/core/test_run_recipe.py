@@ -229,3 +229,11 @@ def test_the_seconds_that_are_left_are_those_of_the_stage_less_what_it_has_taken
     run.go_on_with("local-nr", Stop(max_seconds=1e-9, max_iterations=2))
     assert run.recipe.stages[-1].stop.max_seconds == 1e-3  # 0 would be no limit
     assert run.recipe.stages[-1].stop.max_iterations == 0
+
+
+def test_one_limit_leaves_the_others_of_each_stage_and_all_are_those_of_a_stop_that_is_given(mesh):
+    recipe = Recipe.of(stage("getme", 9), Stage(METHODS["mend"](), Stop(tolerance=1e-3, keep_last=True)))
+    stops = [one.stop for one in iterate(mesh, recipe, max_iterations=2).recipe.stages]
+    assert stops == [Stop(max_iterations=2, tolerance=0), Stop(max_iterations=2, tolerance=1e-3, keep_last=True)]
+    stops = [one.stop for one in iterate(mesh, recipe, Stop(tolerance=0.5), max_iterations=2).recipe.stages]
+    assert stops == [Stop(max_iterations=2, tolerance=0.5)] * 2

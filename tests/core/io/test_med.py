@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from hexmend import io
+from hexmend.cells import Cells
 from hexmend.errors import FileError
 from hexmend.quality import summarise
+from tests.core.grids import grid
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
 
 FILES = Path(__file__).parent / "files"
@@ -157,6 +159,8 @@ def test_each_group_and_array_has_the_attributes_that_others_look_for(tmp_path):
         none = dict.fromkeys(["NDT", "NOR", "NXI", "NXT", "PVI", "PVT"], -1)
         assert numbers(step) == {"CGT": 1} | none
         assert step.attrs["PDT"] == -1.0
+        for group in (step["NOE"], *step["MAI"].values()):
+            assert group.attrs["PFL"] == b"MED_NO_PROFILE_INTERNAL"
         assert numbers(step["NOE"]) == {"CGT": 1, "CGS": 1}
         for name, values in step["NOE"].items():
             assert numbers(values) == {"CGT": 1, "NBR": mesh.n_nodes}, name
@@ -171,3 +175,18 @@ def test_each_group_and_array_has_the_attributes_that_others_look_for(tmp_path):
         for place, sign in (("NOEUD", 1), ("ELEME", -1)):
             own = [int(family.attrs["NUM"]) for family in families[place].values()]
             assert sorted(sign * number for number in own) == list(range(1, len(own) + 1))
+
+
+def test_cells_of_one_kind_in_several_blocks_keep_their_sets(tmp_path):
+    mesh = grid(2)
+    quads = mesh.topology.boundary_faces
+    mesh = mesh.replace(
+        cells=(
+            Cells("quad", quads[:3], sets={"floor": np.array([0, 2])}),
+            Cells("quad", quads[3:8], sets={"floor": np.array([1]), "wall": np.array([4])}),
+        )
+    )
+    io.write(tmp_path / "a.med", mesh)
+    (back,) = (one for one in io.read(tmp_path / "a.med").cells if one.kind == "quad")
+    np.testing.assert_array_equal(back.nodes, quads[:8])
+    assert {name: members.tolist() for name, members in back.sets.items()} == {"floor": [0, 2, 4], "wall": [7]}
