@@ -15,6 +15,7 @@ from typing import IO, Any
 
 import numpy as np
 
+from hexmend.arrays import as_immutable
 from hexmend.errors import FileError
 
 #: The member that describes the others; in a zip it comes first. It is no larger than this many bytes.
@@ -159,5 +160,4 @@ class Arrays:
             for at in range(0, left, _AT_ONCE):
                 part = member.read(min(_AT_ONCE, left - at))
                 into[at : at + len(part)] = np.frombuffer(part, np.uint8)
-            array.flags.writeable = False
-            return array.reshape(shape, order="F" if columns else "C")
+            return as_immutable(array.reshape(shape, order="F" if columns else "C"))  # meshes share it
