@@ -1,7 +1,6 @@
 """Ctrl-C and TERM at chosen moments of real processes: one line, the right exit status, and no result lost."""
 
 import os
-import pty
 import signal
 import subprocess
 import sys
@@ -16,6 +15,9 @@ import os, re, signal, sys
 def send(count=1):
     for _ in range(count):
         os.kill(os.getpid(), int(os.environ["SIGNAL"]))
+from hexmend.cli import interrupts
+if os.environ["TIMER"] == "no alarm":
+    interrupts._ALARM = None
 {moment}
 from hexmend.cli.main import main
 from hexmend.cli.command import progress
@@ -83,9 +85,12 @@ builtins.print = print
 """
 
 
-@pytest.fixture
-def smooth(tmp_path):
-    """Starts the program on a mesh, with the signal at a moment; its output is `tmp_path / "out.vtu"`."""
+@pytest.fixture(params=["alarm", pytest.param("no alarm", marks=pytest.mark.slow)])
+def smooth(tmp_path, request):
+    """Starts the program on a mesh, with the signal at a moment; its output is `tmp_path / "out.vtu"`.
+
+    Without an alarm it runs as on a system that has no SIGALRM.
+    """
     io.write(tmp_path / "mesh.vtu", gallery.make("cube", size=125, scramble=0.3))
     (tmp_path / "out.vtu").write_text("old")
 
@@ -95,7 +100,9 @@ def smooth(tmp_path):
         words = [tmp_path / "mesh.vtu", "-o", tmp_path / "out.vtu", "--method", "laplacian", "--tolerance", "0"]
         return subprocess.Popen(
             [sys.executable, script, "smooth", *words, "--max-iterations", str(most)],
-            env=os.environ | {"SIGNAL": str(int(number)), "TERM": "xterm"} | options.pop("env", {}),
+            env=os.environ
+            | {"SIGNAL": str(int(number)), "TERM": "xterm", "TIMER": request.param}
+            | options.pop("env", {}),
             **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, **options},
         )
 
@@ -121,7 +128,7 @@ def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_during_an_import_of_a_command_at_work_waits_for_its_end(smooth, number):
-    rests = "import time\nfrom hexmend.cli.command import files\nfiles.check_targets = lambda *_: time.sleep(100)\n"
+    rests = "import time\nfrom hexmend.cli.command import files\nfiles.check_targets = lambda *_: [time.sleep(0.01) for _ in range(10_000)]\n"
     status, said = ended(smooth(rests + IMPORTS.format(name="hexmend.fixing"), number))
     assert (status, said) == (128 + number, ["hexmend: interrupted"])
 
@@ -189,7 +196,7 @@ def test_a_run_whose_progress_nobody_reads_any_more_is_written(smooth, tmp_path)
 
 @pytest.mark.parametrize("closes", [False, True])
 def test_a_terminal_on_which_ctrl_c_is_pressed_or_that_closes_gets_its_result(smooth, tmp_path, closes):
-    ours, theirs = pty.openpty()
+    ours, theirs = pytest.importorskip("pty").openpty()
     streams = {"stdin": theirs, "stdout": theirs, "stderr": theirs, "text": False, "start_new_session": True}
     # The first line: this terminal becomes the session's own, so that it sends the signals.
     moment = "import fcntl, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0); signal.signal(signal.SIGHUP, signal.SIG_DFL)"

@@ -29,15 +29,15 @@ def mesh(tmp_path):
     return path
 
 
-def interrupted(*words, at):
-    """Run the program, press Ctrl-C at its first line that begins with `at`, and wait for its end."""
+def interrupted(*words, at, number=signal.SIGINT):
+    """Run the program, send it a signal at its first line that begins with `at`, and wait for its end."""
     program = subprocess.Popen(
         [sys.executable, "-c", TALKATIVE, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     with program:
         for line in program.stderr:
             if line.startswith(at):
-                program.send_signal(signal.SIGINT)
+                program.send_signal(number)
                 break
         else:
             pytest.fail(f"the program ended before {at!r}")
@@ -89,11 +89,12 @@ def test_control_c_ends_smooth_and_the_mesh_is_written(mesh, tmp_path):
     assert answer["after"]["q_mean"] > answer["before"]["q_mean"]
 
 
-def test_control_c_ends_compare_with_a_table_of_what_was_done(mesh, tmp_path):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_compare_with_a_table_of_what_was_done(mesh, tmp_path, number):
     words = ["compare", mesh, "-o", tmp_path, "--methods", "laplacian,local-sd,smart-laplacian", "--tolerance", "0"]
     # Laplacian ends at its own limit; the second method is the one that is stopped.
-    status, said, err = interrupted(*words, "--max-iterations", "3000", at="local-sd: iteration")
-    assert status == 130
+    status, said, err = interrupted(*words, "--max-iterations", "3000", at="local-sd: iteration", number=number)
+    assert status == 128 + number
     assert "Interrupted" in err
     assert "interrupted" in said
     record = json.loads((tmp_path / "comparison.json").read_text())
@@ -106,10 +107,11 @@ def test_control_c_ends_compare_with_a_table_of_what_was_done(mesh, tmp_path):
 
 
 @pytest.mark.slow
-def test_control_c_ends_the_study_with_a_report(tmp_path):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_study_with_a_report(tmp_path, number):
     words = ["study", "thesis", "--quick", "--only", "4.5", "--only", "4.11", "-o", tmp_path]
-    status, _, err = interrupted(*words, at="local-sd: iteration")
-    assert status == 130
+    status, _, err = interrupted(*words, at="local-sd: iteration", number=number)
+    assert status == 128 + number
     assert "Interrupted" in err
     study = json.loads((tmp_path / "study.json").read_text())
     assert study["interrupted"]

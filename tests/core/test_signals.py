@@ -46,8 +46,11 @@ def mesh(tmp_path):
     return path
 
 
-def signalled(program, number, at, *words):
-    """Run the program, send it a signal at its first line on stderr that begins with `at`, and wait for its end."""
+def signalled(program, number, at, *words, again_at=None):
+    """Run the program and send it a signal at its first line on stderr that begins with `at`; wait for its end.
+
+    Another one follows at the first line after that which begins with `again_at`.
+    """
     done = subprocess.Popen(
         [sys.executable, "-c", program, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
@@ -55,7 +58,9 @@ def signalled(program, number, at, *words):
         for line in done.stderr:
             if line.startswith(at):
                 done.send_signal(number)
-                break
+                if again_at is None:
+                    break
+                at, again_at = again_at, None
         else:
             pytest.fail(f"the program ended before {at!r}")
         out, err = done.communicate(timeout=60)
@@ -78,7 +83,8 @@ def test_what_a_run_reached_is_written_and_nothing_else_is_left(mesh, tmp_path, 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_an_end_while_writing_leaves_the_old_file_whole(mesh, tmp_path, number):
     before = mesh.read_bytes()
-    status, _, err = signalled(SLOW_TO_WRITE, number, "writing", "smooth", mesh, "-o", mesh, "--method", "laplacian")
+    words = ["smooth", mesh, "-o", mesh, "--method", "laplacian"]
+    status, _, err = signalled(SLOW_TO_WRITE, number, "writing", *words, again_at="Writing the result")
     assert status == 128 + number
     assert "hexmend: interrupted" in err
     assert mesh.read_bytes() == before

@@ -52,7 +52,7 @@ class Soak:
                 write_json(args.json, memory.given())
             print(memory.verdict)
         if signals.asked:
-            return 130
+            return signals.status
         return 0 if memory.level else 1
 
 

@@ -9,7 +9,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 from vtkmodules.vtkRenderingUI import vtkGenericRenderWindowInteractor
 
-from hexmend.uninterrupted import uninterrupted
+from hexmend.signal_guard import uninterrupted
 
 
 class Stage:

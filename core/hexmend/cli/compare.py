@@ -63,7 +63,7 @@ class Compare:
             print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
             if comparison.interrupted:
                 print("Interrupted: the table holds what was done so far.", file=sys.stderr)
-        return 130 if comparison.interrupted else 0
+        return progress.signals.status if comparison.interrupted else 0
 
 
 command = Compare()

@@ -1,8 +1,7 @@
 """What the program does when a signal asks it to end: Ctrl-C, TERM, or a terminal that closes.
 
 A handler never prints, because it may have interrupted a print. It sets a flag, writes with `os.write`, or raises
-`KeyboardInterrupt`; not within an import, a callback or a function that is `uninterrupted`, though, where that
-exception would be swallowed, or printed, or end the process.
+`KeyboardInterrupt`; after an import, a callback or a function that is `uninterrupted`, in which it would be lost.
 
 Before a command runs there is nothing to lose, and the process exits at once (`exit_on_signals`). A command runs in
 `EndsCleanly`, a loop in `EndsAfterIteration`, and what is computed is written in `FinishesWriting`.
@@ -14,8 +13,9 @@ import os
 import signal
 import sys
 
+from hexmend.cli.signal_timer import comes_from_timer, send_later, send_now
 from hexmend.cli.terminal import is_dumb
-from hexmend.uninterrupted import UNINTERRUPTED
+from hexmend.signal_guard import ON_RETURN, is_interruptible, uninterrupted
 
 TYPE_CHECKING = False  # `typing` would cost as much as `--version` does
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 #: Ctrl-C, a polite request to end, and a terminal that has gone.
 ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
-#: The signal of the timer; None on Windows, which has no timers.
+#: The signal of the timer; None on Windows, where `signal_timer` takes its place.
 _ALARM = getattr(signal, "SIGALRM", None)
 
 #: Seconds until an exception is tried again that would have been lost.
@@ -36,6 +36,9 @@ _is_program = False
 
 #: The signal that the timer stands for; 0 without one.
 _delayed = 0
+
+#: Whether that waits for a place to raise an exception, rather than for the end of a grace.
+_retries = False
 
 
 class Ended(KeyboardInterrupt):
@@ -70,7 +73,6 @@ def exit_interrupted(number: int, frame: FrameType | None = None) -> NoReturn:
     number : int
         Of the signal.
     frame : frame, optional
-        Of no matter: handlers get one.
     """
     write_line("hexmend: interrupted")
     os._exit(128 + number)
@@ -86,14 +88,17 @@ def write_line(text: str) -> None:
 
 
 class EndsCleanly:
-    """Inside the block a signal is an exception, so that temporary files are removed on the way out.
-
-    A further signal waits for that.
+    """Inside the block a signal is an exception; a further one waits until temporary files are removed on the way out.
 
     Parameters
     ----------
     completes : bool
         Nothing is left to interrupt when the block ends well: the program ignores signals from then on.
+
+    Attributes
+    ----------
+    number : int
+        The first signal that came; 0 without one.
     """
 
     #: Seconds that a signal may be kept waiting.
@@ -101,6 +106,17 @@ class EndsCleanly:
 
     def __init__(self, completes: bool = False):
         self.completes = completes
+        self.number = 0
+
+    @property
+    def asked(self) -> bool:
+        """Return True once a signal has asked the program to end."""
+        return self.number != 0
+
+    @property
+    def status(self) -> int:
+        """The exit status of a command that was interrupted: 128 and the signal's number."""
+        return 128 + (self.number or signal.SIGINT)
 
     def __enter__(self) -> Self:
         self._before: dict[int, Any] = {}
@@ -116,16 +132,27 @@ class EndsCleanly:
             pass
         return self
 
+    @uninterrupted  # handlers that are restored by halves would stay
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        alarm = self._before.pop(_ALARM, None)
+        ignored = kind is None and self.completes and _is_program
+        for number, handler in self._before.items():  # first, because a signal that comes here sets the timer
+            signal.signal(number, signal.SIG_IGN if ignored else handler)
+        waiting = _delayed if self._delays else 0
         if self._delays:
             self._delay(0, 0.0)
-        ignored = kind is None and self.completes and _is_program
-        for number, handler in self._before.items():
-            signal.signal(number, signal.SIG_IGN if ignored and number in ENDING else handler)
+        if alarm is not None:
+            signal.signal(_ALARM, alarm)
         sys.unraisablehook = self._unraisable
+        if waiting and kind is None and not self.completes:
+            signal.raise_signal(waiting)  # to the block around this one
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        if comes_from_timer():
+            self._on_alarm(number, frame)
+            return
         self._count += 1
+        self.number = self.number or number
         self._answer(self._count, number, frame)
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
@@ -137,8 +164,8 @@ class EndsCleanly:
 
     def _raise(self, number: int, frame: FrameType | None) -> None:
         """Raise an exception, later where it would be lost now."""
-        if not _may_raise(frame):
-            self._delay(number, _RETRY)
+        if not is_interruptible(frame):
+            self._delay(number, _RETRY, retries=True)
             return
         if self._delays:
             self._delay(0, 0.0)
@@ -149,11 +176,13 @@ class EndsCleanly:
         if not (self._delays and _delayed):
             self._delay(number, self.grace)
 
-    def _delay(self, number: int, seconds: float) -> None:
-        global _delayed
-        _delayed, self._delays = number, number != 0
+    def _delay(self, number: int, seconds: float, retries: bool = False) -> None:
+        global _delayed, _retries
+        _delayed, _retries, self._delays = number, retries, number != 0
         if _ALARM is not None:
             signal.setitimer(signal.ITIMER_REAL, seconds)
+        else:
+            send_later(number, seconds)
 
     def _on_alarm(self, alarm: int, frame: FrameType | None) -> None:
         global _delayed
@@ -165,8 +194,8 @@ class EndsCleanly:
 
     def _on_unraisable(self, unraisable: Any) -> None:
         """Raise again what was raised in a callback that cannot raise."""
-        if _ALARM is not None and isinstance(unraisable.exc_value, KeyboardInterrupt):
-            self._delay(getattr(unraisable.exc_value, "number", signal.SIGINT), _RETRY)
+        if isinstance(unraisable.exc_value, KeyboardInterrupt):
+            self._delay(getattr(unraisable.exc_value, "number", signal.SIGINT), _RETRY, retries=True)
         else:
             self._unraisable(unraisable)
 
@@ -180,27 +209,21 @@ class EndsAfterIteration(EndsCleanly):
     ----------
     what : str
         What the loop goes round in.
-
-    Attributes
-    ----------
-    asked : bool
     """
 
     def __init__(self, what: str = "iteration"):
         super().__init__()
-        self.asked = False
         self._what = what
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
         if count == 1:
-            self.asked = True
             write_line(f"Ending with this {self._what}; a second Ctrl-C ends at once.")
         else:
             super()._answer(count - 1, number, frame)
 
 
 class FinishesWriting(EndsCleanly):
-    """Inside the block the result is written: a signal is an exception only if that takes longer than the grace."""
+    """Inside the block the result is written: the first signal changes nothing, the second limits the time for it."""
 
     grace = 8.0
 
@@ -209,15 +232,18 @@ class FinishesWriting(EndsCleanly):
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
         if count == 1:
-            write_line(f"Writing the result, for {self.grace:g} s at most.")
-        self._wait(number)
+            write_line(f"Writing the result; a second Ctrl-C leaves it {self.grace:g} s.")
+        else:
+            self._wait(number)
 
 
-def _may_raise(frame: FrameType | None) -> bool:
-    """Return True if an exception gets from this frame to the command."""
-    while frame is not None:
-        code = frame.f_code
-        if code in UNINTERRUPTED or (_ALARM is not None and code.co_filename.startswith("<frozen importlib")):
-            return False
-        frame = frame.f_back
-    return True
+def _raise_waiting() -> None:
+    """Raise the exception that has waited for the end of a function."""
+    if _delayed and _retries:
+        if _ALARM is not None:
+            signal.raise_signal(_ALARM)
+        else:
+            send_now(_delayed)
+
+
+ON_RETURN.append(_raise_waiting)

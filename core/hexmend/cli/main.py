@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from hexmend.cli.command import Command
 
-_NOT_COMMANDS = {"main", "command", "interrupts", "tables", "terminal"}
+_NOT_COMMANDS = {"main", "command", "interrupts", "signal_timer", "tables", "terminal"}
 
 #: The command that a bare mesh, or nothing, stands for.
 _DEFAULT = "view"

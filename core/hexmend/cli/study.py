@@ -125,7 +125,7 @@ class Study:
             if missing:
                 print(missing, file=sys.stderr)
             print(f"\nWritten to {folder / 'study.md'}.")
-        return 130 if study.interrupted else 0
+        return progress.signals.status if study.interrupted else 0
 
 
 command = Study()

@@ -63,13 +63,14 @@ def test_the_command_works_in_a_window_and_writes_every_round(qapp, tmp_path, ca
     assert f"{report['growth_mb']:+.0f} MB" in capsys.readouterr().out
 
 
-def test_ctrl_c_ends_it_after_the_round_with_what_was_measured(qapp, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_after_the_round_with_what_was_measured(qapp, tmp_path, monkeypatch, capsys, number):
     def rounds(meshes, seconds):
         for sample in (Sample(1, 0.5, "a.vtu", "mend", 300.0), Sample(2, 1.0, "a.vtu", "mend", 300.0)):
-            os.kill(os.getpid(), signal.SIGINT)
+            os.kill(os.getpid(), number)
             yield sample
 
     monkeypatch.setattr("hexmend_app.bench.soak.soak", rounds)
-    assert main(["soak", "--json", str(tmp_path / "soak.json")]) == 130
+    assert main(["soak", "--json", str(tmp_path / "soak.json")]) == 128 + number
     assert len(json.loads((tmp_path / "soak.json").read_text())["rounds"]) == 1
     assert "1 rounds in" in capsys.readouterr().out

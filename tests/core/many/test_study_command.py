@@ -151,7 +151,7 @@ def test_an_end_that_is_asked_for_keeps_what_is_done_and_writes_it(laboratory, n
         wait_until(lambda: len(laboratory.said("began")) == 2, "the second task begins", study)
         study.send_signal(number)
         _, said = study.communicate()
-        assert study.returncode == 130
+        assert study.returncode == 128 + number
     assert "Interrupted: what is done is kept, and the same command goes on with it." in said
     assert "Traceback" not in said
     assert [row["case"] for row in rows_of(laboratory)] == ["rests"]

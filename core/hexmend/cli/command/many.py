@@ -30,7 +30,7 @@ def study_meshes(args: argparse.Namespace) -> int:
     store = Store(made_folder(folder / "tasks"))
     meshes_to = made_folder(folder / "meshes") if args.write_meshes else None
     with FinishesWriting():
-        with EndsCleanly(), Counting() as counting:
+        with EndsCleanly() as signals, Counting() as counting:
             studied = study_many(
                 plan,
                 [Path(mesh) for mesh in args.meshes],
@@ -43,7 +43,7 @@ def study_meshes(args: argparse.Namespace) -> int:
             )
         _write(folder, studied)
     if studied.interrupted:
-        return 130
+        return signals.status
     return 3 if studied.count.failed else 0
 
 

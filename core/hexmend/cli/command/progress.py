@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Self
 
 from hexmend.cli.interrupts import EndsAfterIteration
 from hexmend.cli.terminal import redraws_lines
-from hexmend.uninterrupted import uninterrupted
+from hexmend.signal_guard import uninterrupted
 
 if TYPE_CHECKING:
     import rich.progress
@@ -30,6 +30,11 @@ class Progress:
     """Shows runs, one after another, while the block lasts; the first signal within it only asks them to end.
 
     `show` is a `Watch`: call it with the run after each of its iterations.
+
+    Attributes
+    ----------
+    signals : EndsAfterIteration
+        Has a signal come, and which exit status does it stand for?
     """
 
     def __enter__(self) -> Self:
