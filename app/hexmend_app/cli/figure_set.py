@@ -60,6 +60,7 @@ class Figures:
         prepare_off_screen()
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
+        from hexmend.cli.interrupts import FinishesWriting
         from hexmend.report import made_folder
         from hexmend_app.report.captions import write_captions
         from hexmend_app.report.case import command_line, run_methods, source_of
@@ -72,21 +73,22 @@ class Figures:
         mesh, source = source_of(args.mesh)
         check_memory(args, smoothers, mesh, "draw fewer methods (--methods)")
         folder = made_folder(args.output)
-        with Progress() as progress:
-            case = run_methods(mesh, source, smoothers, stop, names, progress.show)
-        figures = []
-        for figure in write_figures(case, folder, style, args.only):
-            figures.append(figure)
-            print(f"{', '.join(path.name for path in figure.paths)}: {figure.caption}", flush=True)
-        again = ["figures", args.mesh, *given, "-o", args.output, "--only"]
-        if not args.only:
-            write_captions(folder, case.name, [(one, command_line([*again, one.part])) for one in figures])
-        for row in case.failed:
-            print(f"hexmend: {row.method}: {row.message}", file=sys.stderr)
-        print(f"Written to {args.output}{'' if args.only else ', with captions.md and commands.sh'}.")
-        if case.interrupted:
-            print("Interrupted: the figures show what was done so far.", file=sys.stderr)
-        return 130 if case.interrupted else 0
+        with FinishesWriting():
+            with Progress() as progress:
+                case = run_methods(mesh, source, smoothers, stop, names, progress.show)
+            figures = []
+            for figure in write_figures(case, folder, style, args.only):
+                figures.append(figure)
+                print(f"{', '.join(path.name for path in figure.paths)}: {figure.caption}", flush=True)
+            again = ["figures", args.mesh, *given, "-o", args.output, "--only"]
+            if not args.only:
+                write_captions(folder, case.name, [(one, command_line([*again, one.part])) for one in figures])
+            for row in case.failed:
+                print(f"hexmend: {row.method}: {row.message}", file=sys.stderr)
+            print(f"Written to {args.output}{'' if args.only else ', with captions.md and commands.sh'}.")
+            if case.interrupted:
+                print("Interrupted: the figures show what was done so far.", file=sys.stderr)
+        return progress.signals.status if case.interrupted else 0
 
 
 def _formats(args: argparse.Namespace) -> tuple[str, ...]:
@@ -111,6 +113,7 @@ def _thesis(args: argparse.Namespace) -> int:
     """The thesis's figures of a mesh of the gallery, measured and drawn again."""
     from hexmend.cli.command.limits import given_limits
     from hexmend.cli.command.progress import Progress
+    from hexmend.cli.interrupts import FinishesWriting
     from hexmend.errors import HexmendError
     from hexmend.report import made_folder
     from hexmend.report.thesis import write_plots
@@ -131,21 +134,22 @@ def _thesis(args: argparse.Namespace) -> int:
     if "max_seconds" in given_limits(args):
         thesis = thesis.limited(given_limits(args)["max_seconds"])
     folder = made_folder(args.output)
-    with Progress() as progress:
-        study = run_experiments(thesis, quick=args.quick, watch=progress.show)
-    drawn, missing = draw_figures(folder, study.measured, formats)
-    if missing:
-        raise HexmendError(missing)
-    plotted, _ = write_plots(folder, study.record(), formats)
-    figures = []
-    for one in sorted([*drawn, *plotted], key=lambda one: one["number"]):
-        files = [Path(one["file"]).with_suffix(f".{suffix}") for suffix in formats]
-        figures.append(Figure(one["number"], f"{one['caption']}.", tuple(folder / file for file in files)))
-        print(f"{', '.join(map(str, files))}: {one['caption']}.")
-    again = command_line(["figures", args.mesh, *runs.words(args, ("mesh", "output")), "-o", args.output])
-    write_captions(folder, args.mesh, [(one, again) for one in figures])
-    print(f"Written to {args.output}, with captions.md and commands.sh.")
-    return 130 if study.interrupted else 0
+    with FinishesWriting():
+        with Progress() as progress:
+            study = run_experiments(thesis, quick=args.quick, watch=progress.show)
+        drawn, missing = draw_figures(folder, study.measured, formats)
+        if missing:
+            raise HexmendError(missing)
+        plotted, _ = write_plots(folder, study.record(), formats)
+        figures = []
+        for one in sorted([*drawn, *plotted], key=lambda one: one["number"]):
+            files = [Path(one["file"]).with_suffix(f".{suffix}") for suffix in formats]
+            figures.append(Figure(one["number"], f"{one['caption']}.", tuple(folder / file for file in files)))
+            print(f"{', '.join(map(str, files))}: {one['caption']}.")
+        again = command_line(["figures", args.mesh, *runs.words(args, ("mesh", "output")), "-o", args.output])
+        write_captions(folder, args.mesh, [(one, again) for one in figures])
+        print(f"Written to {args.output}, with captions.md and commands.sh.")
+    return progress.signals.status if study.interrupted else 0
 
 
 command = Figures()

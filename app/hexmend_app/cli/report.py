@@ -32,6 +32,7 @@ class Report:
 
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
+        from hexmend.cli.interrupts import EndsCleanly, FinishesWriting
         from hexmend.figures import printable
         from hexmend.io.atomic import check_writable
         from hexmend.io.suffixes import suffix_for
@@ -48,34 +49,48 @@ class Report:
         prepare_off_screen()
         from hexmend_app.report.case import command_line, run_methods, source_of
         from hexmend_app.report.figure_set import Style, check_pages
-        from hexmend_app.report.page import chapter, page, write_page
+        from hexmend_app.report.page import Chapter, chapter, page, write_page
         from hexmend_app.report.paper import check_paper, write_paper
 
         if not alive:
             check_paper()
         style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))
         check_pages(style, 1 + len(smoothers))
-        chapters, interrupted = [], False
+        chapters: list[Chapter] = []
         folders: list[str] = []
-        for number, one in enumerate(args.mesh, 1):
-            mesh, source = source_of(one)
-            check_memory(args, smoothers, mesh, "report on fewer methods (--methods)")
-            with Progress() as progress:
-                case = run_methods(mesh, source, smoothers, stop, names, progress.show)
-            folders.append(_unlike(folders, case.name, printable(Path(one).resolve().parent.name)))
-            again = _again(one, folders[-1], given, runs.method_words(args))
-            chapters.append(chapter(case, style, again, alive=alive, place=f"mesh-{number}"))
-            interrupted = case.interrupted
-            if interrupted:
-                break
-        title = printable(args.title or "") or f"Report on {', '.join(one.name for one in chapters)}"
-        titled = ["--title", args.title] if args.title else []
-        command = command_line(["report", *args.mesh, *given, *titled, "-o", args.output])
-        (write_page if alive else write_paper)(path, page(title, chapters, command, alive=alive))
-        print(f"{args.output}: {path.stat().st_size / 1e6:.1f} MB")
-        if interrupted:
-            print("Interrupted: the report holds what was done so far.", file=sys.stderr)
-        return 130 if interrupted else 0
+        ended: EndsCleanly | None = None  # the block in which a signal came
+        with FinishesWriting() as writing:
+            for number, one in enumerate(args.mesh, 1):
+                signals = EndsCleanly()
+                try:
+                    with signals:
+                        mesh, source = source_of(one)
+                        check_memory(args, smoothers, mesh, "report on fewer methods (--methods)")
+                    with Progress() as progress:
+                        signals = progress.signals
+                        case = run_methods(mesh, source, smoothers, stop, names, progress.show)
+                except KeyboardInterrupt:
+                    if not chapters:
+                        raise
+                    ended = signals
+                    break
+                folders.append(_unlike(folders, case.name, printable(Path(one).resolve().parent.name)))
+                again = _again(one, folders[-1], given, runs.method_words(args))
+                chapters.append(chapter(case, style, again, alive=alive, place=f"mesh-{number}"))
+                if case.interrupted:
+                    ended = signals
+                elif writing.asked and number < len(args.mesh):
+                    ended = writing
+                if ended:
+                    break
+            title = printable(args.title or "") or f"Report on {', '.join(one.name for one in chapters)}"
+            titled = ["--title", args.title] if args.title else []
+            command = command_line(["report", *args.mesh, *given, *titled, "-o", args.output])
+            (write_page if alive else write_paper)(path, page(title, chapters, command, alive=alive))
+            print(f"{args.output}: {path.stat().st_size / 1e6:.1f} MB")
+            if ended:
+                print("Interrupted: the report holds what was done so far.", file=sys.stderr)
+        return ended.status if ended else 0
 
 
 def _unlike(taken: list[str], name: str, folder: str) -> str:

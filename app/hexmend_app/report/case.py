@@ -20,6 +20,7 @@ from hexmend.optimise import Result, Stop
 from hexmend.quality import ElementQuality, Summary, measure, summarise
 from hexmend.recipe import Recipe
 from hexmend.run import Run
+from hexmend.signal_guard import uninterrupted
 from hexmend.smoothers import Smoother
 from hexmend.study.row import Row, Watch, common_power, initial_record, run_one
 
@@ -162,26 +163,30 @@ def run_methods(
         As in `hexmend.study.compare.compare`.
     """
     versions, failed = [Version.of(names[0] if names else INITIAL, mesh)], []
-    go_on = True
-    for number, method in enumerate(methods, 1):
-        runs: list[Run] = []
 
-        def seen(run: Run, runs: list[Run] = runs) -> Any:
-            runs[:] = [run]
-            return watch(run) if watch is not None else None
-
-        try:
-            row, go_on = run_one(mesh, method, stop, seen)
-        except KeyboardInterrupt:  # after its last iteration
-            go_on = False
-            break
+    @uninterrupted  # a run that has ended is not lost to a signal
+    def add(number: int, row: Row, runs: Sequence[Run]) -> None:
         if row.mesh is None:
             failed.append(row)
         else:
             name = names[number] if number < len(names) else row.method
             versions.append(Version.of(name, row.mesh, row, runs[0].result() if runs else None))
-        if not go_on:
-            break
+
+    go_on = True
+    try:
+        for number, method in enumerate(methods, 1):
+            runs: list[Run] = []
+
+            def seen(run: Run, runs: list[Run] = runs) -> Any:
+                runs[:] = [run]
+                return watch(run) if watch is not None else None
+
+            row, go_on = run_one(mesh, method, stop, seen)
+            add(number, row, runs)
+            if not go_on:
+                break
+    except KeyboardInterrupt:  # between two runs
+        go_on = False
     return Case(printable(mesh.name), source, tuple(versions), tuple(failed), stop, interrupted=not go_on)
 
 

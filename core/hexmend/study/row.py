@@ -15,6 +15,7 @@ from hexmend.optimise import Outcome, Result, StageResult
 from hexmend.quality import Summary, measure, objective, summarise
 from hexmend.recipe import Recipe
 from hexmend.run import Run, Stop, iterate
+from hexmend.signal_guard import uninterrupted
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.surface import SurfaceChange
 
@@ -174,7 +175,17 @@ def run_one(mesh: Mesh, smoother: Smoother | Recipe, stop: Stop, watch: Watch | 
     except Exception as error:  # whatever it is, the other methods' rows are worth having
         log.info("%s failed", name, exc_info=True)
         return Row(name, values, "failed", f"Failed: {error or type(error).__name__}"), True
-    return _row(name, run.result()), go_on
+    rows: list[Row] = []
+
+    @uninterrupted  # what the run has reached is not lost to a signal after its last iteration
+    def finish() -> None:
+        rows.append(_row(name, run.result()))
+
+    try:
+        finish()
+    except KeyboardInterrupt:
+        go_on = False
+    return rows[0], go_on
 
 
 def _row(name: str, result: Result) -> Row:

@@ -4,6 +4,7 @@ import hashlib
 import json
 import os
 import shlex
+import signal
 import tomllib
 from importlib.metadata import EntryPoint
 from pathlib import Path
@@ -14,6 +15,8 @@ from PIL import Image
 from hexmend.cli import main as program
 from hexmend.run import memory
 from hexmend_app.cli import figure_set, report
+from hexmend_app.report import case, page
+from hexmend_app.report import figure_set as pages
 
 pytestmark = pytest.mark.slow
 
@@ -169,3 +172,57 @@ def test_commands_of_a_report_take_no_name_for_an_option(hexmend, mesh_file, tmp
     page = Path("report.html").read_text(encoding="utf-8")
     assert "-o ./-x-figures" in page
     assert "-o ./-x-results" in page
+
+
+@pytest.fixture
+def interrupting(monkeypatch):
+    """Makes functions send signals to this process before their work."""
+
+    def interrupt(module, name, number=signal.SIGINT, times=1, call=1):
+        whole, calls = getattr(module, name), []
+
+        def interrupted(*args, **options):
+            calls.append(name)
+            for _ in range(times if len(calls) == call else 0):
+                os.kill(os.getpid(), number)
+            return whole(*args, **options)
+
+        monkeypatch.setattr(module, name, interrupted)
+
+    return interrupt
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_report_is_written_though_signals_come_in_its_runs_and_while_it_is_drawn(
+    hexmend, mesh_file, tmp_path, capsys, interrupting, number
+):
+    interrupting(case, "run_one", number)  # the first: this run ends after its iteration
+    interrupting(page, "chapter", number)
+    path = tmp_path / "report.html"
+    assert hexmend("report", mesh_file, *METHODS, "-o", path) == 128 + number
+    assert "The runs were interrupted" in path.read_text(encoding="utf-8")
+    assert "Interrupted: the report holds what was done so far." in capsys.readouterr().err
+
+
+def test_a_signal_while_the_second_mesh_is_read_keeps_the_first(hexmend, mesh_file, tmp_path, interrupting):
+    interrupting(case, "source_of", call=2)
+    path = tmp_path / "report.html"
+    assert hexmend("report", mesh_file, mesh_file, *METHODS, "-o", path) == 130
+    assert path.read_text(encoding="utf-8").count("SHA-256") == 1
+
+
+def test_a_signal_while_the_first_mesh_is_read_leaves_nothing(hexmend, mesh_file, tmp_path, interrupting):
+    interrupting(case, "source_of")
+    assert hexmend("report", mesh_file, *METHODS, "-o", tmp_path / "report.html") == 130
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_figures_are_written_though_signals_come_in_their_runs_and_while_they_are_drawn(
+    hexmend, mesh_file, tmp_path, interrupting, number
+):
+    interrupting(case, "run_one", number)
+    interrupting(pages, "write_figures", number)
+    words = ["--width-mm", "60", "-o", tmp_path / "set"]
+    assert hexmend("figures", mesh_file, *METHODS, *words) == 128 + number
+    assert (tmp_path / "set" / "captions.md").exists()

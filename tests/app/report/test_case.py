@@ -1,7 +1,13 @@
 """The runs that a report tells of."""
 
+import os
+import signal
+
+import pytest
+
 from hexmend import gallery
-from hexmend.run import Stop
+from hexmend.cli.interrupts import EndsAfterIteration
+from hexmend.run import Run, Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.report import case
 from hexmend_app.report.case import run_methods
@@ -19,3 +25,25 @@ def test_an_interrupt_between_two_methods_keeps_those_that_are_done(monkeypatch)
     done = run_methods(mesh, None, [METHODS["laplacian"](), METHODS["local-sd"]()], Stop(max_iterations=3))
     assert done.interrupted
     assert [one.name for one in done.versions][1:] == ["laplacian"]
+
+
+@pytest.mark.parametrize(("owner", "name"), [(case, "summarise"), (case, "advise"), (Run, "result")])
+def test_a_second_signal_after_the_last_iteration_keeps_what_the_run_reached(monkeypatch, owner, name):
+    whole, sent = getattr(owner, name), []
+    methods = [METHODS["laplacian"](), METHODS["local-sd"]()]
+
+    def interrupted(*args):
+        if signals.asked and not sent:
+            sent.append(signal.SIGINT)
+            os.kill(os.getpid(), signal.SIGINT)
+        return whole(*args)
+
+    def ask(run):
+        os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(owner, name, interrupted)
+    mesh = gallery.make("cube", size=27, scramble=0.3)
+    with EndsAfterIteration() as signals:
+        done = run_methods(mesh, None, methods, Stop(max_iterations=1), watch=ask)
+    assert done.interrupted
+    assert [one.name for one in done.versions] == ["initial", "laplacian"]
