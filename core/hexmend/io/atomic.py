@@ -50,7 +50,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         os.replace(temporary.path, target)
         flush_folder(target.parent)
     except OSError as error:
-        ours = (path,) if temporary is None else (path, temporary.path)
+        ours = (path,) if temporary is None else (path, temporary.path, temporary.lock_path)
         if error.filename is not None and Path(error.filename) not in ours:
             raise  # about another file, which the caller touched inside the block
         raise FileError(

@@ -26,8 +26,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
     content = _titled(replace(from_mesh(mesh), node_data=with_marks(mesh)))
     title = "".join(c if c.isalnum() or c in "_-" else "_" for c in mesh.name)[:64] or "mesh"
-    # HDF5 would refuse the lock that `hexmend.io.temporary_files` holds on the file.
-    with h5py.File(path, "w", track_order=True, locking=False) as file:
+    with h5py.File(path, "w", track_order=True) as file:
         _group(file, "INFOS_GENERALES", MAJ=4, MIN=1, REL=0)
         about = _group(file, "ENS_MAA", {}).create_group(title, track_order=True)
         about.attrs.update(_plain(DIM=3, ESP=3, NXI=-1, NXT=-1, REP=0, SRT=0, TYP=0))

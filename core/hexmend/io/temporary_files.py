@@ -1,9 +1,10 @@
 """Temporary files beside the file that they will replace: their names, their locks, and removing abandoned ones.
 
-A name holds the host, a random number and the target: `.hexmend-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`. The process that writes
-a temporary file holds a lock (`flock`) on it, which the system releases when the process ends, however it ends. A
-temporary file of this host without a lock is therefore abandoned. Where locks do not exist (Windows, some network file
-systems), abandoned files stay.
+A name holds the host, a random number and the target: `.hexmend-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`. Beside it stands an
+empty file, `.hexmend-lock-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`, which is there before it and goes after it. The process that
+writes holds a lock (`flock`) on this one, which the system releases when the process ends, however it ends; so
+libraries that lock what they write, as HDF5 does, can write the temporary file. Temporary files of this host whose lock
+is free are therefore abandoned. Where locks do not exist (Windows, some network file systems), abandoned files stay.
 """
 
 from __future__ import annotations
@@ -14,12 +15,15 @@ import zlib
 from contextlib import suppress
 from pathlib import Path
 
+from hexmend.signal_guard import uninterrupted
+
 try:
     import fcntl
 except ImportError:  # Windows
     fcntl = None
 
 _PREFIX = ".hexmend-"
+_LOCK_PREFIX = ".hexmend-lock-"
 #: Random bytes in a name.
 _RANDOM = 8
 #: The longest name of a file, in bytes, where the system does not say it.
@@ -38,15 +42,17 @@ class TemporaryFile:
     ----------
     path : Path
         It ends with the suffix of the target.
+    lock_path : Path
+        The empty file beside it that is locked.
     """
 
     def __init__(self, target: Path):
         self._target = target
-        self._handle: int | None = None
-        self.path = self._new_path()
+        self._lock: int | None = None
+        self._choose_name()
 
     def create(self, mode: int | None) -> None:
-        """Create the empty file and lock it; remove abandoned temporary files of the same target.
+        """Create the empty file and the lock; remove abandoned temporary files of the same target.
 
         Parameters
         ----------
@@ -58,43 +64,48 @@ class TemporaryFile:
         OSError
             Where the folder cannot be written to.
         """
-        remove_abandoned(self._target)
-        while not self._create_locked(mode):
-            self.path = self._new_path()
+        if fcntl is not None:
+            remove_abandoned(self._target)
+            while not self._create_lock():
+                self._choose_name()
+        flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
+        handle = os.open(self.path, flags, 0o666 if mode is None else 0o600)
+        try:
+            if mode is not None and hasattr(os, "fchmod"):
+                os.fchmod(handle, mode)
+        finally:
+            os.close(handle)
 
+    @uninterrupted
     def remove(self) -> None:
-        """Remove the file if it is still there, and release its lock."""
-        with suppress(OSError):
-            self.path.unlink()
+        """Remove the file if it is still there, and then the lock."""
+        for path in (self.path, self.lock_path):
+            with suppress(OSError):
+                path.unlink()
         self._close()
 
-    def _new_path(self) -> Path:
-        start, end = _name_parts(self._target)
-        return self._target.with_name(f"{start}{os.urandom(_RANDOM).hex()}{end}")
+    def _choose_name(self) -> None:
+        middle, end = os.urandom(_RANDOM).hex(), _name_end(self._target)
+        self.path = self._target.with_name(f"{_PREFIX}{_host()}{middle}{end}")
+        self.lock_path = self._target.with_name(f"{_LOCK_PREFIX}{_host()}{middle}{end}")
 
-    def _create_locked(self, mode: int | None) -> bool:
+    def _create_lock(self) -> bool:
         """Return False if another process removed the file before it was locked."""
-        flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
-        self._handle = os.open(self.path, flags, 0o666 if mode is None else 0o600)
-        if mode is not None and hasattr(os, "fchmod"):
-            os.fchmod(self._handle, mode)
-        if fcntl is None:  # an open file could not be renamed on Windows
-            self._close()
-            return True
+        self._lock = os.open(self.lock_path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
         try:
-            fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:  # another process has locked it in order to remove it
             self._close()
             return False
         except OSError:  # this file system has no locks, so nobody removes the file
             return True
-        if os.fstat(self._handle).st_nlink:
+        if os.fstat(self._lock).st_nlink:
             return True
         self._close()
         return False
 
     def _close(self) -> None:
-        handle, self._handle = self._handle, None
+        handle, self._lock = self._lock, None
         if handle is not None:
             os.close(handle)
 
@@ -108,39 +119,44 @@ def remove_abandoned(target: Path) -> None:
     """
     if fcntl is None:
         return
-    start, end = _name_parts(target)
+    start, end = f"{_LOCK_PREFIX}{_host()}", _name_end(target)
     length = len(start) + 2 * _RANDOM + len(end)
     with suppress(OSError):
         for name in os.listdir(target.parent):
             if name.startswith(start) and name.endswith(end) and len(name) == length:
-                _remove_unlocked(target.with_name(name))
+                data = f"{_PREFIX}{name.removeprefix(_LOCK_PREFIX)}"
+                _remove_unlocked(target.with_name(name), target.with_name(data))
 
 
-def _remove_unlocked(path: Path) -> None:
+def _remove_unlocked(lock: Path, data: Path) -> None:
     with suppress(OSError):  # locked, gone, not ours, or on a file system without locks
-        handle = os.open(path, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+        handle = os.open(lock, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            path.unlink()
+            data.unlink(missing_ok=True)
+            lock.unlink()
         finally:
             os.close(handle)
 
 
-def _name_parts(target: Path) -> tuple[str, str]:
-    """What stands before and after the random number in the name of a temporary file.
+def _host() -> str:
+    """This host in four letters: a lock may be seen on its own host only."""
+    name = os.uname().nodename if hasattr(os, "uname") else os.environ.get("COMPUTERNAME", "")
+    return f"{zlib.crc32(name.encode()) & 0xFFFF:04x}"
 
-    The host is part of it because a lock may be seen on its own host only. A long name of the target is replaced by
-    its checksum and its suffix.
+
+def _name_end(target: Path) -> str:
+    """What follows the random number in the names of temporary files.
+
+    A long name of the target is replaced by its checksum and its suffix.
     """
-    host = os.uname().nodename if hasattr(os, "uname") else os.environ.get("COMPUTERNAME", "")
-    start = f"{_PREFIX}{zlib.crc32(host.encode()) & 0xFFFF:04x}"
-    free = _longest_name(target.parent) - len(start) - 2 * _RANDOM - 1
+    free = _longest_name(target.parent) - len(f"{_LOCK_PREFIX}{_host()}") - 2 * _RANDOM - 1
     name = target.name
     if len(os.fsencode(name)) > free:
         name = f"{zlib.crc32(os.fsencode(name)):08x}{target.suffix}"
         if len(os.fsencode(name)) > free:
             name = name[:8]
-    return start, f"-{name}"
+    return f"-{name}"
 
 
 def _longest_name(folder: Path) -> int:
@@ -164,7 +180,7 @@ def flush_file(path: Path) -> None:
     """
     handle = os.open(path, os.O_WRONLY)
     try:
-        os.fsync(handle)
+        _flush(handle)
     except OSError as error:
         if error.errno not in (errno.EINVAL, errno.ENOTSUP):  # a file system that cannot flush
             raise
@@ -182,9 +198,22 @@ def flush_folder(folder: Path) -> None:
     with suppress(OSError):  # Windows cannot open folders; a folder may be writable and not readable
         handle = os.open(folder, os.O_RDONLY)
         try:
-            os.fsync(handle)
+            _flush(handle)
         finally:
             os.close(handle)
+
+
+def _flush(handle: int) -> None:
+    """Flush an open file; on macOS the cache of the drive too, which `os.fsync` leaves alone there."""
+    full = getattr(fcntl, "F_FULLFSYNC", None)
+    if full is not None:
+        try:
+            fcntl.fcntl(handle, full)
+        except OSError:  # not on this file system
+            pass
+        else:
+            return
+    os.fsync(handle)
 
 
 def make_folder(folder: Path) -> None:

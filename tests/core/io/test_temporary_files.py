@@ -14,6 +14,7 @@ from hexmend.errors import FileError
 from hexmend.io import temporary_files
 from hexmend.io.archive_folder import ArchiveFolder
 from hexmend.io.atomic import replacing
+from hexmend.io.format import FORMATS, Format
 from hexmend.report import made_folder
 
 #: Begins to write a file, says so, and waits.
@@ -120,6 +121,49 @@ def test_a_file_system_that_cannot_flush_is_written_to(tmp_path, monkeypatch):
     assert (tmp_path / "mesh.vtk").read_text() == "new"
 
 
+@pytest.mark.parametrize("works", [True, False])
+def test_macos_flushes_the_cache_of_the_drive_too_where_it_can(tmp_path, monkeypatch, works):
+    calls = []
+
+    def control(handle, command):
+        calls.append(command)
+        if not works:
+            raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP))
+
+    monkeypatch.setattr(fcntl, "F_FULLFSYNC", 51, raising=False)
+    monkeypatch.setattr(fcntl, "fcntl", control)
+    monkeypatch.setattr(os, "fsync", lambda handle: calls.append("fsync"))
+    with replacing(tmp_path / "mesh.vtk") as temporary:
+        temporary.write_text("new")
+    assert calls == ([51, 51] if works else [51, "fsync", 51, "fsync"])
+
+
+def write_hdf5(path, mesh, encoding):
+    with pytest.importorskip("h5py").File(path, "w") as file:
+        file["points"] = mesh.points
+
+
+def write_netcdf(path, mesh, encoding):
+    with pytest.importorskip("netCDF4").Dataset(path, "w") as file:
+        file.createDimension("nodes", mesh.n_nodes)
+
+
+@pytest.mark.parametrize("write", [write_hdf5, write_netcdf])
+def test_a_format_of_another_distribution_may_lock_the_file_that_it_writes(tmp_path, monkeypatch, write):
+    monkeypatch.setattr(FORMATS, "_entries", dict(FORMATS))
+    FORMATS.add("mine", Format("mine", "Mine", (".mine",), ("binary",), read=io.read, write=write))
+    io.write(tmp_path / "mesh.mine", gallery.make("cube", size=8))
+    assert files(tmp_path) == ["mesh.mine"]
+
+
+@pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
+def test_nothing_is_left_beside_a_file_that_is_not_written_to_its_end(tmp_path, error):
+    with pytest.raises(error), replacing(tmp_path / "mesh.vtk") as temporary:
+        temporary.write_text("half")
+        raise error
+    assert files(tmp_path) == []
+
+
 def test_two_writers_of_a_file_have_a_temporary_file_each(tmp_path):
     path = tmp_path / "mesh.vtk"
     with replacing(path) as first, replacing(path) as second:
@@ -137,10 +181,18 @@ def test_the_next_writer_removes_what_a_killed_one_left_of_the_same_target(tmp_p
         process, _ = writer(target)
         process.kill()
         process.wait()
-    assert len(files(tmp_path)) == 2
+    assert len(files(tmp_path)) == 4
     io.write(path, gallery.make("cube", size=8))
-    (left,) = set(files(tmp_path)) - {"mesh.vtk"}
-    assert left.endswith("-a-mesh.vtk")
+    left = set(files(tmp_path)) - {"mesh.vtk"}
+    assert len(left) == 2
+    assert all(name.endswith("-a-mesh.vtk") for name in left)
+
+
+def test_the_lock_of_a_writer_that_was_killed_before_its_file_was_there_is_removed(tmp_path):
+    path = tmp_path / "mesh.vtk"
+    temporary_files.TemporaryFile(path).lock_path.touch()
+    io.write(path, gallery.make("cube", size=8))
+    assert files(tmp_path) == ["mesh.vtk"]
 
 
 def test_the_file_of_a_writer_at_work_is_not_removed(tmp_path, writer):
@@ -152,9 +204,9 @@ def test_the_file_of_a_writer_at_work_is_not_removed(tmp_path, writer):
 
 def test_leftovers_that_cannot_be_removed_are_ignored(tmp_path):
     path = tmp_path / "mesh.vtk"
-    folder = temporary_files.TemporaryFile(path).path
+    folder = temporary_files.TemporaryFile(path).lock_path
     folder.mkdir()
-    link = temporary_files.TemporaryFile(path).path
+    link = temporary_files.TemporaryFile(path).lock_path
     link.symlink_to(tmp_path / "elsewhere")
     io.write(path, gallery.make("cube", size=8))
     assert files(tmp_path) == sorted([folder.name, link.name, "mesh.vtk"])
@@ -197,5 +249,6 @@ def test_a_file_that_another_process_removes_before_it_is_locked_is_made_again(t
 def test_a_name_as_long_as_names_may_be_can_be_written(tmp_path, name):
     with replacing(tmp_path / name) as temporary:
         temporary.write_text("new")
+        assert len(files(tmp_path)) == 2
         assert temporary.suffix == (".vtk" if name.endswith(".vtk") else "")
     assert (tmp_path / name).read_text() == "new"
