@@ -21,7 +21,7 @@ help:
 	@echo "make wheel             build the sources' archive and a wheel of it, and try that: dist/"
 	@echo "make pins              write constraints.txt anew, with the newest versions"
 	@echo "make clean             remove the environment and what was built"
-	@echo "Add PYTHON=/path/to/python3 (3.11 to 3.13) to choose the Python of a new environment."
+	@echo "Add PYTHON=/path/to/python3 (3.11 to 3.13) to choose the Python of the environment."
 
 run: $(VENV)/.app $(VENV)/.kernels
 	@scripts/debian-packages
@@ -85,25 +85,34 @@ pins:
 	@$(PYTHON) -m venv --clear build/pins && build/pins/bin/python -m pip install --quiet uv
 	@scripts/pins build/pins/bin
 
-# The stamps: what an environment holds is decided by these files alone.
-$(VENV)/.app: pyproject.toml constraints.txt scripts/environment
-	@scripts/environment "$(PYTHON)" $(VENV) app,build
+# The environment itself; it is made anew where a Python is named, here or by a variable, and it is of another one.
+NAMED := $(if $(filter file,$(origin PYTHON)),,--named)
+OTHER := $(if $(NAMED),$(shell scripts/other-python "$(PYTHON)" "$(VENV)"))
+.PHONY: other
+
+$(VENV)/.python: $(OTHER)
+	@scripts/environment $(NAMED) "$(PYTHON)" $(VENV)
 	@touch $@
 
-$(VENV)/.test: pyproject.toml constraints.txt scripts/environment
-	@scripts/environment "$(PYTHON)" $(VENV) app,build,site,test
+# The stamps: what an environment holds is decided by these files alone.
+$(VENV)/.app: pyproject.toml constraints.txt scripts/environment $(VENV)/.python
+	@scripts/environment $(NAMED) "$(PYTHON)" $(VENV) app,build
+	@touch $@
+
+$(VENV)/.test: pyproject.toml constraints.txt scripts/environment $(VENV)/.python
+	@scripts/environment $(NAMED) "$(PYTHON)" $(VENV) app,build,site,test
 	@touch $(VENV)/.app $(VENV)/.site $@
 
 $(VENV)/.pins: pyproject.toml constraints.txt scripts/pins $(VENV)/.test
 	@scripts/pins $(BIN) --check
 	@touch $@
 
-$(VENV)/.site: pyproject.toml constraints.txt scripts/environment
-	@scripts/environment "$(PYTHON)" $(VENV) app,build,site
+$(VENV)/.site: pyproject.toml constraints.txt scripts/environment $(VENV)/.python
+	@scripts/environment $(NAMED) "$(PYTHON)" $(VENV) app,build,site
 	@touch $(VENV)/.app $@
 
-$(VENV)/.wheel: pyproject.toml constraints.txt scripts/environment
-	@scripts/environment "$(PYTHON)" $(VENV) build,wheel
+$(VENV)/.wheel: pyproject.toml constraints.txt scripts/environment $(VENV)/.python
+	@scripts/environment $(NAMED) "$(PYTHON)" $(VENV) build,wheel
 	@touch $@
 
 $(VENV)/.kernels: $(VENV)/.app scripts/build-kernels $(shell find core/native -type f)

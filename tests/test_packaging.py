@@ -118,8 +118,42 @@ def test_pins_are_versions_alone():
 @pytest.mark.skipif(os.name != "posix", reason="a script of the shell")
 def test_a_command_that_fails_shows_its_last_lines(tmp_path):
     words = [ROOT / "scripts" / "logged", tmp_path / "log", "sh", "-c"]
-    for script, status, shown in (("seq 100; exit 3", 3, [str(k) for k in range(71, 101)]), ("seq 100", 0, [])):
+    numbers = [str(k) for k in range(1, 101)]
+    where = f"hexmend: sh failed (above: its last lines; all of them: {tmp_path / 'log'})"
+    for script, status, shown in (("seq 100; exit 3", 3, [*numbers[70:], where]), ("seq 100", 0, [])):
         done = subprocess.run([*words, script], capture_output=True, text=True, check=False)
         assert done.returncode == status
-        assert done.stderr.split() == shown
-        assert (tmp_path / "log").read_text().split() == [str(k) for k in range(1, 101)]
+        assert done.stderr.splitlines() == shown
+        assert (tmp_path / "log").read_text().split() == numbers
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a script of the shell")
+def test_a_command_that_fails_shows_its_first_error(tmp_path):
+    words = [ROOT / "scripts" / "logged", tmp_path / "log", "sh", "-c"]
+    script = "echo a.cpp:3: error: no such name; seq 100; echo b.cpp:7: error: another; exit 1"
+    done = subprocess.run([*words, script], capture_output=True, text=True, check=False)
+    assert done.stderr.splitlines()[:3] == ["a.cpp:3: error: no such name", "...", "72"]
+    assert "b.cpp:7: error: another" in done.stderr
+
+
+@pytest.mark.skipif(not shutil.which("make"), reason="there is no make")
+def test_an_environment_is_made_anew_for_another_python_that_is_named(tmp_path):
+    folder = tmp_path / "venv"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
+    for stamp in (".python", ".test"):
+        (folder / stamp).touch()
+    other = tmp_path / "python"
+    other.write_text("#!/bin/sh\necho another one\n")
+    other.chmod(0o755)
+    plain = {name: value for name, value in os.environ.items() if name not in ("PYTHON", "MAKEFLAGS", "MAKELEVEL")}
+    for named, anew in (({}, False), ({"PYTHON": sys.executable}, False), ({"PYTHON": str(other)}, True)):
+        done = subprocess.run(
+            ["make", "-n", f"VENV={folder}", f"{folder}/.test"],
+            cwd=ROOT,
+            env=plain | named,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert (f'scripts/environment --named "{other}" {folder}\n' in done.stdout) == anew
+        assert ("scripts/environment" in done.stdout) == anew
