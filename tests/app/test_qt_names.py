@@ -10,7 +10,7 @@ import textwrap
 from collections.abc import Iterator
 
 import pytest
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 import hexmend_app
 from hexmend_app.shell.type_to_find import TypeToFind
@@ -31,9 +31,13 @@ def qt_classes() -> list[type[QObject]]:
 
 
 def hidden_methods(kind: type) -> set[str]:
-    """The methods of Qt that a class hides by something that cannot be called: a property, a signal, an attribute."""
+    """The methods of Qt that a class hides by something that is no method: a property, a signal, an attribute.
+
+    A signal of a class seems to be callable; that of an object is not.
+    """
     qt = next(base for base in kind.mro() if base.__module__.startswith("PySide6"))
-    own = {name for name, value in vars(kind).items() if not callable(value)} | set(attributes_set(kind))
+    own = {name for name, value in vars(kind).items() if isinstance(value, Signal) or not callable(value)}
+    own |= set(attributes_set(kind))
     return {name for name in own if not name.startswith("__") and callable(getattr(qt, name, None))}
 
 
@@ -53,6 +57,8 @@ def test_no_class_hides_a_method_of_its_qt_class(qapp):
 
 def test_a_class_that_hides_a_method_of_qt_is_found():
     class Hiding(QObject):
+        event = Signal()
+
         def __init__(self):
             super().__init__()
             self.children = []
@@ -61,7 +67,7 @@ def test_a_class_that_hides_a_method_of_qt_is_found():
         def parent(self):
             return None
 
-    assert hidden_methods(Hiding) == {"children", "parent"}
+    assert hidden_methods(Hiding) == {"children", "event", "parent"}
 
 
 @pytest.mark.slow
