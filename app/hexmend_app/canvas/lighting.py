@@ -9,7 +9,7 @@ from hexmend_app.scene import occlusion
 from hexmend_app.scene.cutting.polygons import Polygons
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.panes import Panes
-from hexmend_app.state.task import Task, shut_down
+from hexmend_app.state.task import Task, drop
 
 
 class Lighting(QObject):
@@ -62,6 +62,6 @@ class Lighting(QObject):
         self.start()
 
     def shut_down(self) -> None:
-        """Wait until nothing is being worked out; nothing more is shown."""
-        shut_down(self._task)
+        """Ask the thread to end; nothing more is shown."""
+        drop(self._task)
         self._task = None

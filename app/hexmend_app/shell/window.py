@@ -15,6 +15,7 @@ from hexmend_app.shell.counts import Counts
 from hexmend_app.shell.docks import Docks
 from hexmend_app.shell.type_to_find import TypeToFind
 from hexmend_app.state import settings
+from hexmend_app.state.task import wait_for_dropped
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.opengl import make_room
@@ -247,7 +248,7 @@ class Window(QMainWindow):
     # Coming and going
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """End the threads and the 3D view before the window goes."""
+        """End the threads and the 3D view before the window goes; all threads are waited for together."""
         if not self.may_leave():
             event.ignore()
             return
@@ -261,6 +262,7 @@ class Window(QMainWindow):
             self.session.shut_down()
         if self.canvas is not None:
             self.canvas.close()
+        wait_for_dropped()
         self._soon.stop()
         event.accept()
 

@@ -191,10 +191,7 @@ class Comparison(QObject):
         self.changed.emit()
 
     def shut_down(self) -> None:
-        """End the work after the iteration at hand; nothing is emitted any more.
-
-        `Session.shut_down` waits for the thread.
-        """
+        """Ask the work to end after the iteration at hand; nothing is emitted any more."""
         self._timer.stop()
         if self._work is not None:
             self._work.task.drop()

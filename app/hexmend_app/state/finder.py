@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from hexmend.mesh import Mesh
 from hexmend.structure import Structure, structure
 from hexmend_app.state.document import Document
-from hexmend_app.state.task import Task, shut_down
+from hexmend_app.state.task import Task, drop
 
 #: Milliseconds after which the search begins: the mesh is to be seen first.
 _PATIENCE = 100
@@ -42,10 +42,10 @@ class Finder(QObject):
         return self._task is not None
 
     def shut_down(self) -> None:
-        """End the thread; nothing is found any more."""
+        """Ask the thread to end; nothing is found any more."""
         self._document.mesh_replaced.disconnect(self._wait)
         self._soon.stop()
-        shut_down(self._task)
+        drop(self._task)
         self._task = None
 
     def _wait(self) -> None:

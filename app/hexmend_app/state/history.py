@@ -77,11 +77,16 @@ class History:
         return record
 
     def add(self, record: Record, iteration: Iteration, places: bool = True) -> None:
-        """Keep an iteration, its positions too unless `places` is false; called by the thread that made it."""
+        """Keep an iteration, its positions too unless `places` is false; called by the thread that made it.
+
+        Nothing is kept of a run that has been removed: its thread may still make the iteration that it was at.
+        """
         numbers = {name: value for name, value in iteration.notes.items() if isinstance(value, (int, float, str))}
         row = numbers | iteration.row()
         offsets = record.compact(iteration.points) if iteration.number and places else None
         with self._lock:
+            if not any(one is record for one in self.records):
+                return
             if offsets is not None:
                 record._offsets[iteration.number] = offsets
                 self._stamp += 1

@@ -11,7 +11,7 @@ from hexmend.doctor import AILMENTS, Finding, repair
 from hexmend.mesh import Mesh
 from hexmend_app.state.deeds import Changed
 from hexmend_app.state.document import State
-from hexmend_app.state.task import Task, shut_down
+from hexmend_app.state.task import Task, drop
 
 if TYPE_CHECKING:
     from hexmend_app.state.session import Session
@@ -74,8 +74,8 @@ class MeshRepairer(QObject):
             self.cancelled.emit()
 
     def shut_down(self) -> None:
-        """End the thread; nothing is repaired any more."""
-        shut_down(self._task)
+        """Ask the thread to end; nothing is repaired any more."""
+        drop(self._task)
         self._task = None
 
     def _finish(self) -> None:

@@ -14,7 +14,7 @@ from hexmend_app.state import session_data
 from hexmend_app.state.deeds import Saved
 from hexmend_app.state.document import State
 from hexmend_app.state.session_data import SessionData
-from hexmend_app.state.task import Task, shut_down
+from hexmend_app.state.task import Task, drop
 
 if TYPE_CHECKING:
     from hexmend_app.state.session import Session
@@ -113,7 +113,7 @@ class MeshSaver(QObject):
     def shut_down(self) -> None:
         """Write nothing more; who closes has waited for what is being written, or has chosen not to."""
         self._waiting.clear()
-        shut_down(self._task)
+        drop(self._task)
         self._saving = self._task = None
 
     def _asked(self, path: Path) -> Saving:

@@ -6,7 +6,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject
 
-from hexmend_app.state.task import Task, shut_down
+from hexmend_app.state.task import Task, drop
 
 
 class Newest(QObject):
@@ -35,9 +35,9 @@ class Newest(QObject):
             self._begin()
 
     def shut_down(self) -> None:
-        """End the thread; nothing is answered any more."""
+        """Ask the thread to end; nothing is answered any more."""
         self._wanted = None
-        shut_down(self._task)
+        drop(self._task)
         self._task = None
 
     def _begin(self) -> None:

@@ -153,7 +153,7 @@ class Opener(QObject):
         self.cancelled.emit(self._path)
 
     def shut_down(self) -> None:
-        """Open nothing any more; `Session.shut_down` waits for the threads."""
+        """Open nothing any more."""
         self.cancel()
 
     def _finish(self) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
@@ -26,7 +27,7 @@ from hexmend.io.session import KeptSession
 from hexmend.io.temporary_files import flush_folder, make_folder
 from hexmend_app.state import session_data
 from hexmend_app.state.places import state_folder
-from hexmend_app.state.task import Task, shut_down
+from hexmend_app.state.task import Task
 
 if TYPE_CHECKING:
     from hexmend_app.state.session import Session
@@ -95,6 +96,7 @@ class Recovery(QObject):
         self._kept: KeptSession | None = None
         self._lock: QLockFile | None = None
         self._task: Task | None = None
+        self._after: list[Callable[[], object]] = []  # what is done once the session has been written
         self._changed = False
         self._taken_up: Left | None = None
         self._left: list[Left] = []
@@ -166,14 +168,15 @@ class Recovery(QObject):
         """The window ends in order: nothing is left of it."""
         self._timer.stop()
         self._soon.stop()
-        shut_down(self._task)
-        self._task = None
+        self._after.clear()
         for left in self._left:
             left.lock.unlock()  # for the next start
         self._left.clear()
+        task, self._task = self._task, None
         if self._lock is not None:
-            _removed(self._folder, self._lock)
+            remove = partial(_removed, self._folder, self._lock)
             self._lock = None
+            task.drop(remove) if task is not None else remove()
 
     @property
     def _worth(self) -> bool:
@@ -191,13 +194,17 @@ class Recovery(QObject):
         self._soon.start()
 
     def _on_opened(self) -> None:
-        """What was written of another mesh is no longer wanted; what was taken up is as good as written."""
+        """Begin anew with the mesh that was opened, once what is being written of another is on disk."""
         if not self.watching:
             return
-        if self._task is not None:
-            self._task.wait()
-            self._task = None
         left, self._taken_up = self._taken_up, None
+        if self._task is not None:
+            self._after.append(partial(self._begin_anew, left))
+        else:
+            self._begin_anew(left)
+
+    def _begin_anew(self, left: Left | None) -> None:
+        """Remove what was written of another mesh; what was taken up is as good as written."""
         _remove_session(self._folder)
         self._kept = KeptSession(self._folder / _SESSION)
         if left is None:
@@ -213,12 +220,15 @@ class Recovery(QObject):
 
     def _on_written(self) -> None:
         task, self._task = self._task, None
-        if task.error is None:
-            self.written.emit()
-        elif isinstance(task.error, HexmendError | OSError):
+        after, self._after = self._after, []
+        for act in after:
+            act()
+        if isinstance(task.error, HexmendError | OSError):
             self.failed.emit(task.error)
-        else:
+        elif task.error is not None:
             raise task.error
+        elif not after:
+            self.written.emit()
 
 
 def _write(folder: Path, kept: KeptSession, data: session_data.SessionData, task: Task) -> None:

@@ -17,7 +17,6 @@ from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History, Moment, Record
-from hexmend_app.state.task import shut_down
 from hexmend_app.state.worker import Frame, Worker
 
 #: Milliseconds between two looks into the mailbox.
@@ -195,12 +194,12 @@ class Smoothing(QObject):
         self._set_phase(Phase.IDLE)
 
     def shut_down(self) -> None:
-        """End the run and its thread; nothing is emitted any more."""
+        """Ask the run to end after the iteration at hand; nothing of it is shown or recorded any more."""
         self._timer.stop()
         self._after.clear()
         if self._worker is not None:
             self._worker.end()
-            shut_down(self._worker.task)
+            self._worker.task.drop()
             self._worker = None
             self._history.finish(self.record, None, None, "")
             self._set_phase(Phase.IDLE)

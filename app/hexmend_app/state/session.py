@@ -29,7 +29,6 @@ from hexmend_app.state.reference import References
 from hexmend_app.state.run import Smoothing
 from hexmend_app.state.selection import Selection
 from hexmend_app.state.stepping import Stepping
-from hexmend_app.state.task import wait_for_dropped
 from hexmend_app.state.timeline import Timeline
 from hexmend_app.state.view import View
 from hexmend_app.state.views import Views
@@ -183,17 +182,10 @@ class Session(QObject):
         self.eye.take(data.eye, data.journey)
 
     def shut_down(self) -> None:
-        """End the threads, as far as they can be ended."""
-        self.saver.shut_down()
-        self.repairer.shut_down()
-        self.smoothing.shut_down()
-        self.opener.shut_down()
-        self.finder.shut_down()
-        self.classer.shut_down()
-        self.explainer.shut_down()
-        self.examiner.shut_down()
-        self.comparison.shut_down()
-        wait_for_dropped()
+        """Ask all threads to end; `wait_for_dropped` waits for them."""
+        for part in (self.saver, self.repairer, self.smoothing, self.opener, self.finder, self.classer,
+                     self.explainer, self.examiner, self.comparison):  # fmt: skip
+            part.shut_down()
 
     def _on_another(self) -> None:
         """Nothing is chosen, hidden or kept of the mesh that is open now."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -23,27 +23,22 @@ def running() -> tuple[Task, ...]:
     return tuple(sorted((task for task in _BEGUN if not task.over), key=lambda task: task.name))
 
 
-def shut_down(*tasks: Task | None) -> None:
-    """Ask tasks to end, hear no more of them, and wait for their threads, for `GRACE` seconds in all.
+def drop(task: Task | None) -> None:
+    """Drop a task, if there is one."""
+    if task is not None:
+        task.drop()
+
+
+def wait_for_dropped() -> None:
+    """Wait for the threads of all tasks that were dropped, for `GRACE` seconds in all.
 
     No thread can be ended from outside: one that reads from a network drive that does not answer goes on, and is among
     `running`. A program that is about to end then ends its process.
     """
-    asked = [task for task in tasks if task is not None]
-    for task in asked:
-        task.drop()
-    _wait_for(asked)
-
-
-def wait_for_dropped() -> None:
-    """Wait for the threads of all tasks that were dropped, for `GRACE` seconds in all."""
-    _wait_for([task for task in running() if task.dropped])
-
-
-def _wait_for(tasks: Sequence[Task]) -> None:
     deadline = time.monotonic() + GRACE
-    for task in tasks:
+    for task in [one for one in _BEGUN if one.dropped]:
         task.join(max(0.0, deadline - time.monotonic()))
+        task.let_go()
 
 
 class Task(QObject):
@@ -92,6 +87,7 @@ class Task(QObject):
         self._work: Callable[[Task], Any] | None = work
         self._yields = yields
         self._listened_to = True
+        self._then: Callable[[], object] | None = None  # called when it was dropped and has ended
         self._thread = threading.Thread(target=self._run, name=name)
         self._tells.connect(self._pass_on, Qt.ConnectionType.QueuedConnection)
         self._ends.connect(self._finish, Qt.ConnectionType.QueuedConnection)
@@ -119,10 +115,22 @@ class Task(QObject):
         """Ask the work to end; its end is told as usual."""
         self.cancelled.set()
 
-    def drop(self) -> None:
-        """Ask the work to end, and hear no more of it."""
+    def drop(self, then: Callable[[], object] | None = None) -> None:
+        """Ask the work to end, and hear no more of it.
+
+        Parameters
+        ----------
+        then : callable, optional
+            Called once, in the thread that made the task, when the work has ended or `wait_for_dropped` has given up.
+        """
         self.cancel()
-        self._listened_to = False
+        self._listened_to, self._then = False, then
+
+    def let_go(self) -> None:
+        """Call what was to be called after the end of the work, whether it has ended or not."""
+        then, self._then = self._then, None
+        if then is not None:
+            then()
 
     def wait(self) -> None:
         """Wait until the thread has ended, which it must be about to; no signal comes after that."""
@@ -135,6 +143,7 @@ class Task(QObject):
         if self.over:
             self._work = None  # which may know this task: no circle is left for another thread to collect
             _BEGUN.discard(self)
+            self.let_go()
 
     def _run(self) -> None:
         try:

@@ -43,7 +43,7 @@ def test_without_shading_nothing_is_worked_out(window, qtbot):
     assert window.session.view.look == Look(shading=False, dug=frozenset({3}))
 
 
-def test_closing_waits_for_it(window):
+def test_closing_ends_it(window):
     window.canvas.panes.still()
     window.canvas.lighting.start()
     window.canvas.lighting.shut_down()

@@ -13,7 +13,7 @@ from hexmend_app.state import measured
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History
 from hexmend_app.state.run import Phase, Smoothing
-from hexmend_app.state.task import running
+from hexmend_app.state.task import running, wait_for_dropped
 from hexmend_app.state.worker import Mailbox
 from tests.app.driving import turn
 from tests.core.grids import grid, scrambled
@@ -109,6 +109,7 @@ def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
         smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
     smoothing.shut_down()
     assert not smoothing.busy
+    wait_for_dropped()
     assert running() == ()
 
 
