@@ -43,8 +43,7 @@ test-slow: $(VENV)/.test $(VENV)/.kernels
 	@$(PYTEST) -m slow
 
 mutants: $(VENV)/.test $(VENV)/.kernels
-	@$(BIN)/python scripts/mutants.py
-	@$(BIN)/python scripts/mutants.py --native
+	@status=0; for kind in "" --native; do $(BIN)/python scripts/mutants.py $$kind || status=1; done; exit $$status
 
 lint: $(VENV)/.test $(VENV)/.pins
 	@$(BIN)/ruff check

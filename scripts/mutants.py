@@ -9,8 +9,10 @@ likeliest first, until one fails or they have taken 30 seconds. Faults that chan
 in mutants_equivalent.toml. With --native, faults listed in mutants_native.toml are put into the C++ sources and the
 kernels are built with each.
 
-Results are kept in build/mutants, so that a run can be interrupted and continued: a fault that was found is not tried
-again, one that survived only after the tests have changed.
+Results are kept in build/mutants, so that a run can be interrupted and continued: a fault is not tried again until
+the tests that were chosen for it have changed.
+
+The exit status is 1 where less than 90 % are found, or the trial of a fault ended with an error.
 """
 
 from __future__ import annotations
@@ -29,7 +31,11 @@ from mutation.operators import Mutant, mutants
 from mutation.project import Project
 from mutation.reach import Reach
 from mutation.sampling import sample
-from mutation.table import as_text
+from mutation.table import as_text, share_found
+from mutation.trial import ERROR
+
+#: Share of the faults that tests are to find.
+WANTED = 0.9
 
 ROOT = Path(__file__).resolve().parents[1]
 EQUIVALENT, NATIVE = (Path(__file__).with_name(f"mutants_{name}.toml") for name in ("equivalent", "native"))
@@ -96,10 +102,20 @@ def main(
     return rows
 
 
+def status(rows: Sequence[Row]) -> int:
+    """Return the exit status: 0 where enough was found and every fault could be tried, else 1, and say why."""
+    short, errors = share_found(rows) < WANTED, sum(row.outcome == ERROR for row in rows)
+    if short:
+        print(f"Less than {WANTED:.0%} are found: write tests that find the survivors.")
+    if errors:
+        print(f"{errors} could not be tried: see the errors above.")
+    return int(short or errors > 0)
+
+
 if __name__ == "__main__":
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     try:
-        main()
+        sys.exit(status(main()))
     except KeyboardInterrupt:
         sys.exit("interrupted: the same command goes on where this one ended")

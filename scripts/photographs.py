@@ -16,6 +16,7 @@ from hexmend.io import write
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import end_run
 from hexmend_app.shell.program import application
 from hexmend_app.shell.window import Window
 from hexmend_app.state.clip import PlaneClip
@@ -113,7 +114,7 @@ def take(scenes: Scenes, folder: Path, prefix: str) -> None:
 
 def shut(window: Window) -> None:
     """Close the window, whatever is unsaved."""
-    window.session.smoothing.end_now()
+    end_run(window.session)
     window.session.document.commit("shown", window.session.document.now)
     window.session.document.saved(window.session.document.path)
     window.close()

@@ -1,6 +1,7 @@
 """`make mutants`, on a package of one function: a fault that its test finds, and one that it does not."""
 
 import json
+import signal
 import sys
 from pathlib import Path
 
@@ -65,6 +66,80 @@ def test_a_fault_that_a_test_finds_and_one_that_survives_are_told_apart_and_kept
     assert (toy.root / path).read_text() == SOURCE
     kept = json.loads((toy.build / "results.json").read_text())
     assert {row["id"]: row["outcome"] for row in kept} == {found: "found", survived: "survived"}
+
+
+def test_a_fault_is_tried_again_when_the_test_that_found_it_has_changed(scripts, toy):
+    script, operators, _ = scripts
+    path = "core/toy/numbers.py"
+    by_text = {mutant.texts[1]: mutant.id for mutant in operators.mutants(path, SOURCE)}
+    arguments = ["--count", "3", "--jobs", "1", "--seed", "1"]
+    before = {row.id: row for row in script.main(arguments, toy, [path])}
+    assert before[by_text["if x >= low:"]].outcome == "found"
+    (toy.root / "tests/test_numbers.py").write_text(TEST.replace("== (2, 3)", "is not None"))
+    after = script.main(arguments, toy, [path])
+    assert {row.outcome for row in after} == {"survived"}
+
+
+def test_a_fault_that_no_module_can_be_imported_with_is_found(scripts, toy):
+    script, operators, _ = scripts
+    path = "core/toy/numbers.py"
+    source = SOURCE + "\n\nLOW = (1, 2)[1]\n"
+    (toy.root / path).write_text(source)
+    by_text = {mutant.texts[1]: mutant.id for mutant in operators.mutants(path, source)}
+    arguments = ["--again", by_text["LOW = (1, 2)[2]"], "--jobs", "1"]
+    (row,) = script.main(arguments, toy, [path])
+    assert (row.outcome, row.by) == ("found", "tests/test_numbers.py")
+    (toy.root / "tests/conftest.py").write_text("import toy.numbers\n")
+    (row,) = script.main(arguments, toy, [path])
+    assert row.outcome == "found"
+    assert row.by.endswith("conftest.py")
+
+
+@pytest.mark.parametrize(
+    ("code", "report", "outcome"),
+    [
+        (0, {}, "survived"),
+        (1, {"tests/a.py::x": {"outcome": "failed"}}, "found"),
+        (2, {"tests/a.py": {"outcome": "failed"}}, "found"),
+        (-signal.SIGSEGV, {}, "found"),
+        (-signal.SIGPROF, {}, "timed out"),
+        (-signal.SIGKILL, {}, "error"),
+        (2, {}, "error"),
+        (3, {}, "error"),
+        (4, {}, "error"),
+    ],
+)
+def test_a_fault_is_found_only_by_a_test_that_fails_or_a_crash(scripts, tmp_path, code, report, outcome):
+    class Project:
+        sessions = staticmethod(lambda tests: [list(tests)])
+
+    class Copy:
+        project, folder = Project, tmp_path / "copy"
+
+    class Processes:
+        pytest = staticmethod(lambda *values, **variables: (code, report))
+
+    assert sys.modules["mutation.trial"].tried(Copy, Processes, {"tests/a.py::x": 1.0}).outcome == outcome
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "status", "said"),
+    [
+        ({"found": 8, "timed out": 1, "survived": 1, "equivalent": 5}, 0, ""),
+        ({"found": 8, "survived": 1}, 1, "Less than 90% are found"),
+        ({"found": 9, "error": 1}, 1, "1 could not be tried"),
+    ],
+)
+def test_the_exit_status_says_whether_enough_was_found(scripts, capsys, outcomes, status, said):
+    campaign, table = sys.modules["mutation.campaign"], sys.modules["mutation.table"]
+    rows = [
+        campaign.Row(f"{outcome} {k}", "core/a.py", "f", "sign", 1, f"-{outcome}", outcome, "why", 1.0, "")
+        for outcome, count in outcomes.items()
+        for k in range(count)
+    ]
+    assert scripts[0].status(rows) == status
+    assert said in capsys.readouterr().out
+    assert ("-error" in table.as_text(rows)) == ("error" in outcomes)
 
 
 def test_texts_messages_and_annotations_are_not_changed(scripts):

@@ -12,7 +12,7 @@ from pathlib import Path
 from mutation.operators import Mutant
 from mutation.project import Copy, Project
 from mutation.reach import Reach
-from mutation.trial import EQUIVALENT, FOUND, SURVIVED, TIMED_OUT, Result, tried
+from mutation.trial import EQUIVALENT, ERROR, Result, tried
 from mutation.workers import Processes, in_copies
 
 
@@ -49,10 +49,10 @@ class Results:
             os.replace(beside, self._path)
 
     def has(self, mutant: Mutant, tests: str) -> bool:
-        """Whether this very fault was found before, or survived the tests that the digest `tests` stands for."""
+        """Whether it is known what this very fault does to the tests that the digest `tests` stands for."""
         row = self.rows.get(mutant.id)
-        known = row is not None and row.diff == mutant.diff
-        return known and (row.outcome in (FOUND, TIMED_OUT) or (row.outcome == SURVIVED and row.tests == tests))
+        same = row is not None and row.diff == mutant.diff and row.tests == tests
+        return same and row.outcome not in (EQUIVALENT, ERROR)
 
 
 def try_all(

@@ -18,6 +18,7 @@ from pathlib import Path
 from types import CodeType, FrameType
 
 import pytest
+from _pytest import config as pytest_config
 
 #: Bytes of data that a process may take: a fault may ask for all there is.
 _MEMORY = 12 << 30
@@ -79,6 +80,22 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
     if report.outcome != "passed":
+        _report.setdefault(report.nodeid, {})["outcome"] = report.outcome
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_load_initial_conftests(args: list[str]) -> Iterator[None]:
+    """A `conftest.py` that cannot be imported has failed, too; pytest ends as if it had been called wrongly."""
+    try:
+        return (yield)
+    except pytest_config.ConftestImportFailure as failure:
+        Path(_order["report"]).write_text(json.dumps({str(failure.path): {"outcome": "failed"}}), encoding="utf-8")
+        raise
+
+
+def pytest_collectreport(report: pytest.CollectReport) -> None:
+    """A file of tests that cannot be imported has failed: without a fault all can."""
+    if report.outcome == "failed":
         _report.setdefault(report.nodeid, {})["outcome"] = report.outcome
 
 

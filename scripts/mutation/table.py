@@ -7,15 +7,16 @@ from collections.abc import Sequence
 from pathlib import PurePosixPath
 
 from mutation.campaign import Row
-from mutation.trial import EQUIVALENT, FOUND, SURVIVED, TIMED_OUT
+from mutation.trial import EQUIVALENT, ERROR, FOUND, SURVIVED, TIMED_OUT
 
 
 def as_text(rows: Sequence[Row]) -> str:
-    """Survivors with their diffs, then the counts of each folder and the share that was found."""
-    parts = [f"{row.id}  {row.operator}: {row.by}\n{row.diff}\n" for row in rows if row.outcome == SURVIVED]
+    """Survivors and errors with their diffs, then the counts of each folder and the share that was found."""
+    shown = [row for outcome in (SURVIVED, ERROR) for row in rows if row.outcome == outcome]
+    parts = [f"{row.id}  {row.outcome}, {row.operator}: {row.by}\n{row.diff}\n" for row in shown]
     folders = sorted({_folder(row) for row in rows})
     width = max(map(len, [*folders, "all"]), default=3)
-    heads = (FOUND, TIMED_OUT, SURVIVED, EQUIVALENT)
+    heads = (FOUND, TIMED_OUT, SURVIVED, EQUIVALENT, ERROR)
     lines = [" " * width + "".join(f"{head:>12}" for head in heads)]
     for folder in [*folders, "all"]:
         counts = Counter(row.outcome for row in rows if folder in ("all", _folder(row)))
@@ -24,7 +25,10 @@ def as_text(rows: Sequence[Row]) -> str:
 
 
 def share_found(rows: Sequence[Row]) -> float:
-    """Of the faults that change a result, the share that tests found; 1 where there are none."""
+    """Of the faults that change a result, the share that tests found; 1 where there are none.
+
+    Those whose trial ended with an error are left out.
+    """
     counts = Counter(row.outcome for row in rows)
     found = counts[FOUND] + counts[TIMED_OUT]
     return found / (found + counts[SURVIVED]) if found + counts[SURVIVED] else 1.0

@@ -10,10 +10,12 @@ from dataclasses import dataclass
 from mutation.project import Copy
 from mutation.workers import Processes
 
-FOUND, SURVIVED, TIMED_OUT, EQUIVALENT = "found", "survived", "timed out", "equivalent"
+FOUND, SURVIVED, TIMED_OUT, EQUIVALENT, ERROR = "found", "survived", "timed out", "equivalent", "error"
 
 #: Exit statuses of pytest: all passed, no test was collected.
 _PASSED, _NONE = 0, 5
+#: Signals that end a process which a fault has spoilt: it reads or writes where it may not, or gives up.
+_CRASHES = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,9 @@ class Result:
 
 def tried(copy: Copy, processes: Processes, tests: Mapping[str, float], **variables: str) -> Result:
     """Run `tests` in a copy that holds a fault, until one fails.
+
+    A fault is found where a test fails or cannot be collected, or where the process crashes. Where pytest ends in
+    another way (it cannot run, or the system kills it), nothing is known of the fault: the outcome is an error.
 
     Parameters
     ----------
@@ -47,7 +52,11 @@ def tried(copy: Copy, processes: Processes, tests: Mapping[str, float], **variab
         code, report = processes.pytest(copy, files, {name: tests[name] for name in group}, variables=variables)
         if -code in (signal.SIGPROF, signal.SIGALRM):
             return result(TIMED_OUT, "")
+        if -code in _CRASHES:
+            return result(FOUND, f"{signal.Signals(-code).name} ended the tests")
+        failed = next((name for name, entry in report.items() if entry.get("outcome") == "failed"), None)
+        if failed is not None:
+            return result(FOUND, failed)
         if code not in (_PASSED, _NONE):
-            failed = (name for name, entry in report.items() if entry.get("outcome") == "failed")
-            return result(FOUND, next(failed, f"exit status {code}"))
+            return result(ERROR, f"pytest ended with status {code}: see {copy.folder}.log")
     return result(SURVIVED, f"{len(tests)} tests pass" if tests else "there are no tests")
