@@ -17,6 +17,8 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QWidget
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from hexmend_app.canvas.canvas import Canvas
     from hexmend_app.state.session import Session
     from hexmend_app.widgets.busy import Busy
@@ -235,6 +237,12 @@ class Feature(QObject):
     def may_leave(self) -> bool:
         """Whether the open mesh may be given up for another, or the window closed; may ask."""
         return True
+
+    def save_and_wait(self, path: str | Path) -> bool:
+        """Write the mesh as it is now, or under a session's suffix the session, and wait; whether it was written."""
+        saving = self.session.commands.save_in_background(path)
+        waited = self.host.wait_until(f"{saving.path.name} is being saved.", lambda: saving.over)
+        return waited and saving.error is None
 
     def close(self) -> None:
         """End what is going on: the window is about to go."""

@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
+from hexmend_app.bench.windows import end_run
 from hexmend_app.state.history import LIMIT
 from hexmend_app.state.look import Look
 from hexmend_app.state.scene.kept_cameras import KeptCameras
@@ -60,7 +61,7 @@ class Resetting:
         for feature in self.window.features.values():
             feature.close()
         session = self.window.session
-        session.smoothing.end_now()
+        end_run(session)
         session.comparison.cancel()
         session.opener.cancel()
 

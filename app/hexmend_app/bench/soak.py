@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from itertools import count, cycle, product
@@ -13,18 +13,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hexmend.errors import HexmendError
 from hexmend.study.section import resident_mb
-from hexmend_app.bench.windows import draw, turn
+from hexmend_app.bench.windows import draw, end_run, save_and_wait, turn, until
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
 
 #: Of a run in a round: its most iterations, and its longest time in seconds.
 _ITERATIONS, _SECONDS = 20, 5.0
-
-#: Seconds after which what is waited for will not come any more.
-_PATIENCE = 300.0
 
 #: Share of the rounds in which memory may still grow: caches fill, and every method has its first run.
 _WARM = 0.25
@@ -139,7 +135,7 @@ def _window() -> Iterator[Window]:
     try:
         yield window
     finally:
-        window.session.smoothing.end_now()
+        end_run(window.session)
         if window.session.document.is_open:
             window.session.document.saved(window.session.document.path)
         window.close()
@@ -152,9 +148,9 @@ def _round(window: Window, path: Path, method: str, folder: Path) -> None:
     _look_around(window)
     _smooth(window, method)
     _look_back(window)
-    session.commands.save(folder / "mesh.vtu")
+    save_and_wait(session, folder / "mesh.vtu")
     saved = folder / "round.hexmend"
-    session.commands.save(saved)
+    save_and_wait(session, saved)
     window.features["save"].picture(folder / "picture.png", (1280, 800))
     _open(window, saved)
     for change in (session.commands.undo, session.commands.redo, session.commands.reset):
@@ -167,7 +163,7 @@ def _open(window: Window, path: Path) -> None:
     opener, errors = window.session.opener, []
     told = opener.failed.connect(lambda _, error: errors.append(error))
     window.session.commands.open(path)
-    _until(lambda: not opener.busy)
+    until(lambda: not opener.busy)
     opener.failed.disconnect(told)
     _raise(errors)
     draw(window)
@@ -197,7 +193,7 @@ def _smooth(window: Window, method: str) -> None:
     smoothing, errors = window.session.smoothing, []
     told = smoothing.failed.connect(errors.append)
     window.session.commands.run(Stage(METHODS[method](), Stop(max_iterations=_ITERATIONS, max_seconds=_SECONDS)))
-    _until(lambda: not smoothing.busy)
+    until(lambda: not smoothing.busy)
     smoothing.failed.disconnect(told)
     _raise(errors)
 
@@ -208,15 +204,6 @@ def _look_back(window: Window) -> None:
         for number in np.linspace(0, timeline.record.newest, 5).astype(int):
             timeline.go(timeline.record, int(number))
             draw(window)
-
-
-def _until(condition: Callable[[], bool]) -> None:
-    """Let the window live until something is so."""
-    began = perf_counter()
-    while not condition():
-        turn(0.02)
-        if perf_counter() - began > _PATIENCE:
-            raise HexmendError(f"the window has not answered for {_PATIENCE:.0f} s")
 
 
 def _raise(errors: Iterable[Exception]) -> None:

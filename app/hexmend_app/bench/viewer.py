@@ -13,7 +13,7 @@ import numpy as np
 from hexmend.errors import HexmendError
 from hexmend.gallery import make
 from hexmend.study.section import Section
-from hexmend_app.bench.windows import draw, measured, report, turn
+from hexmend_app.bench.windows import draw, end_run, measured, report, turn
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
@@ -86,7 +86,7 @@ def _while_running(window: Window) -> dict[str, Any]:
     timer.start()
     turn(_SECONDS)
     timer.stop()
-    window.session.smoothing.end_now()
+    end_run(window.session)
     late = np.maximum(np.diff(beats) * 1e3 - _BEAT, 0)
     if not len(late):
         raise HexmendError("the event loop did not turn while the smoother ran")

@@ -13,9 +13,11 @@ from hexmend.errors import HexmendError
 if TYPE_CHECKING:
     from hexmend.mesh import Mesh
     from hexmend_app.shell.window import Window
+    from hexmend_app.state.session import Session
 
 _FRAMES = 40
 _PATIENCE = 60.0  # seconds for a frame
+_LONGEST = 300.0  # seconds for anything else
 
 
 def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) -> dict[str, Any]:
@@ -82,6 +84,29 @@ def report(figures: dict[str, Any], lines: Callable[[dict[str, Any]], Iterable[s
     """What a section prints: the lines of each mesh's row, or why there are none."""
     left_out = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
     return left_out + [line for row in figures["meshes"] for line in lines(row)]
+
+
+def save_and_wait(session: Session, path: str | Path) -> None:
+    """Save the mesh, or under a session's suffix the session, and wait until it is written; raises why it was not."""
+    saving = session.commands.save_in_background(path)
+    until(lambda: saving.over)
+    if saving.error is not None:
+        raise saving.error
+
+
+def end_run(session: Session) -> None:
+    """End a run, if one is under way, and wait until it is recorded."""
+    session.smoothing.stop()
+    until(lambda: not session.smoothing.busy)
+
+
+def until(condition: Callable[[], bool]) -> None:
+    """Let the window live until something is so."""
+    began = perf_counter()
+    while not condition():
+        turn(0.02)
+        if perf_counter() - began > _LONGEST:
+            raise HexmendError(f"the window has not answered for {_LONGEST:.0f} s")
 
 
 def turn(seconds: float) -> None:

@@ -56,20 +56,11 @@ class Commands(QObject):
         """Open a mesh; a run under way ends first. What is open stays where the file cannot be read."""
         self.smoothing.end(lambda: self._session.opener.open(path))
 
-    def save(self, path: str | Path) -> list[str]:
-        """Write the mesh as it is now, or under a session's suffix all there is; what the file's format cannot hold.
-
-        The caller waits; `save_in_background` does not.
-
-        Raises
-        ------
-        HexmendError
-            Where it cannot be written; the file that was there stays.
-        """
-        return self._session.saver.save_now(path).omitted
-
     def save_in_background(self, path: str | Path) -> Saving:
-        """Begin to write the same in a thread; `Session.saver` says how it ends."""
+        """Begin to write the mesh as it is now, or under a session's suffix all there is, in a thread.
+
+        `Session.saver` says how it ends; where it fails, the file that was there stays.
+        """
         return self._session.saver.save(path)
 
     def carry_out(self, deed: Wrote) -> None:

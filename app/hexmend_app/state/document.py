@@ -202,15 +202,20 @@ class Document(QObject):
         """The mesh as it was changed last, which undo would come back from; a mesh is open."""
         return self._changes[self._at].state
 
-    def saved(self, path: Path, state: State | None = None) -> None:
+    def saved(self, path: Path, state: State | None = None) -> bool:
         """Remember that a state is on disk, the one that is shown where none is named.
 
-        Nothing is remembered of a mesh that is open no more.
+        Returns
+        -------
+        bool
+            Whether its mesh is open still; nothing is remembered of another.
         """
         state = self.now if state is None else state
-        if any(change.state.mesh.hexes is state.mesh.hexes for change in self._changes):
+        is_open = any(change.state.mesh.hexes is state.mesh.hexes for change in self._changes)
+        if is_open:
             self.path, self._saved = path, state
             self.changes_changed.emit()
+        return is_open
 
     def given(self) -> DocumentData:
         """What a session keeps; a mesh is open."""

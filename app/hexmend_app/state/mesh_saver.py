@@ -103,13 +103,6 @@ class MeshSaver(QObject):
         self._begin()
         return saving
 
-    def save_now(self, path: str | Path) -> Saving:
-        """Write it before this returns; raises what writing it raises."""
-        saving = self._asked(Path(path))
-        saving.write()
-        self._take(saving)
-        return saving
-
     def shut_down(self) -> None:
         """Write nothing more; who closes has waited for what is being written, or has chosen not to."""
         self._waiting.clear()
@@ -145,10 +138,9 @@ class MeshSaver(QObject):
         self._begin()
 
     def _take(self, saving: Saving) -> None:
-        """Tell that a file was written, and know that what is in it is saved."""
+        """Tell that a file was written, and know that what is in it is saved, if its mesh is open still."""
         session = self._session
         session.commands.done.emit(Saved(saving.path, saving.state, saving.data))
-        if saving.data is not None:
+        is_open = session.document.saved(saving.path, saving.recorded)
+        if is_open and saving.data is not None:
             session.cameras.saved(saving.data.cameras)
-        session.document.saved(saving.path, saving.recorded)
-        saving.over = True

@@ -179,13 +179,6 @@ class Smoothing(QObject):
         self._worker.end()
         self._set_phase(Phase.STOPPING)
 
-    def end_now(self) -> None:
-        """End the run and wait for the iteration at hand; what was reached is recorded as usual."""
-        if self._worker is not None:
-            self._worker.end()
-            self._worker.task.wait()
-            self._finish(self._worker)
-
     def _on_another(self) -> None:
         """Forget the run on the mesh that was open, and what was begun while the other was read."""
         self.shut_down()

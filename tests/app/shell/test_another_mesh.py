@@ -156,7 +156,7 @@ def test_a_session_of_a_smaller_mesh_is_shown_whatever_was_done_with_a_larger(
 ):
     open_and_wait(qtbot, window, small_file)
     window.session.selection.choose(7, window.session.document.now.mesh.hexes[7, 0])
-    assert window.features["session"].save(tmp_path / "small.hexmend")
+    assert window.features["session"].save_and_wait(tmp_path / "small.hexmend")
     open_and_wait(qtbot, window, mesh_file)
     everything(window, qtbot)
     open_and_wait(qtbot, window, tmp_path / "small.hexmend")

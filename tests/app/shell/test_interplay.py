@@ -15,6 +15,7 @@ from hexmend.quality import measure, summarise
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import end_run
 from hexmend_app.scene.layers import body
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.document import State
@@ -80,7 +81,7 @@ def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
     assert table.editTriggers() == QTableWidget.EditTrigger.NoEditTriggers
     table.item(0, 0).setText("two")  # in an editor that was open before
     assert table.item(0, 0).text() == "one"
-    window.session.smoothing.end_now()
+    end_run(window.session)
     window.refresh()
     table.item(0, 0).setText("two")
     assert list(window.session.document.now.mesh.hex_sets) == ["two"]

@@ -1,16 +1,21 @@
 """Cameras that are kept by name, and what a session's file says of them."""
 
+import threading
+
 import pytest
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io.archive import read_archive, write_archive
 from hexmend.io.session import VERSION
+from hexmend_app.bench.windows import save_and_wait
+from hexmend_app.state import session_data
 from hexmend_app.state.cameras import Cameras
 from hexmend_app.state.document import State
 from hexmend_app.state.scene import Camera
 from hexmend_app.state.scene.kept_cameras import MOST, KeptCameras, cameras_of, joined
 from hexmend_app.state.session import Session
 from tests.core.grids import grid
+from tests.patience import PATIENCE
 
 X, Y = Camera("+x"), Camera(position=(1.0, 2.0, 3.0), focal=(0.0, 0.0, 0.0), view_up=(0.0, 0.0, 1.0), scale=2.0)
 
@@ -82,20 +87,45 @@ def session(qtbot, tmp_path):
 def test_a_session_with_other_cameras_than_its_file_is_modified(session, tmp_path):
     session.cameras.keep("front", X)
     assert not session.modified  # a mesh's file has none
-    session.commands.save(tmp_path / "work.hexmend")
+    save_and_wait(session, tmp_path / "work.hexmend")
     assert not session.modified
     session.cameras.keep("top", Y)
     assert session.modified
     assert session.document.undo_title is None
-    session.commands.save(tmp_path / "work.hexmend")
+    save_and_wait(session, tmp_path / "work.hexmend")
     assert not session.modified
+
+
+def test_a_session_that_was_saved_while_another_was_opened_leaves_that_unmodified(
+    session, tmp_path, qtbot, monkeypatch
+):
+    save_and_wait(session, tmp_path / "other.hexmend")
+    session.document.replace(State.of(grid(3)), tmp_path / "mesh.vtu")
+    session.cameras.keep("front", X)
+    opened, write = threading.Event(), session_data.write
+
+    def slow(*values):
+        assert opened.wait(PATIENCE / 1000)
+        write(*values)
+
+    monkeypatch.setattr(session_data, "write", slow)
+    saving = session.commands.save_in_background(tmp_path / "work.hexmend")
+    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+        session.commands.open(tmp_path / "other.hexmend")
+    assert not session.modified
+    opened.set()
+    qtbot.waitUntil(lambda: saving.over, timeout=PATIENCE)
+    assert saving.error is None
+    assert session.document.path == tmp_path / "other.hexmend"
+    assert not session.modified
+    assert cameras_of(tmp_path / "work.hexmend") == {"front": X}
 
 
 def test_a_file_names_its_cameras_and_says_what_is_wrong_with_them(session, tmp_path):
     session.cameras.keep("front", X)
     session.cameras.keep("top", Y)
     path = tmp_path / "work.hexmend"
-    session.commands.save(path)
+    save_and_wait(session, path)
     assert cameras_of(path) == {"front": X, "top": Y}
     _, data = read_archive(path, "Hexmend session", VERSION)
     data["window"]["cameras"]["named"]["front"]["from"] = "beneath"

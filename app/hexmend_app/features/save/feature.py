@@ -96,13 +96,7 @@ class FeatureSave(Feature):
         opened = self.session.document.path
         ask = ask_session if opened is not None and opened.suffix.lower() == SUFFIX else ask_target
         path = ask(self.host.dialog_parent, self.host.stem)
-        return bool(path) and self.mesh(path)
-
-    def mesh(self, path: str | Path) -> bool:
-        """Write the mesh as it is now, or the session, and wait for that; whether it was written."""
-        saving = self.session.commands.save_in_background(path)
-        waited = self.host.wait_until(f"{saving.path.name} is being saved.", lambda: saving.over)
-        return waited and saving.error is None
+        return bool(path) and self.save_and_wait(path)
 
     def _on_began(self, saving: Saving) -> None:
         self.host.busy.show_work("save", f"Saving {saving.path.name}…")

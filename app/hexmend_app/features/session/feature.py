@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.session.words import said
@@ -76,12 +75,6 @@ class FeatureSession(Feature):
         path = ask_session(self.host.dialog_parent, self.host.stem)
         if path:
             self.session.commands.save_in_background(path)
-
-    def save(self, path: str | Path) -> bool:
-        """Write the session, and wait for that; whether it was written."""
-        saving = self.session.commands.save_in_background(path)
-        waited = self.host.wait_until(f"{saving.path.name} is being saved.", lambda: saving.over)
-        return waited and saving.error is None
 
     def _offer(self, left: Left) -> None:
         choices = (("Recover", lambda: self._recover(left)), ("Discard", lambda: self._forget(left)))

@@ -144,7 +144,7 @@ def test_scenes_and_pictures_of_the_window_have_them(window, kept, tmp_path, qtb
 
 def test_render_looks_through_a_camera_of_a_session(window, kept, tmp_path, capsys):
     path = tmp_path / "work.hexmend"
-    assert window.features["session"].save(path)
+    assert window.features["session"].save_and_wait(path)
     scene = tmp_path / "scene.toml"
     words = ["render", str(path), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--save-scene", str(scene)]
     assert main([*words, "--camera", "front & side"]) == 0
@@ -161,7 +161,7 @@ def test_a_session_whose_cameras_are_lost_is_asked_about(window, kept, tmp_path,
         QMessageBox, "exec", lambda self: asked.append(self.text()) or QMessageBox.StandardButton.Cancel
     )
     assert window.may_leave()
-    window.features["session"].save(tmp_path / "work.hexmend")
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     window.refresh()
     assert window.may_leave()
     assert not window.isWindowModified()

@@ -10,6 +10,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
 from hexmend.run import Stop
+from hexmend_app.bench.windows import end_run
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, choose, click, phase, press
 from tests.patience import PATIENCE
@@ -82,7 +83,7 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
     assert perf_counter() - began > 0.45
     assert drawn == sorted(drawn)
     assert drawn[-1] > drawn[0]
-    window.session.smoothing.end_now()
+    end_run(window.session)
     qtbot.waitUntil(lambda: drawn[-1] == window.session.smoothing.record.newest + 1, timeout=3000)
 
 

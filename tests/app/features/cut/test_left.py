@@ -34,7 +34,7 @@ def moved(window, qtbot, tmp_path):
         window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=5, tolerance=0)))
     window.refresh()
     np.testing.assert_array_equal(window.canvas.viewport.kept(), kept)
-    window.features["save"].mesh(tmp_path / "mesh.vtu")
+    window.features["save"].save_and_wait(tmp_path / "mesh.vtu")
     return kept
 
 
@@ -57,7 +57,7 @@ def test_the_command_line_draws_the_hexes_that_the_window_shows(window, moved, t
 
 def test_a_picture_and_a_session_bring_them_back(window, moved, qtbot, tmp_path):
     assert window.features["save"].picture(tmp_path / "p.png", (200, 150))
-    assert window.features["session"].save(tmp_path / "work.hexmend")
+    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     for name in ("p.png", "work.hexmend"):
         open_and_wait(qtbot, window, tmp_path / "mesh.vtu")
         window.session.view.set_clip(CLIP)

@@ -9,6 +9,7 @@ from hexmend.mesh import Mesh
 from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import end_run
 from hexmend_app.state.document import State
 from hexmend_app.state.run import Phase
 from tests.app.driving import press
@@ -93,4 +94,4 @@ def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
     qtbot.waitUntil(lambda: session.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     press(buttons(panel, "Show")[0])
     assert set(range(27, 54)) == set(session.view.look.isolation.hexes)
-    session.smoothing.end_now()
+    end_run(session)

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QPushButton
 
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import end_run
 from hexmend_app.cli import figure_set
 from hexmend_app.features.figures.shown import shown_in
 from hexmend_app.state.scene import read_scene
@@ -29,7 +30,7 @@ def asked(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtbot, asked):
     stepped(window, qtbot, 4)
-    window.session.smoothing.end_now()
+    end_run(window.session)
     comparison = window.session.comparison
     comparison.start([METHODS["laplacian"](), METHODS["getme"]()], Stop(max_iterations=3))
     qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)

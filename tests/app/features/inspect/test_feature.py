@@ -14,6 +14,7 @@ from hexmend import io
 from hexmend.quality import METRICS
 from hexmend.run import Stop
 from hexmend.surface import Kind
+from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.shell.palette import CommandPalette
 from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
@@ -157,7 +158,7 @@ def test_a_node_of_the_boundary_is_pinned_by_its_key_and_does_not_slide(window, 
     moved = (window.session.document.now.mesh.points != mesh.points).any(axis=1)
     assert moved[mesh.topology.boundary].sum() > 20
     assert not moved[node]
-    window.session.commands.save(tmp_path / "pinned.vtu")
+    save_and_wait(window.session, tmp_path / "pinned.vtu")
     assert io.read(tmp_path / "pinned.vtu").pinned[node]
     window.session.commands.undo()
     window.session.commands.undo()

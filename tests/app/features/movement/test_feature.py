@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QComboBox, QLabel
 from hexmend import gallery, io
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import end_run
 from hexmend_app.scene.export.film import pictures
 from hexmend_app.scene.export.shots import shots
 from hexmend_app.state.clip import PlaneClip
@@ -205,7 +206,7 @@ def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
     window.session.document.points_moved.connect(lambda: seen.add(window.canvas.viewport.colouring.title))
     window.session.smoothing.start(METHODS["local-sd"](), Stop(max_iterations=100_000, tolerance=0))
     qtbot.waitUntil(lambda: len(seen) > 3, timeout=PATIENCE)
-    window.session.smoothing.end_now()
+    end_run(window.session)
     assert all(title.startswith("mean edge lengths moved since") for title in seen)
 
 

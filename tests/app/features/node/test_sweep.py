@@ -92,7 +92,7 @@ def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, t
         assert window.session.document.undo_title == "tag"
         window.session.commands.undo()
     elif what == "save":
-        assert window.features["save"].mesh(tmp_path / "saved.vtu")
+        assert window.features["save"].save_and_wait(tmp_path / "saved.vtu")
         assert not window.session.document.modified
     else:
         window.session.commands.reset()

@@ -47,7 +47,7 @@ def test_others_stand_beside_the_first_each_from_its_file(window, qtbot, files, 
     for one in views:
         np.testing.assert_array_equal(one.state.mesh.points, MESHES[one.name].points)
     assert message(window)[1] == "one.vtu is looked at as in p.png. “two” and “three” stand beside it."
-    assert window.features["session"].save(tmp_path / "work.hexmend")  # they are states of the one mesh
+    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")  # they are states of the one mesh
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
     assert [one.name for one in window.session.views.all] == ["two", "three"]
 
@@ -95,7 +95,7 @@ def test_of_a_session_results_come_back_too(window, qtbot, files, tmp_path):
     session.views.show("a result", session.document.now)
     run(window, qtbot)
     now, beside = session.document.now.mesh.points, session.views.all[0].state.mesh.points
-    assert window.features["save"].mesh(tmp_path / "work.hexmend")
+    assert window.features["save"].save_and_wait(tmp_path / "work.hexmend")
     assert window.features["save"].picture(tmp_path / "p.png", (300, 150))
     open_and_wait(qtbot, window, files["two"])
     open_and_wait(qtbot, window, tmp_path / "p.png")

@@ -13,6 +13,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 
 from hexmend import io
+from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.state.look import Structure
 from hexmend_app.state.run import Phase
 from hexmend_app.state.scene import Lines, Page, write_scene
@@ -27,16 +28,16 @@ def test_saving_writes_the_mesh_as_it_is_now(window, qtbot, tmp_path):
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     window.refresh()
     assert window.isWindowModified()
-    assert window.features["save"].mesh(tmp_path / "out.vtk")
+    assert window.features["save"].save_and_wait(tmp_path / "out.vtk")
     np.testing.assert_array_equal(io.read(tmp_path / "out.vtk").points, window.session.document.now.mesh.points)
     window.refresh()
     assert not window.isWindowModified()
-    assert not window.features["save"].mesh(tmp_path / "missing" / "out.vtk")
+    assert not window.features["save"].save_and_wait(tmp_path / "missing" / "out.vtk")
     assert window.messages.messages()[-1][0] == "error"
 
 
 def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot, tmp_path, monkeypatch):
-    assert window.features["session"].save(tmp_path / "work.hexmend")
+    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
     offered = []
     out = str(tmp_path / "out.vtk")
@@ -69,7 +70,7 @@ def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, v
         session.views.set_wiping(views == "wipe")
     window.refresh()
     window.canvas.roll(10)
-    session.commands.save(tmp_path / "mesh.vtu")
+    save_and_wait(session, tmp_path / "mesh.vtu")
     page = Page(pixels=(700, 420), margin=1.5)
     for scene in (window.canvas.scene(page), window.canvas.scene(Page(85, 60, dpi=200, background="#20262e"))):
         write_scene(tmp_path / "scene.toml", scene)

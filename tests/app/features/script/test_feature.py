@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushButton
 
 from hexmend.run import Stop
+from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.state.run import Phase
 from tests.app.driving import choose, click, named, phase, press
 from tests.patience import PATIENCE
@@ -42,11 +43,11 @@ def test_what_is_done_is_seen_as_it_is_done(window, panel, qtbot):
 
 
 def test_it_begins_anew_with_the_mesh_as_it_is(window, panel, tmp_path):
-    window.session.commands.save(tmp_path / "out.vtu")
+    save_and_wait(window.session, tmp_path / "out.vtu")
     assert "out.vtu" in shown(window, panel)
     press(named(panel, QPushButton, "Begin the script anew"))
     assert "hx.write(" not in shown(window, panel)
-    window.session.commands.save(tmp_path / "more.vtu")
+    save_and_wait(window.session, tmp_path / "more.vtu")
     assert "mesh_0 = " in shown(window, panel)
     assert "more.vtu" in shown(window, panel)
 
@@ -60,7 +61,7 @@ def test_it_is_copied(window, panel):
 def test_it_is_saved_under_a_python_name_and_runs(window, panel, tmp_path, monkeypatch):
     asked = str(tmp_path / "again"), "Python script (*.py)"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *args: asked)
-    window.session.commands.save(tmp_path / "out.vtu")
+    save_and_wait(window.session, tmp_path / "out.vtu")
     (tmp_path / "out.vtu").unlink()
     press(named(panel, QPushButton, "Save the script"))
     subprocess.run([sys.executable, tmp_path / "again.py"], check=True)

@@ -13,6 +13,7 @@ from PIL import Image, ImageSequence
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.film.film_dialog import FilmChoice
 from hexmend_app.state.history import Moment
 from hexmend_app.state.look import Arrows, Since, Traces
@@ -144,7 +145,7 @@ def test_the_worst_hexes_a_recipe_and_a_scene(window, script, tmp_path):
 def test_a_table_of_methods_and_what_was_taken_of_it(window, qtbot, script, tmp_path):
     compared(window, qtbot, "laplacian", "getme")
     window.session.commands.take("GETMe", window.session.comparison.of("getme").state)
-    window.session.commands.save(tmp_path / "out.vtu")
+    save_and_wait(window.session, tmp_path / "out.vtu")
     assert window.features["compare"].save(tmp_path / "table.csv")
     (mesh, mesh_again), (rows, rows_again) = again(script, tmp_path, tmp_path / "out.vtu", tmp_path / "table.csv")
     assert mesh == mesh_again
@@ -189,9 +190,9 @@ def test_a_picture_of_all_that_is_shown(window, qtbot, script, tmp_path, view):
 
 def test_the_meshes_of_a_picture_that_was_opened(window, qtbot, script, tmp_path):
     session = window.session
-    session.commands.save(tmp_path / "before.vtu")
+    save_and_wait(session, tmp_path / "before.vtu")
     run(window, qtbot)
-    session.commands.save(tmp_path / "after.vtu")
+    save_and_wait(session, tmp_path / "after.vtu")
     words = ["render", "before.vtu", "after.vtu", "-o", "both.png"]
     subprocess.run([sys.executable, "-m", "hexmend", *words], check=True, cwd=tmp_path)
     open_and_wait(qtbot, window, tmp_path / "both.png")
@@ -241,14 +242,14 @@ def test_what_a_session_has_kept_is_read_from_it(window, qtbot, script, tmp_path
     window.features["histogram"].panel.keep_requested.emit()
     compared(window, qtbot, "laplacian")
     kept = tmp_path / "kept.hexmend"
-    session.commands.save(kept)
+    save_and_wait(session, kept)
     open_and_wait(qtbot, window, kept)
     script.begin_anew()
     (record,) = session.history.records
     session.timeline.go(record, 3)
     window.refresh()
     assert session.history.moment_of(session.document.now) == Moment(record, 3)
-    session.commands.save(tmp_path / "third.vtu")
+    save_and_wait(session, tmp_path / "third.vtu")
     paths = [tmp_path / name for name in ("third.vtu", "quality.csv", "runs.csv", "table.csv", "run.gif")]
     assert window.features["histogram"].save(paths[1])
     assert window.features["convergence"].save(paths[2])

@@ -14,6 +14,7 @@ from hexmend.mesh import Mesh
 from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.script.script import Script
 from hexmend_app.state.run import Phase
 from hexmend_app.state.scene import Scene
@@ -71,7 +72,7 @@ def stop(qtbot, session):
 def same_again(session, tmp_path):
     """Save the mesh, let the script do everything again, and compare what it has saved."""
     out, script = tmp_path / "out.vtu", tmp_path / "script.py"
-    session.commands.save(out)
+    save_and_wait(session, out)
     before = io.read(out)
     out.unlink()
     session.script.write(script)
@@ -205,7 +206,7 @@ def test_a_session_that_is_opened_is_gone_on_from_with_its_way_back(session, qtb
     session.commands.pin(7, True)
     run(qtbot, session, stage("laplacian"))
     kept = tmp_path / "kept.hexmend"
-    session.commands.save(kept)
+    save_and_wait(session, kept)
     opened(qtbot, session, kept)
     run(qtbot, session, stage("local-sd"))
     same_again(session, tmp_path)
@@ -222,7 +223,7 @@ def test_what_a_session_calls_a_run_ends_no_comment(session, qtbot, tmp_path, na
     run(qtbot, session, stage("laplacian"))
     session.history.records[0].name = name
     same_again(session, tmp_path)
-    session.commands.save(tmp_path / "named.hexmend")
+    save_and_wait(session, tmp_path / "named.hexmend")
     opened(qtbot, session, tmp_path / "named.hexmend")
     assert session.history.records[0].name.isprintable()
     same_again(session, tmp_path)
@@ -258,12 +259,12 @@ def test_a_comparison_that_a_session_holds_is_read_from_it(session, qtbot, tmp_p
     qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
     run(qtbot, session, stage("mend"))
     kept = tmp_path / "kept.hexmend"
-    session.commands.save(kept)
+    save_and_wait(session, kept)
     opened(qtbot, session, kept)
     assert not session.opener.busy
     session.commands.take("Laplacian", session.comparison.of("laplacian").state)
     assert "compare(" not in same_again(session, tmp_path).partition("kept.hexmend")[2]
-    session.commands.save(kept)
+    save_and_wait(session, kept)
     assert "overwritten" not in same_again(session, tmp_path).partition("kept.hexmend")[2]
     session.commands.take("steepest descent", session.comparison.of("local-sd").state)
     same_again(session, tmp_path)
@@ -274,13 +275,13 @@ def test_a_session_that_is_saved_over_is_read_by_its_new_numbers(session, qtbot,
     run(qtbot, session, stage("local-sd"))
     run(qtbot, session, stage("laplacian"))
     kept = tmp_path / "kept.hexmend"
-    session.commands.save(kept)
+    save_and_wait(session, kept)
     opened(qtbot, session, kept)
     end = session.history.records[0].end
     session.commands.undo()
     session.commands.undo()
     run(qtbot, session, stage("mend"))
-    session.commands.save(kept)
+    save_and_wait(session, kept)
     session.commands.take("back", end)
     same_again(session, tmp_path)
 
@@ -288,8 +289,8 @@ def test_a_session_that_is_saved_over_is_read_by_its_new_numbers(session, qtbot,
 def test_what_reads_a_file_that_was_saved_over_says_so(session, qtbot, path):
     run(qtbot, session, stage("laplacian"))
     assert "overwritten" not in session.script.text
-    session.commands.save(path)
-    session.commands.save(path)
+    save_and_wait(session, path)
+    save_and_wait(session, path)
     assert session.script.text.count("the file was overwritten since") == 1
     assert "overwritten" in session.script.entries[0]
 

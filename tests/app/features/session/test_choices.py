@@ -60,7 +60,7 @@ def seen(window, qtbot):
 
 def saved(window, tmp_path):
     path = tmp_path / "work.hexmend"
-    assert window.features["session"].save(path)
+    assert window.features["session"].save_and_wait(path)
     return path
 
 

@@ -14,6 +14,7 @@ from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS
+from hexmend_app.bench.windows import end_run
 from hexmend_app.shell.starting import Starting
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import Arrows, ColourScale, Structure, Traces, ValueRange
@@ -118,7 +119,7 @@ def test_a_session_is_as_it_was(window, qtbot, tmp_path, mesh_file):
     picture, before = seen(window, qtbot), tables(window)
     points = session.document.now.mesh.points
     positions = [[r.points(n) for n in session.history.kept(r)] for r in session.history.records]
-    assert window.features["session"].save(path)
+    assert window.features["session"].save_and_wait(path)
     open_and_wait(qtbot, window, mesh_file)
     window.refresh()
     assert not session.history.records
@@ -135,7 +136,7 @@ def test_what_is_restored_goes_on(window, qtbot, tmp_path):
     """Undo, the timeline, branches, breakpoints and further runs work as if the session had never been closed."""
     work(window, qtbot)
     session = window.session
-    window.features["session"].save(tmp_path / "work.hexmend")
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     undone = []
     for _ in range(4):
         session.commands.undo()
@@ -161,7 +162,7 @@ def test_what_is_restored_goes_on(window, qtbot, tmp_path):
 def test_the_title_names_the_session_and_marks_what_is_not_saved(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian")
     assert window.isWindowModified()
-    window.features["session"].save(tmp_path / "work.hexmend")
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     window.refresh()
     assert window.windowTitle().startswith("work.hexmend")
     assert not window.isWindowModified()
@@ -178,7 +179,7 @@ def test_an_iteration_that_was_gone_back_to_is_no_change(window, qtbot, tmp_path
     run(window, qtbot, "laplacian")
     session = window.session
     session.timeline.go(session.history.records[0], 1)
-    window.features["session"].save(tmp_path / "work.hexmend")
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     assert session.document.previews
     assert not session.document.modified
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
@@ -189,7 +190,7 @@ def test_an_iteration_that_was_gone_back_to_is_no_change(window, qtbot, tmp_path
 
 
 def test_a_question_about_unsaved_work_saves_the_session_that_was_opened(window, qtbot, tmp_path, monkeypatch):
-    window.features["session"].save(tmp_path / "work.hexmend")
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     run(window, qtbot, "laplacian")
     asked = []
     monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Save)
@@ -210,8 +211,8 @@ def test_a_paused_run_is_saved_as_far_as_it_is(window, qtbot, tmp_path):
     window.refresh()
     assert window.action("save_session").isEnabled()
     points = window.session.document.now.mesh.points
-    window.features["session"].save(tmp_path / "work.hexmend")
-    window.session.smoothing.end_now()
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
+    end_run(window.session)
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, points)
     assert window.session.timeline.moment.number == 1
@@ -219,7 +220,7 @@ def test_a_paused_run_is_saved_as_far_as_it_is(window, qtbot, tmp_path):
 
 
 def test_a_session_is_dropped_on_the_window(window, qtbot, tmp_path):
-    window.features["session"].save(tmp_path / "work.hexmend")
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(tmp_path / "work.hexmend"))])
     how = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
@@ -231,7 +232,7 @@ def test_a_session_is_dropped_on_the_window(window, qtbot, tmp_path):
 
 def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window):
     work(window, qtbot)
-    window.features["session"].save(tmp_path / "work.hexmend")
+    window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     before = tables(window)
     stand = window.canvas.stand
     with qtbot.waitSignal(bare_window.furnished, timeout=PATIENCE):
@@ -243,7 +244,7 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
 
 def test_a_session_that_is_damaged_is_refused_and_what_is_open_stays(window, qtbot, tmp_path):
     path = tmp_path / "work.hexmend"
-    window.features["session"].save(path)
+    window.features["session"].save_and_wait(path)
     _, description = read_archive(path, "Hexmend session", VERSION)
     description["window"]["view"]["look"]["colour"] = "red"
     write_archive(path, "Hexmend session", VERSION, description)
@@ -256,5 +257,5 @@ def test_a_session_that_is_damaged_is_refused_and_what_is_open_stays(window, qtb
 
 
 def test_where_it_cannot_be_written_the_old_one_stays(window, tmp_path):
-    assert not window.features["session"].save(tmp_path / "missing" / "work.hexmend")
+    assert not window.features["session"].save_and_wait(tmp_path / "missing" / "work.hexmend")
     assert window.messages.messages()[-1][1] == "The session was not saved"

@@ -60,7 +60,7 @@ def test_an_element_is_tagged_by_key_and_the_tag_taken_away_undone_and_saved(win
     assert tags(window) == {"tagged": sorted([first, second])}
     assert f"Hex {second:,}: tagged" in seen(window)
     assert window.session.document.redo_title == "untag"
-    assert window.features["save"].mesh(tmp_path / "tagged.vtk")
+    assert window.features["save"].save_and_wait(tmp_path / "tagged.vtk")
     kept = io.read(tmp_path / "tagged.vtk")
     assert kept.hex_sets["tagged"].tolist() == sorted([first, second])
 
@@ -149,7 +149,7 @@ def test_tagging_after_a_run_leaves_the_iteration_that_is_shown(window, panel, q
 
 def test_a_format_that_cannot_hold_tags_is_said(window, panel, tmp_path):
     window.session.commands.tag("lost", [5])
-    assert window.features["save"].mesh(tmp_path / "mesh.mesh")
+    assert window.features["save"].save_and_wait(tmp_path / "mesh.mesh")
     kind, title, text = window.messages.messages()[-1]
     assert (kind, title) == ("warning", "Not all is in it")
     assert "lost" in text

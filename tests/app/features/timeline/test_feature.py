@@ -203,7 +203,7 @@ def test_what_is_saved_is_the_iteration_shown(window, qtbot, tmp_path):
         click(window, "Stop")
     go(window, qtbot, 5)
     path = Path(tmp_path) / "five.vtu"
-    assert window.features["save"].mesh(path)
+    assert window.features["save"].save_and_wait(path)
     np.testing.assert_array_equal(io.read(path).points, window.session.document.now.mesh.points)
     assert not window.session.document.modified
     assert window.session.document.undo_title == f"go to {record.name} 5"
