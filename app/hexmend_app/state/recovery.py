@@ -7,13 +7,9 @@ order removes its folder; one whose lock nobody holds any more was left by a cra
 
 from __future__ import annotations
 
-import json
 import os
-import shutil
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
-from datetime import datetime
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,12 +17,19 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
 from hexmend.errors import HexmendError
-from hexmend.io.archive_members import DESCRIPTION
-from hexmend.io.atomic import replacing
 from hexmend.io.session import KeptSession
 from hexmend.io.temporary_files import flush_folder, make_folder
-from hexmend_app.state import session_data
 from hexmend_app.state.places import state_folder
+from hexmend_app.state.recovery_folder import (
+    ABOUT,
+    SESSION,
+    Left,
+    found,
+    locked,
+    remove_folder,
+    remove_session,
+    write_session,
+)
 from hexmend_app.state.task import Task
 
 if TYPE_CHECKING:
@@ -35,40 +38,7 @@ if TYPE_CHECKING:
 #: Milliseconds between two looks at whether something has changed.
 PERIOD = 180_000
 
-_FOLDER, _LOCK, _SESSION, _ABOUT = "windows", "lock", "session.hexmend", "about.json"
-#: What a file of an earlier version is called until all that is in it is written anew.
-_EARLIER = "earlier.hexmend"
-#: Bytes of an account that are read.
-_LARGEST = 10_000
-
-
-@dataclass(frozen=True, eq=False)
-class Left:
-    """What a window has left that did not end in order.
-
-    Parameters
-    ----------
-    folder : Path
-    lock : QLockFile
-        Held, so that no other window offers it.
-    name : str
-        What its mesh was called.
-    runs : int
-        How many runs were on it.
-    when : datetime
-        When it was written, in local time.
-    """
-
-    folder: Path
-    lock: QLockFile
-    name: str
-    runs: int
-    when: datetime
-
-    @property
-    def path(self) -> Path:
-        """The session."""
-        return self.folder / _SESSION
+_FOLDER = "windows"
 
 
 class Recovery(QObject):
@@ -137,9 +107,9 @@ class Recovery(QObject):
         except OSError as error:
             self.failed.emit(error)
             return
-        self._folder, self._lock, self._kept = folder, _locked(folder), KeptSession(folder / _SESSION)
+        self._folder, self._lock, self._kept = folder, locked(folder), KeptSession(folder / SESSION)
         others = [one for one in place.iterdir() if one.is_dir() and one != folder]
-        self._left = sorted(filter(None, map(_found, others)), key=lambda one: one.when, reverse=True)
+        self._left = sorted(filter(None, map(found, others)), key=lambda one: one.when, reverse=True)
         self._changed = True
         self._timer.start()
 
@@ -150,7 +120,7 @@ class Recovery(QObject):
         if not (self.watching and self._changed and self._worth) or runs or self._task is not None:
             return
         self._changed = False
-        self._task = Task("keeping the session", partial(_write, self._folder, self._kept, session.given()))
+        self._task = Task("keeping the session", partial(write_session, self._folder, self._kept, session.given()))
         self._task.ended.connect(self._on_written)
         self._task.start()
 
@@ -162,7 +132,7 @@ class Recovery(QObject):
     def forget(self, left: Left) -> None:
         """Remove what was left."""
         self._left.remove(left)
-        _removed(left.folder, left.lock)
+        remove_folder(left.folder, left.lock)
 
     def end(self) -> None:
         """The window ends in order: nothing is left of it."""
@@ -174,7 +144,7 @@ class Recovery(QObject):
         self._left.clear()
         task, self._task = self._task, None
         if self._lock is not None:
-            remove = partial(_removed, self._folder, self._lock)
+            remove = partial(remove_folder, self._folder, self._lock)
             self._lock = None
             task.drop(remove) if task is not None else remove()
 
@@ -205,11 +175,11 @@ class Recovery(QObject):
 
     def _begin_anew(self, left: Left | None) -> None:
         """Remove what was written of another mesh; what was taken up is as good as written."""
-        _remove_session(self._folder)
-        self._kept = KeptSession(self._folder / _SESSION)
+        remove_session(self._folder)
+        self._kept = KeptSession(self._folder / SESSION)
         if left is None:
             return
-        for name in (_SESSION, _ABOUT):
+        for name in (SESSION, ABOUT):
             with suppress(OSError):
                 os.replace(left.folder / name, self._folder / name)
         flush_folder(self._folder)
@@ -229,60 +199,3 @@ class Recovery(QObject):
             raise task.error
         elif not after:
             self.written.emit()
-
-
-def _write(folder: Path, kept: KeptSession, data: session_data.SessionData, task: Task) -> None:
-    """Write what is new of a session, with an account of it."""
-    name = Path(data.document.path or data.document.now.mesh.name).name
-    about = json.dumps({"name": name, "runs": len(data.history.records)})
-    with replacing(folder / _ABOUT) as temporary:
-        temporary.write_text(about, encoding="utf-8")
-    if (folder / _SESSION).is_file():
-        os.replace(folder / _SESSION, folder / _EARLIER)
-    session_data.keep(kept, data)
-    (folder / _EARLIER).unlink(missing_ok=True)
-
-
-def _locked(folder: Path) -> QLockFile | None:
-    """The lock of a window's folder; None where its process holds it."""
-    lock = QLockFile(str(folder / _LOCK))
-    lock.setStaleLockTime(0)  # however old it is, it is held as long as its process lives
-    return lock if lock.tryLock(0) else None
-
-
-def _found(folder: Path) -> Left | None:
-    """What was left in a folder; None where its window is open, and where there is nothing, which is removed."""
-    lock = _locked(folder)
-    if lock is None:
-        return None
-    try:
-        session = folder / _SESSION
-        if (folder / _EARLIER).is_file() and not (session / DESCRIPTION).exists():  # it was being written anew
-            shutil.rmtree(session, ignore_errors=True)
-            os.replace(folder / _EARLIER, session)
-        written = session if session.is_file() else session / DESCRIPTION  # a file is of an earlier version
-        when = datetime.fromtimestamp(written.stat().st_mtime)
-    except OSError:
-        _removed(folder, lock)
-        return None
-    name, runs = "", 0
-    with suppress(OSError, ValueError, AttributeError, TypeError):
-        with open(folder / _ABOUT, encoding="utf-8") as file:
-            about = json.loads(file.read(_LARGEST))
-        name, runs = str(about.get("name", "")), int(about.get("runs", 0))
-    return Left(folder, lock, name, runs, when)
-
-
-def _removed(folder: Path, lock: QLockFile) -> None:
-    """Remove a window's folder, what is in it first: as long as it is locked, nobody offers it."""
-    _remove_session(folder)
-    lock.unlock()
-    shutil.rmtree(folder, ignore_errors=True)
-
-
-def _remove_session(folder: Path) -> None:
-    """Remove what a window's folder holds of a session; first what would take its place, and what makes it one."""
-    for path in (folder / _EARLIER, folder / _SESSION / DESCRIPTION, folder / _SESSION, folder / _ABOUT):
-        with suppress(OSError):
-            path.unlink()
-    shutil.rmtree(folder / _SESSION, ignore_errors=True)

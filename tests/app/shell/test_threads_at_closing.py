@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from hexmend_app.state import recovery, task
+from hexmend_app.state import session_data, task
 from hexmend_app.state.places import VARIABLE
 from hexmend_app.state.task import GRACE, Task, running
 from tests.app.driving import open_and_wait
@@ -34,14 +34,14 @@ def windows(tmp_path, monkeypatch):
 @pytest.fixture
 def kept(fresh_window, qtbot, gate, windows, monkeypatch):
     """A window whose session is being written beside it, until the gate is opened."""
-    reached, keep = threading.Event(), recovery.session_data.keep
+    reached, keep = threading.Event(), session_data.keep
 
     def slow(*values):
         reached.set()
         assert gate.wait(PATIENCE / 1000)
         keep(*values)
 
-    monkeypatch.setattr(recovery.session_data, "keep", slow)
+    monkeypatch.setattr(session_data, "keep", slow)
     own = fresh_window.features["session"].recovery
     own.begin()
     fresh_window.session.commands.pin(0, True)
@@ -112,7 +112,7 @@ def test_another_mesh_is_opened_while_the_session_of_the_first_is_being_written(
     session.commands.pin(1, True)
     with qtbot.waitSignal(own.written, timeout=PATIENCE):
         own.write()
-    kept_now = recovery.session_data.read(folder / "session.hexmend")
+    kept_now = session_data.read(folder / "session.hexmend")
     assert kept_now.document.now.mesh.pinned.tolist() == session.document.now.mesh.pinned.tolist()
     own.end()
     assert list(windows.iterdir()) == []
