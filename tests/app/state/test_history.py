@@ -68,6 +68,15 @@ def test_a_result_is_exact():
     assert history.state(Moment(record, 0), MESH) is record.start
 
 
+def test_of_a_run_that_was_removed_nothing_more_is_kept():
+    history = History()
+    record, _, seen = recorded(history)
+    history.clear()
+    history.add(record, seen[-1])
+    assert history.bytes == 0
+    assert len(record.rows) == len(seen)
+
+
 @given(kept=st.integers(1, 25))
 def test_positions_fit_the_limit_and_the_ends_stay(kept):
     history = History(kept * FREE)

@@ -13,7 +13,7 @@ from hexmend_app.state import measured
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History
 from hexmend_app.state.run import Phase, Smoothing
-from hexmend_app.state.task import running, wait_for_dropped
+from hexmend_app.state.task import Task, running, wait_for_dropped
 from hexmend_app.state.worker import Mailbox
 from tests.app.driving import turn
 from tests.core.grids import grid, scrambled
@@ -109,6 +109,17 @@ def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
         smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
     smoothing.shut_down()
     assert not smoothing.busy
+    wait_for_dropped()
+    assert running() == ()
+
+
+def test_another_mesh_comes_without_a_wait_for_the_iteration_at_hand(document, smoothing, qtbot, monkeypatch):
+    with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
+        smoothing.start(LocalSteepestDescent(), SLOW)
+    with monkeypatch.context() as patch:
+        patch.setattr(Task, "join", lambda *_: pytest.fail("the window waits for the run"))
+        document.replace(State.of(grid(2)), Path("b.vtu"))
+    assert smoothing.phase is Phase.IDLE
     wait_for_dropped()
     assert running() == ()
 
