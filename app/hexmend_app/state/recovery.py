@@ -51,7 +51,7 @@ class Recovery(QObject):
     Signals
     -------
     written
-        The session is on disk.
+        The session is on disk, as it was when `write` was called last.
     failed(Exception)
         It could not be written.
     """
@@ -68,6 +68,7 @@ class Recovery(QObject):
         self._task: Task | None = None
         self._after: list[Callable[[], object]] = []  # what is done once the session has been written
         self._changed = False
+        self._again = False  # whether a change is to be written as soon as what is being written is on disk
         self._taken_up: Left | None = None
         self._left: list[Left] = []
         self._timer = QTimer(self, interval=PERIOD)
@@ -114,10 +115,13 @@ class Recovery(QObject):
         self._timer.start()
 
     def write(self) -> None:
-        """Write the session, where there is something to lose and nothing runs."""
+        """Write the session, where there is something to lose and nothing runs; once more if it is being written."""
         session = self._session
         runs = session.smoothing.busy or session.stepping.sweep is not None or session.opener.busy
-        if not (self.watching and self._changed and self._worth) or runs or self._task is not None:
+        if not (self.watching and self._changed and self._worth) or runs:
+            return
+        if self._task is not None:
+            self._again = True
             return
         self._changed = False
         self._task = Task("keeping the session", partial(write_session, self._folder, self._kept, session.given()))
@@ -197,5 +201,9 @@ class Recovery(QObject):
             self.failed.emit(task.error)
         elif task.error is not None:
             raise task.error
-        elif not after:
-            self.written.emit()
+        else:
+            again, self._again = self._again, False
+            if again:
+                self.write()
+            if self._task is None and not after:
+                self.written.emit()

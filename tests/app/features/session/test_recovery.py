@@ -221,3 +221,15 @@ def test_where_nothing_can_be_written_it_is_said_once(fresh_window, tmp_path):
     (warning,) = fresh_window.messages.messages()
     assert "not kept safe" in warning[1]
     assert not feature.recovery.watching
+
+
+def test_a_change_while_the_session_is_being_written_is_written_too(fresh_window, qtbot, own_state):
+    run(fresh_window, qtbot)
+    recovery = fresh_window.features["session"].recovery
+    recovery.begin()
+    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
+        recovery.write()
+        fresh_window.session.view.change(peel=1)
+        recovery.write()
+    (own,) = own_state.iterdir()
+    assert session_data.read(own / "session.hexmend").view.look.peel == 1
