@@ -35,6 +35,7 @@ def test_no_picture_is_left_over():
     assert {path.name for path in DOCS.iterdir() if path.suffix in (".gif", ".png", ".svg")} <= shown
 
 
+@pytest.mark.slow
 def test_the_figures_of_the_mathematics_are_drawn_as_they_stand_there(tmp_path, capsys):
     """Their files and what is written in them, not how a version of matplotlib draws it."""
     draw_method_figures.main(tmp_path)

@@ -50,6 +50,7 @@ def toy(scripts, tmp_path):
     return scripts[2].Project(root=root, tests=("tests",), imports=("core",), build=tmp_path / "build")
 
 
+@pytest.mark.slow
 def test_a_fault_that_a_test_finds_and_one_that_survives_are_told_apart_and_kept(scripts, toy, capsys):
     script, operators, _ = scripts
     path = "core/toy/numbers.py"
@@ -68,6 +69,7 @@ def test_a_fault_that_a_test_finds_and_one_that_survives_are_told_apart_and_kept
     assert {row["id"]: row["outcome"] for row in kept} == {found: "found", survived: "survived"}
 
 
+@pytest.mark.slow
 def test_a_fault_is_tried_again_when_the_test_that_found_it_has_changed(scripts, toy):
     script, operators, _ = scripts
     path = "core/toy/numbers.py"
@@ -80,6 +82,7 @@ def test_a_fault_is_tried_again_when_the_test_that_found_it_has_changed(scripts,
     assert {row.outcome for row in after} == {"survived"}
 
 
+@pytest.mark.slow
 def test_a_fault_that_no_module_can_be_imported_with_is_found(scripts, toy):
     script, operators, _ = scripts
     path = "core/toy/numbers.py"

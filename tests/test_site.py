@@ -28,6 +28,7 @@ def site(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_every_page_is_there(site):
     pages = sorted(path.stem for path in (ROOT / "docs").glob("*.md"))
     assert pages == sorted(path.stem for path in site.glob("*.html") if path.stem != "404")

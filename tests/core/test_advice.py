@@ -211,6 +211,7 @@ def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(met
     assert (finished.suggestions, finished.nothing) == ((), "Nothing is known that would better this mesh.")
 
 
+@pytest.mark.slow
 def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
     result = smooth(slid(ball(3), 0.6, seed=0), "mend")
     advice = advise(result)

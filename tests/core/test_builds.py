@@ -54,6 +54,7 @@ def answers(tmp_path_factory):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("build", kernels.BUILDS[1:])
 def test_builds_agree(answers, build):
     newest, other = answers[kernels.BUILDS[0]], answers[build]

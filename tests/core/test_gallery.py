@@ -46,6 +46,7 @@ def test_the_sharp_bridge_gains_by_optimising_and_is_inverted_by_laplacian_smoot
     assert smooth(bridge, "laplacian", Stop(keep_last=True)).after.inverted > 0
 
 
+@pytest.mark.slow
 @every
 @settings(max_examples=10)
 @given(size=st.integers(2000, 20_000))

@@ -119,6 +119,7 @@ def test_a_signal_that_waits_at_the_end_of_a_block_comes_to_the_one_around_it(ti
         work()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("block", "status", "said"), [("completes", 7, ""), ("", 130, "hexmend: interrupted\n")])
 def test_a_signal_while_a_block_restores_handlers_leaves_no_timer(block, status, said):
     done = subprocess.run([sys.executable, "-c", RESTORES, block], capture_output=True, text=True, check=False)

@@ -164,6 +164,7 @@ print(os.waitstatus_to_exitcode(status), call() == first)
     assert program(BEGIN + child).split() == ["0", "True"]
 
 
+@pytest.mark.slow
 def test_threads_that_wait_sleep():
     idle = """
 time.sleep(0.05)

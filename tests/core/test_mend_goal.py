@@ -117,6 +117,7 @@ def test_a_corner_that_is_locked_below_the_others_is_told():
     assert f"{values.min():.4f} at the lowest, in hex 0." in result.message
 
 
+@pytest.mark.slow
 def test_cad4_is_raised_to_its_optimum(real_mesh):
     mesh = read(real_mesh("CAD4.vtk"))
     result = smooth(mesh, Mend(goal="scaled-jacobian"))
@@ -169,6 +170,7 @@ def test_a_node_far_away_in_a_real_mesh_is_brought_back(real_mesh):
     assert np.linalg.norm(result.mesh.points[node] - sound.points[node]) < sound.mean_edge_length
 
 
+@pytest.mark.slow
 def test_where_the_optimum_of_shape_lowers_the_least_the_goal_that_raises_it_is_named(real_mesh):
     mesh = read(real_mesh("CAD4.vtk"))
     shaped, raised = (smooth(mesh, Mend(goal=goal)) for goal in ("shape", "scaled-jacobian"))

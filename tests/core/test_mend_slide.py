@@ -15,6 +15,8 @@ from hexmend.surface import Sliding, surface_change
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid, wavy
 
+pytestmark = pytest.mark.slow
+
 Mend = METHODS["mend"]
 SHORT = Stop(max_iterations=80)
 seeds = st.integers(0, 2**32 - 1)

@@ -64,6 +64,7 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     assert all(step.more for step in steps)
 
 
+@pytest.mark.slow
 def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(monkeypatch):
     mesh = slid(ball(3), 0.3, 1)
     room = 0.01 * mesh.mean_edge_length

@@ -117,6 +117,7 @@ def test_what_a_mesh_carries_is_checked_when_it_is_made_and_when_it_is_replaced(
         TWO.rebuilt(**{field: value})
 
 
+@pytest.mark.slow
 def test_wrong_values_end_in_a_sentence_and_never_in_a_crash():
     root = Path(__file__).resolve().parents[2]
     path = os.pathsep.join(filter(None, [str(root), os.environ.get("PYTHONPATH", "")]))

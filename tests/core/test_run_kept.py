@@ -42,6 +42,7 @@ def meshes():
     return made | made.map(with_locked_corner)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", METHODS)
 @settings(max_examples=8)
 @given(mesh=meshes(), most=st.integers(0, 12))
@@ -94,6 +95,7 @@ def test_worse_tells_exactly_what_is_worse(name, stop, mesh):
         assert (FIGURES[key].label in words) == (one in result.worse)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", METHODS)
 @settings(max_examples=4)
 @given(mesh=meshes())

@@ -32,6 +32,7 @@ def sides(points, sliding):
     return np.einsum("kj,kj->k", np.cross(one, other), sliding.outward) / np.maximum(size, np.finfo(float).tiny)
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.2, 0.6, 1.0]), seed=SEED)
 def test_no_step_turns_a_quad_over(name, solid, amplitude, seed):
@@ -81,6 +82,7 @@ def test_a_quad_that_is_turned_may_stay_so_and_be_turned_back():
     np.testing.assert_array_equal(sliding.unturned(mesh.points, folded), mesh.points)
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(
     name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.0, 0.3, 0.8]), tolerance=st.sampled_from([0.02, 0.1, 0.3]),
@@ -104,6 +106,7 @@ def test_the_room_costs_little_of_what_is_reached(name):
     assert held.after.q_mean - held.before.q_mean > 0.3 * (free.after.q_mean - free.before.q_mean)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.0, 0.3, 0.8]), seed=SEED)
 def test_with_a_tolerance_of_0_the_boundary_stays_on_its_surface(name, solid, amplitude, seed):

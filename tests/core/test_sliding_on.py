@@ -51,6 +51,7 @@ def fine_skin(solid):
     return skin_of(SOLIDS[solid][1]())
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(st.sampled_from(sorted(METHODS)), st.sampled_from(sorted(SOLIDS)), st.integers(0, 2**32 - 1))
 def test_nodes_are_put_on_the_surface_and_stay_on_it(name, solid, seed):

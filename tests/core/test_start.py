@@ -48,6 +48,7 @@ def folder(tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "forbidden"), [
     (["--version"], NUMERICAL | {"argparse", "typing", "dataclasses", "pathlib", "inspect"}),
     (["--help"], NUMERICAL - {"importlib.metadata"}),  # which knows the commands of others

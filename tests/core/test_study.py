@@ -239,6 +239,7 @@ def test_a_study_that_is_interrupted_between_two_runs_keeps_what_was_measured(ti
     assert len(study.measured) == 1
 
 
+@pytest.mark.slow
 def test_the_command_runs_a_table(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(mesh_figures, "entry_points", lambda group: [])  # without the viewer
     assert main(["study", "thesis", "--quick", "--only", "4.11", "-o", str(tmp_path)]) == 0

@@ -245,6 +245,7 @@ def test_up_and_projection_are_told(canvas):
     assert np.dot(pose(canvas).up, before.up) == pytest.approx(0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_plane_is_flown_to(canvas, qtbot):
     canvas.face(ClipPlane((0, 1, 0), (2, 2, 2)))
     assert canvas.travel.under_way

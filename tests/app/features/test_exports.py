@@ -16,6 +16,8 @@ from hexmend_app.widgets.export_dialog import ExportDialog
 from tests.app.driving import phase
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 SHORT = Stop(max_iterations=3)
 
 

@@ -14,6 +14,8 @@ from hexmend_app.report.page import chapter, page, write_page
 from hexmend_app.scene.export.tally import tally
 from hexmend_app.state.scene import Page, Scene
 
+pytestmark = pytest.mark.slow
+
 STYLE = Style(Scene(page=Page(dpi=72)))
 
 

@@ -3,6 +3,10 @@
 import subprocess
 import sys
 
+import pytest
+
+pytestmark = pytest.mark.slow
+
 
 def test_a_process_that_draws_loads_no_plots():
     program = "import sys, hexmend_app.scene.export.sheet; print(*sys.modules)"

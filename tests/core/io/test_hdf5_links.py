@@ -149,6 +149,7 @@ def test_a_soft_link_inside_the_file_is_followed(suffix, tmp_path):
     np.testing.assert_array_equal(linked.points, plain.points)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names on this system")
 @formats
 @pytest.mark.parametrize("change", [external_link, external_storage, virtual_dataset], ids=lambda one: one.__name__)

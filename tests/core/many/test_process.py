@@ -77,12 +77,14 @@ def test_memory_that_does_not_suffice_for_reading_is_told_as_such(tmp_path):
     assert row["status"] == "out of memory"
 
 
+@pytest.mark.slow
 def test_a_task_that_takes_too_long_is_ended(laboratory):
     row = trial(laboratory, "wait", max_seconds=1.5)
     assert (row["status"], row["reason"]) == ("out of time", "It was not done within 1.5 s, and was ended.")
     assert laboratory.said("did") == []
 
 
+@pytest.mark.slow
 def test_a_task_that_is_no_longer_wanted_is_ended(laboratory):
     asked = []
     stage = {"method": "trial", "parameters": {"does": "wait"}, "stop": {}}

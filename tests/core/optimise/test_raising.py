@@ -160,6 +160,7 @@ def test_coinciding_nodes_are_no_end(seed, one, other):
     np.testing.assert_array_equal(raising.points[mesh.fixed], points[mesh.fixed])
 
 
+@pytest.mark.slow
 @settings(max_examples=10)
 @given(seeds, st.sampled_from(["ball", "cylinder"]), st.floats(0.02, 0.2))
 def test_the_boundary_slides_in_its_room(seed, solid, share):

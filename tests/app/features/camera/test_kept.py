@@ -122,6 +122,7 @@ def test_the_dialog_renames(window, kept, dialog, qtbot):
     assert names(dialog) == list(window.session.cameras.all) == ["front & side", "from above"]
 
 
+@pytest.mark.slow
 def test_scenes_and_pictures_of_the_window_have_them(window, kept, tmp_path, qtbot, mesh_file):
     save, cameras = window.features["save"], window.session.cameras
     dialog = save.picture_dialog()

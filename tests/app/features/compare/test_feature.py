@@ -6,6 +6,7 @@ import json
 from threading import Event
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtTest import QTest
@@ -53,6 +54,7 @@ def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
     assert cell.data(Qt.ItemDataRole.AccessibleTextRole).endswith("best")
 
 
+@pytest.mark.slow
 def test_what_is_worse_than_the_initial_mesh_stands_out(comparing, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", make("bridge-sharp", size=864))
     open_and_wait(qtbot, comparing, tmp_path / "sound.vtu")
@@ -148,6 +150,7 @@ def test_a_method_that_fails_has_its_row_and_the_others_go_on(comparing, qtbot, 
     assert well.record["iterations"] == 4
 
 
+@pytest.mark.slow
 def test_another_mesh_ends_the_work_and_empties_everything(compared, qtbot, mesh_file):
     tick(compared, "getme", VIEW)
     choose(compared, "mend", ENDLESS)
@@ -161,6 +164,7 @@ def test_another_mesh_ends_the_work_and_empties_everything(compared, qtbot, mesh
     assert len(compared.canvas.panes.all) == 1
 
 
+@pytest.mark.slow
 def test_the_window_closes_while_methods_run(fresh_window, qtbot):
     comparing = prepared(fresh_window, qtbot)
     choose(comparing, "mend", ENDLESS)

@@ -39,6 +39,7 @@ def test_results_are_shown_beside_the_mesh_with_their_names_in_the_histogram(com
         np.testing.assert_array_equal(view.frame.mesh.points, state.mesh.points)
 
 
+@pytest.mark.slow
 def test_a_view_is_closed_by_its_button_and_the_rest_by_a_key(compared):
     for name in ("getme", "laplacian", "local-sd"):
         tick(compared, name, VIEW)
@@ -68,6 +69,7 @@ def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
     assert [one.points for one in compared.session.kept.all] == [second.mesh.points]
 
 
+@pytest.mark.slow
 def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(compared, qtbot):
     mesh = compared.session.document.now.mesh
     compared.session.views.show("mine", State.of(mesh.with_points(mesh.points)))
@@ -80,6 +82,7 @@ def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(com
     assert not any(one.shown for one in model(compared).entries)
 
 
+@pytest.mark.slow
 def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(compared, qtbot):
     tick(compared, "getme", VIEW)
     canvas, view = compared.canvas, compared.canvas.interactor
@@ -142,6 +145,7 @@ def test_the_plane_comes_back_in_the_view_of_the_mesh_wherever_the_mouse_was(com
     assert right < left / 4  # edges may be drawn a little otherwise, for there is something else in depth
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arranged", ["side by side", "wipe", "wipe, the mesh at the right"])
 def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared, qtbot, arranged):
     tick(compared, "getme", VIEW)
@@ -165,6 +169,7 @@ def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared,
     assert second.shown == first.shown != before
 
 
+@pytest.mark.slow
 def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):
     tick(compared, "getme", VIEW)
     with qtbot.waitSignal(compared.session.smoothing.ended, timeout=PATIENCE):
@@ -179,6 +184,7 @@ def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_picture_holds_all_views_with_their_captions(compared, tmp_path):
     for name in ("getme", "laplacian"):
         tick(compared, name, VIEW)

@@ -15,6 +15,8 @@ from hexmend_app.features.compare.comparison_table import VIEW, title_of
 from tests.app.driving import drag, key, press
 from tests.app.features.compare.table import button, captions, tick
 
+pytestmark = pytest.mark.slow
+
 
 def test_the_wipe_is_switched_dragged_and_led_by_keys(compared, qtbot):
     tick(compared, "getme", VIEW)

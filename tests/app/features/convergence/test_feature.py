@@ -15,6 +15,8 @@ from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, choose, click, phase, press
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def panel(window, qtbot):

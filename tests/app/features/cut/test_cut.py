@@ -47,6 +47,7 @@ def test_the_clipping_plane_by_check_box_axis_and_slider(window, qtbot, cut):
     assert (np.abs(moving(window) - whole).sum(axis=2) > 60).mean() < 0.02
 
 
+@pytest.mark.slow
 def test_the_plane_is_dragged_in_the_view(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "Z")

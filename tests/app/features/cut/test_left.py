@@ -45,6 +45,7 @@ def rendered(tmp_path, scene, *meshes):
     return np.asarray(Image.open(out)).astype(int)
 
 
+@pytest.mark.slow
 def test_the_command_line_draws_the_hexes_that_the_window_shows(window, moved, tmp_path):
     scene = window.canvas.scene(Page(pixels=(400, 300)))
     assert window.features["save"].picture(tmp_path / "p.png", (400, 300))
@@ -55,6 +56,7 @@ def test_the_command_line_draws_the_hexes_that_the_window_shows(window, moved, t
     assert np.abs(anew - seen).mean() > 1
 
 
+@pytest.mark.slow
 def test_a_picture_and_a_session_bring_them_back(window, moved, qtbot, tmp_path):
     assert window.features["save"].picture(tmp_path / "p.png", (200, 150))
     assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")

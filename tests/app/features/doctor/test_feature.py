@@ -60,6 +60,7 @@ def mend(qtbot, session, button):
         press(button)
 
 
+@pytest.mark.slow
 def test_each_is_mended_by_a_click_and_undo_takes_it_back(window, panel, qtbot):
     session = window.session
     before = session.document.now.mesh
@@ -76,6 +77,7 @@ def test_each_is_mended_by_a_click_and_undo_takes_it_back(window, panel, qtbot):
     assert session.document.now.summary.inverted == 0
 
 
+@pytest.mark.slow
 def test_all_is_mended_at_once_and_methods_run_on_the_mended_mesh(window, panel, qtbot):
     press(buttons(panel, "Mend all")[0])
     window.refresh()

@@ -38,6 +38,7 @@ def test_the_dialog_shows_what_was_wanted_and_gives_what_is(shown):
     assert not dialog.choice().histogram
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".gif", ".png", ".webp"])
 def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkeypatch, suffix):
     record = stepped(window, qtbot, 5)

@@ -45,6 +45,7 @@ def colour_by(window, metric):
     walk_to(window, named(window.features["look"].panel, QComboBox, "Metric"), metric)
 
 
+@pytest.mark.slow
 def test_brushing_keeps_a_range_in_view(window, qtbot, histogram):
     whole = pixels(window)
     chosen = brush(window, qtbot, 0.2, 0.6)
@@ -55,6 +56,7 @@ def test_brushing_keeps_a_range_in_view(window, qtbot, histogram):
     qtbot.waitUntil(lambda: window.session.view.look.quality_range is None, timeout=PATIENCE)
 
 
+@pytest.mark.slow
 def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbot, histogram):
     walk_to(window, histogram.head.metric_box, "max-angle")
     assert window.session.view.look.scale.metric == "q"  # colours are left alone
@@ -78,6 +80,7 @@ def test_brushing_another_metric_filters_the_view_and_follows_a_run(window, qtbo
     assert window.session.view.look.quality_range is None
 
 
+@pytest.mark.slow
 def test_it_counts_what_the_colours_show_until_a_range_or_the_user_holds_it(window, qtbot, histogram):
     colour_by(window, "scaled-jacobian")
     assert histogram.axis.metric == "scaled-jacobian"
@@ -102,6 +105,7 @@ def keep(window, histogram):
     window.refresh()
 
 
+@pytest.mark.slow
 def test_distributions_are_kept_under_the_name_of_the_moment_for_any_metric(window, qtbot, histogram, mesh_file):
     kept = window.session.kept
     choose(window, "local-sd")

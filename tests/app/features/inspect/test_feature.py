@@ -57,6 +57,7 @@ def test_a_click_in_the_view_leaves_it_its_room(window):
     assert window.in_front("hex")
 
 
+@pytest.mark.slow
 def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
     camera = window.canvas.viewport.camera
     before = np.array(camera.GetFocalPoint())
@@ -85,6 +86,7 @@ def test_the_worst_alone_is_drawn_and_its_neighbours_are_ghosts(window):
     assert drawn.filters.ghosts(drawn.frame).sum() == around.sum() - 1
 
 
+@pytest.mark.slow
 def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
     key(window, Qt.Key.Key_N)
     worst = window.session.selection.hex
@@ -106,6 +108,7 @@ def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
     assert window.messages.messages()[-1][0] == "error"
 
 
+@pytest.mark.slow
 def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
     mesh = window.session.document.now.mesh
     inner = int(np.flatnonzero(mesh.free)[50])
@@ -133,6 +136,7 @@ def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
     assert not pin.isChecked()
 
 
+@pytest.mark.slow
 def test_a_node_of_the_boundary_is_pinned_by_its_key_and_does_not_slide(window, qtbot, tmp_path):
     io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
     open_and_wait(qtbot, window, tmp_path / "slid.vtu")

@@ -158,6 +158,7 @@ def inverts(window, qtbot, tmp_path):
     open_and_wait(qtbot, window, tmp_path / "inverts.vtu")
 
 
+@pytest.mark.slow
 def test_the_newly_inverted_are_isolated(window, inverts, record, panel, qtbot):
     inverted = [record.rows[k]["inverted"] for k in range(len(record.rows))]
     for number in range(1, len(inverted)):
@@ -175,6 +176,7 @@ def test_the_newly_inverted_are_isolated(window, inverts, record, panel, qtbot):
     assert len(isolated) == movement.counts.newly_inverted
 
 
+@pytest.mark.slow
 def test_a_picture_shows_what_the_view_shows(window, record, panel, tmp_path):
     window.features["save"].picture(tmp_path / "plain.png", (500, 320))
     press(panel.colours, "q-change")
@@ -199,6 +201,7 @@ def test_another_mesh_can_be_opened_while_a_movement_is_shown(window, record, pa
     assert said(panel, "Nodes").startswith("0 of ")
 
 
+@pytest.mark.slow
 def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
     press(panel.colours, "moved-most")
     press(panel.since, "iteration")
@@ -210,6 +213,7 @@ def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
     assert all(title.startswith("mean edge lengths moved since") for title in seen)
 
 
+@pytest.mark.slow
 def test_a_film_compares_each_picture_with_the_one_before(window, record, panel):
     history, mesh = window.session.history, window.session.document.now.mesh
     press(panel.colours, "q-change")

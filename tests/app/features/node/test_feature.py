@@ -22,6 +22,8 @@ from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, p
 from tests.app.features.node.looking import button, grabbed, patch_alone, said, seen, shown, texts, wait_for_step
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 # One node
 
 

@@ -15,6 +15,8 @@ from tests.app.driving import choose_by_keys, click, key, phase, press
 from tests.app.features.node.looking import button, shown, texts, wait_for_step
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot):
     window = at_work

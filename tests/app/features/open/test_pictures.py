@@ -91,6 +91,7 @@ def test_another_mesh_of_the_name_is_said(window, qtbot, mesh, tmp_path):
     assert "This is not the mesh of p.png" in said(window)[-1]
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_gone_is_asked_for(window, qtbot, mesh, tmp_path, monkeypatch):
     open_and_wait(qtbot, window, mesh)
     look, _ = looked_at(window, qtbot)

@@ -74,6 +74,7 @@ def test_a_run_that_ends_is_explained_before_everything_else(window, qtbot):
     assert f"{inverted} of {window.session.document.now.mesh.n_hexes:,} hexes are inverted" in said(window)
 
 
+@pytest.mark.slow
 def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
     run(window, qtbot, "laplacian", max_iterations=1)
     left = window.session.document.now.summary.inverted
@@ -103,6 +104,7 @@ def test_while_a_run_goes_on_it_says_so(window, qtbot):
     assert "Stopped by you after 1 iteration" in said(window)
 
 
+@pytest.mark.slow
 def test_the_run_that_is_gone_through_is_the_one_explained(window, qtbot):
     run(window, qtbot, "laplacian", max_iterations=3)
     run(window, qtbot, "mend", max_iterations=2)
@@ -154,6 +156,7 @@ def test_what_is_kept_is_said_and_shown(window, qtbot, tmp_path):
     assert any(kept in label.text() for label in panel.findChildren(QLabel))
 
 
+@pytest.mark.slow
 def test_locked_elements_are_listed_and_shown(window, qtbot, locked):
     run(window, qtbot, "mend")
     assert f'<a href="{locked}">{locked}</a>' in said(window)
@@ -167,6 +170,7 @@ def test_locked_elements_are_listed_and_shown(window, qtbot, locked):
     assert window.session.view.look.isolation is not None
 
 
+@pytest.mark.slow
 def test_hexes_whose_corners_limit_the_least_are_shown_before_the_camera(window, qtbot, tmp_path):
     io.write(tmp_path / "wavy.vtu", wavy(scrambled(grid(3), 0.3, 1), 0.2, 2))
     open_and_wait(qtbot, window, tmp_path / "wavy.vtu")
@@ -189,6 +193,7 @@ def test_hexes_whose_corners_limit_the_least_are_shown_before_the_camera(window,
     assert "The boundary slid" not in said(window)
 
 
+@pytest.mark.slow
 def test_how_far_the_boundary_has_slid_is_said(window, qtbot, tmp_path):
     io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
     open_and_wait(qtbot, window, tmp_path / "slid.vtu")
@@ -202,6 +207,7 @@ def test_how_far_the_boundary_has_slid_is_said(window, qtbot, tmp_path):
     assert "Limiting" not in said(window)
 
 
+@pytest.mark.slow
 def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_path):
     from tests.core.test_advice import pinned_tangle
 
@@ -218,6 +224,7 @@ def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_pa
     assert window.session.document.now.summary.inverted == 0
 
 
+@pytest.mark.slow
 def test_a_run_with_nothing_to_do_is_explained_too(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian", max_iterations=1)
     io.write(tmp_path / "one.vtu", grid(1))

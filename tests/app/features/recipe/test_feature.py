@@ -151,6 +151,7 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     assert window.session.document.now.mesh.points is mesh.points
 
 
+@pytest.mark.slow
 def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, qtbot):
     add(window, panel, "getme", stop=Stop(max_iterations=100_000, tolerance=0))
     add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
@@ -170,6 +171,7 @@ def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, q
     assert button(panel, "Add").isEnabled()
 
 
+@pytest.mark.slow
 def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel, qtbot):
     add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
     add(window, panel, "local-sd", stop=Stop(max_iterations=3, tolerance=0))

@@ -48,6 +48,7 @@ def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot,
     np.testing.assert_array_equal(io.read(out).points, window.session.document.now.mesh.points)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [(640, 480), (1500, 500)])
 def test_a_picture_has_the_size_asked_for_whatever_the_window(window, tmp_path, size):
     window.action("cut").trigger()
@@ -85,6 +86,7 @@ def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, v
         assert (np.ptp(here, axis=2) > 60).mean() > 0.05
 
 
+@pytest.mark.slow
 def test_the_next_picture_is_like_the_last(window, qtbot, tmp_path, monkeypatch):
     save = window.features["save"]
     dialog = save.picture_dialog()

@@ -171,6 +171,7 @@ def test_a_scene_is_kept_in_a_file_and_taken_from_one(dialog, tmp_path):
     assert "[bar] has an unknown key 'tick'" in said(dialog)[0]
 
 
+@pytest.mark.slow
 def test_the_preview_is_the_picture_in_small(qtbot):
     subject = Subject.of(grid(3))
     dialog = made(qtbot, draw=lambda scene: draw_sheet(scene, [subject]))

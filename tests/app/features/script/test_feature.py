@@ -58,6 +58,7 @@ def test_it_is_copied(window, panel):
     assert QApplication.clipboard().text() == window.features["script"].script.text
 
 
+@pytest.mark.slow
 def test_it_is_saved_under_a_python_name_and_runs(window, panel, tmp_path, monkeypatch):
     asked = str(tmp_path / "again"), "Python script (*.py)"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *args: asked)

@@ -139,6 +139,7 @@ def test_a_run_that_was_changed_on_the_way_is_changed_again(session, qtbot, tmp_
     assert text.count("run.go_on_with(hx.Laplacian()") == 2
 
 
+@pytest.mark.slow
 def test_what_ended_by_the_clock_has_a_limit_of_iterations(session, qtbot, tmp_path):
     timed = Stop(max_iterations=100_000, tolerance=0, max_seconds=0.05)
     run(qtbot, session, Recipe.of(stage("local-sd", timed), stage("laplacian")))

@@ -82,6 +82,7 @@ def test_the_bar_waits_for_a_run(window):
     assert not window.window_actions["iteration_play"].isEnabled()
 
 
+@pytest.mark.slow
 def test_everything_follows_the_slider(window, qtbot):
     record = stepped(window, qtbot)
     newest, picture = window.session.document.now, pixels(window)
@@ -118,6 +119,7 @@ def test_keys_go_back_and_on_and_to_the_ends(window, qtbot):
     assert window.session.timeline.live
 
 
+@pytest.mark.slow
 def test_buttons_and_playing(window, qtbot):
     stepped(window, qtbot)
     window.session.timeline.set_speed(60)
@@ -136,6 +138,7 @@ def test_buttons_and_playing(window, qtbot):
     assert not window.session.timeline.playing
 
 
+@pytest.mark.slow
 def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
     first = stepped(window, qtbot)
     go(window, qtbot, 4)
@@ -235,6 +238,7 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     assert not window.window_actions["iteration_play"].isEnabled()
 
 
+@pytest.mark.slow
 def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
     stepped(window, qtbot)
     open_and_wait(qtbot, window, mesh_file)
@@ -243,6 +247,7 @@ def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
     assert not window.features["timeline"].panel.button("play").isEnabled()
 
 
+@pytest.mark.slow
 def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbot):
     record = stepped(window, qtbot, 4)
     click(window, "Step")
@@ -265,6 +270,7 @@ def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbo
     assert window.session.document.now is window.session.document.start
 
 
+@pytest.mark.slow
 def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot):
     record = stepped(window, qtbot, 3, "local-nr")
     with qtbot.assertNotEmitted(window.features["smooth"].panel.change_requested):
@@ -273,6 +279,7 @@ def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot)
     assert {row["method"] for row in record.rows} == {"local-nr"}
 
 
+@pytest.mark.slow
 def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(window, qtbot):
     stepped(window, qtbot, 6)
     go(window, qtbot, 2)
