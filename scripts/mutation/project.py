@@ -16,9 +16,10 @@ _SCRIPTS = Path(__file__).resolve().parents[1]
 
 #: pytest's configuration in a copy: as the project's own, without the screen that tests of windows need.
 _CONFIGURATION = """[pytest]
-addopts = -q --tb=short --strict-markers --import-mode=importlib --doctest-modules
+addopts = -q --tb=short --import-mode=importlib --doctest-modules
     -p no:xvfb -p no:pytest-qt -p no:xdist -p no:cacheprovider -p mutation.plugin
 filterwarnings = error
+markers = slow
 """
 
 
