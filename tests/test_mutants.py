@@ -3,6 +3,7 @@
 import json
 import signal
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -188,3 +189,10 @@ def test_a_sample_is_spread_over_files_and_is_the_same_for_the_same_seed(scripts
     assert [mutant.path for mutant in chosen] == ["a.py"] * 6 + ["b.py"] * 2
     assert [mutant.first for mutant in chosen] == [mutant.first for mutant in sampling.sample(sources, 8, 3)]
     assert len({(mutant.path, mutant.first) for mutant in chosen}) == 8
+
+
+def test_every_native_fault_has_its_place_in_the_sources():
+    root = Path(__file__).resolve().parents[1]
+    table = tomllib.loads((root / "scripts/mutants_native.toml").read_text(encoding="utf-8"))
+    for one in table["mutant"]:
+        assert (root / one["file"]).read_text(encoding="utf-8").count(one["before"]) == 1, one
