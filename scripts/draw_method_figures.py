@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES, UNIT_CUBE
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES, UNIT_CUBE
 from hexmend.report.charts import new_figure, save_figure
 
 #: Letters as in a paper, alike in words and formulas.

@@ -29,9 +29,9 @@ import numpy as np
 
 from hexmend import gallery, io
 from hexmend.errors import HexmendError
-from hexmend.io.format import FORMATS, Format
-from hexmend.io.session import write_session
-from hexmend.mesh import Mesh
+from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.formats.session import write_session
+from hexmend.mesh.mesh import Mesh
 
 #: Bytes that the process may take, seconds that a file may, and files of others that are taken, by their size.
 MEMORY, SECONDS, LARGEST = 3 << 30, 20, 3_000_000

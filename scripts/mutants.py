@@ -44,15 +44,15 @@ HEXMEND = Project(
     root=ROOT, tests=("core/hexmend", "tests/core"), imports=("core", "app"), build=ROOT / "build" / "mutants"
 )
 #: Sources that are given faults, and those of them that write files.
-FOLDERS = "optimise", "smoothers", "quality", "run", "surface"
-FILES = "orientation.py", "io/atomic.py", "io/exodus_writer.py"
+FOLDERS = "optimise", "iteration", "smoothers", "quality", "run", "boundary"
+FILES = "mesh/orientation.py", "io/storage/atomic.py"
 
 
 def hexmend_sources() -> list[str]:
     """Paths of the sources that are given faults, from the project's root."""
     core = ROOT / "core" / "hexmend"
     found = [path for folder in FOLDERS for path in sorted((core / folder).rglob("*.py"))]
-    found += [core / name for name in FILES] + sorted((core / "io").glob("*_write.py"))
+    found += [core / name for name in FILES] + sorted((core / "io/formats").rglob("*writer.py"))
     return [path.relative_to(ROOT).as_posix() for path in found]
 
 

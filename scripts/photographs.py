@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QAbstractButton, QComboBox
 
 from hexmend.gallery import make
 from hexmend.io import write
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.shell.program import application

@@ -16,8 +16,8 @@ import numpy as np
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.format import FORMATS
-from hexmend.mesh import Mesh
+from hexmend.io.base.format import FORMATS
+from hexmend.mesh.mesh import Mesh
 
 #: What formats of few decimals may be off, in the largest coordinate.
 NEAR = 1e-6

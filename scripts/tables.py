@@ -14,14 +14,14 @@ from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin
 
 from hexmend.io import FORMATS
-from hexmend.io.format import Holds
-from hexmend.optimise import Stop
+from hexmend.io.base.format import Holds
+from hexmend.iteration import Stop
 from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import amount, needed
 from hexmend.smoothers import METHODS
-from hexmend.study.many.case import Limits
-from hexmend.study.many.columns import COLUMNS
+from hexmend.study.batch.case import Limits
+from hexmend.study.batch.columns import COLUMNS
 from hexmend_app.state.scene import Scene
 from hexmend_app.state.scene.helps import helps
 from hexmend_app.state.scene.table import Key, keys

@@ -16,7 +16,7 @@ from photographs import opened, settle, shoot, until
 
 from hexmend.gallery import make
 from hexmend.io import write
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 
 
 def blocks() -> Mesh:

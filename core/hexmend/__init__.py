@@ -16,30 +16,33 @@ TYPE_CHECKING = False  # which type checkers take for true; `typing` alone would
 if TYPE_CHECKING:
     from hexmend import energy, gallery
     from hexmend.advice import advise
-    from hexmend.cells import Cells
     from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
-    from hexmend.io import read, read_recipe, read_surface, write, write_recipe
-    from hexmend.mesh import Mesh
+    from hexmend.io import read, read_surface, write
+    from hexmend.iteration import Iteration, Outcome, Result, Step
+    from hexmend.mesh.cells import Cells
+    from hexmend.mesh.mesh import Mesh
     from hexmend.notebook import view
-    from hexmend.optimise import Iteration, Outcome, Result, Step
     from hexmend.parameters import parameter
     from hexmend.quality import METRICS, Summary, measure, summarise
-    from hexmend.recipe import Recipe, Stage
     from hexmend.run import Run, Stop, iterate, smooth
+    from hexmend.run.recipe import Recipe, Stage
+    from hexmend.run.recipe_files import read_recipe, write_recipe
     from hexmend.smoothers import METHODS, Smoother, method
     from hexmend.study.compare import Comparison, compare
 
 _HOMES = {
     "advice": ("advise",),
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
-    "io": ("read", "read_recipe", "read_surface", "write", "write_recipe"),
-    "mesh": ("Cells", "Mesh"),
+    "io": ("read", "read_surface", "write"),
+    "iteration": ("Iteration", "Outcome", "Result", "Step"),
+    "mesh": ("Mesh",),
+    "mesh.cells": ("Cells",),
     "notebook": ("view",),
-    "optimise": ("Iteration", "Outcome", "Result", "Step"),
     "parameters": ("parameter",),
     "quality": ("METRICS", "Summary", "measure", "summarise"),
-    "recipe": ("Recipe", "Stage"),
     "run": ("Run", "Stop", "iterate", "smooth"),
+    "run.recipe": ("Recipe", "Stage"),
+    "run.recipe_files": ("read_recipe", "write_recipe"),
     "smoothers": ("METHODS", "Smoother", "method"),
     "study.compare": ("Comparison", "compare"),
 }

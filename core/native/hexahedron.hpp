@@ -1,4 +1,4 @@
-// The reference hexahedron, numbered as `hexmend.hexahedron` draws it.
+// The reference hexahedron, numbered as `hexmend.mesh.hexahedron` draws it.
 #pragma once
 
 #include <array>

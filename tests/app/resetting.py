@@ -21,8 +21,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.state.history import LIMIT

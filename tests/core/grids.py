@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 
 
 def grid(nx: int, ny: int | None = None, nz: int | None = None) -> Mesh:

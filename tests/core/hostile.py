@@ -13,18 +13,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import hexmend as hx
-from hexmend.edge_length import mean_edge_length
+from hexmend.boundary import Skin, Sliding, Trees, boundary_of, classify
 from hexmend.energy import MeshEnergy, SlidingEnergy, energies
 from hexmend.errors import HexmendError
-from hexmend.fixing import with_pinned, with_region_free
+from hexmend.mesh.edge_length import mean_edge_length
+from hexmend.mesh.fixing import with_pinned, with_region_free
+from hexmend.mesh.patches import grown
+from hexmend.mesh.tags import tagged
+from hexmend.mesh.topology import Topology
 from hexmend.node_step import Sweep, explain
-from hexmend.patches import grown
 from hexmend.quality import METRICS, corner_determinants, corner_qualities, element, locked, node, worst
 from hexmend.quality.binning import bin_counts
-from hexmend.smoothers.local_sweeps import local_sweeps
-from hexmend.surface import Skin, Sliding, Trees, boundary_of, classify
-from hexmend.tags import tagged
-from hexmend.topology import Topology
+from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(3), 0.2)

@@ -6,10 +6,10 @@ import numpy as np
 
 from hexmend.energy import MeshEnergy
 from hexmend.kernels import local
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.global_descent import GlobalDescent
-from hexmend.smoothers.local_descent import LocalDescent
+from hexmend.smoothers.global_.base import GlobalDescent
+from hexmend.smoothers.local.single_node import LocalDescent
 
 LOCAL = [name for name, method in METHODS.items() if issubclass(method, LocalDescent)]
 GLOBAL = [name for name, method in METHODS.items() if issubclass(method, GlobalDescent)]

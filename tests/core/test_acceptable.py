@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.orientation import TURNED_CORNERS, mirrored_parts
+from hexmend.mesh.orientation import TURNED_CORNERS, mirrored_parts
 from hexmend.quality.metric import METRICS
 from tests.core.grids import grid
 

@@ -6,10 +6,10 @@ import pytest
 from hexmend.advice import advise
 from hexmend.advice.situation import Situation
 from hexmend.gallery import make
-from hexmend.optimise import Stop
+from hexmend.iteration import Stop
 from hexmend.quality import measure, objective
-from hexmend.recipe import Recipe, Stage
 from hexmend.run import iterate, smooth
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, slid

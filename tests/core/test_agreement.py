@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
-from hexmend.optimise import Outcome
+from hexmend.iteration import Outcome
 from hexmend.parameters import declared
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth

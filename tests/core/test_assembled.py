@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.boundary import Sliding
 from hexmend.energy import MeshEnergy, Power, SlidingEnergy
-from hexmend.energy.assembled import Assembled, full
-from hexmend.energy.couplings import Couplings
+from hexmend.energy.assembled_hessian import Assembled, full
+from hexmend.energy.sparsity import Couplings
 from hexmend.errors import MeshError
 from hexmend.kernels import conjugate_gradients
-from hexmend.mesh import Mesh
-from hexmend.surface import Sliding
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hexmend import gallery
-from hexmend.optimise import Iteration
+from hexmend.iteration import Iteration
 from hexmend.quality import measure
 from hexmend.run import Stop, iterate
 from hexmend.run.breakpoints import Breakpoints

@@ -8,8 +8,8 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.main import commands, main
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, spreads, summarise
 
 SUMMARY = [

@@ -8,10 +8,11 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.main import main
-from hexmend.optimise import Stop
+from hexmend.iteration import Stop
 from hexmend.quality import summarise
-from hexmend.recipe import Recipe, Stage
 from hexmend.run import smooth
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.recipe_files import read_recipe, write_recipe
 from hexmend.smoothers import METHODS
 
 SHIPPED = sorted((Path(__file__).resolve().parents[2] / "resources" / "recipes").glob("*.toml"))
@@ -27,7 +28,7 @@ def mesh(tmp_path):
 @pytest.fixture
 def recipe(tmp_path):
     stages = [Stage(METHODS[name](), Stop(max_iterations=3, tolerance=0)) for name in ("getme", "local-sd")]
-    io.write_recipe(tmp_path / "two.toml", Recipe("Two", tuple(stages)))
+    write_recipe(tmp_path / "two.toml", Recipe("Two", tuple(stages)))
     return tmp_path / "two.toml"
 
 
@@ -55,11 +56,11 @@ def test_what_is_run_is_saved_and_does_the_same_again(mesh, tmp_path):
     saved = tmp_path / "saved.toml"
     words = ["--method", "local-sd", "--set", "p=3", "--max-iterations", 4, "--save-recipe", saved]
     _, first = smoothed(mesh, *words)
-    assert io.read_recipe(saved) == Recipe.of(Stage(METHODS["local-sd"](p=3), Stop(max_iterations=4)))
+    assert read_recipe(saved) == Recipe.of(Stage(METHODS["local-sd"](p=3), Stop(max_iterations=4)))
     _, second = smoothed(mesh, "--recipe", saved)
     assert second["after"] == first["after"]
     _, third = smoothed(mesh, "--recipe", saved, "--max-iterations", 2, "--save-recipe", saved)
-    assert third["iterations"] == io.read_recipe(saved).stages[0].stop.max_iterations == 2
+    assert third["iterations"] == read_recipe(saved).stages[0].stop.max_iterations == 2
 
 
 @pytest.mark.parametrize(("words", "status", "said"), [
@@ -112,7 +113,7 @@ def test_recipes_that_one_would_take_for_each_other_are_not_compared(mesh, recip
 @pytest.mark.parametrize(("name", "scramble"), [("bridge-sharp", 0.4), ("five-side", 0.0), ("plane", 0.4)])
 def test_the_recipes_that_come_with_hexmend_are_worth_running(path, name, scramble):
     mesh = gallery.make(name, size=500 if name != "plane" else 2500, scramble=scramble)
-    recipe = io.read_recipe(path)
+    recipe = read_recipe(path)
     result = smooth(mesh, recipe)
     assert result.after.inverted == 0
     assert result.after.q_min > result.before.q_min

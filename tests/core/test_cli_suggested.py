@@ -3,8 +3,8 @@
 import numpy as np
 
 from hexmend.advice import Suggestion
-from hexmend.cli.command.suggested import command_of
-from hexmend.optimise import Stop
+from hexmend.cli.command.suggested_command import command_of
+from hexmend.iteration import Stop
 from hexmend.smoothers import METHODS
 
 

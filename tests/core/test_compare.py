@@ -9,15 +9,15 @@ import pytest
 from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.errors import ParameterError
-from hexmend.io import write_recipe
 from hexmend.quality import Summary, measure, objective, summarise
-from hexmend.recipe import Recipe
 from hexmend.run import Stop, smooth
+from hexmend.run.recipe import Recipe
+from hexmend.run.recipe_files import write_recipe
 from hexmend.smoothers import METHODS
-from hexmend.study import row as one_row
-from hexmend.study.chosen import chosen, split
+from hexmend.study import table_row as one_row
 from hexmend.study.compare import compare
-from hexmend.study.row import BINS
+from hexmend.study.method_spec import chosen, split
+from hexmend.study.table_row import BINS
 
 #: Of each row in comparison.json, beside the figures of a summary.
 RUN = {

@@ -9,8 +9,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hexmend.energy import SQUARES, MeshEnergy, Power
-from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.kernels import objective
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 

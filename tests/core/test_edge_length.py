@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.edge_length import SPOILED, mean_edge_length
+from hexmend.mesh.edge_length import SPOILED, mean_edge_length
 from tests.core.grids import grid
 
 

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
-from hexmend.hexahedron import EDGES
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, element, measure, node, worst
 from tests.core.grids import grid, scrambled
 

@@ -6,9 +6,9 @@ from threading import Barrier
 import numpy as np
 import pytest
 
+from hexmend.boundary import Sliding
 from hexmend.energy import MeshEnergy, Power, SlidingEnergy
 from hexmend.gallery import make
-from hexmend.surface import Sliding
 
 POWERS = Power(2.0, 1.0), Power(4.0, 0.0)
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from hexmend import gallery, io
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 from tests.examples import example
 

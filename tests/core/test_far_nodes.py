@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from hexmend.advice import advise
+from hexmend.boundary import Sliding
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
 from hexmend.io import read, write
 from hexmend.quality import summarise
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS
-from hexmend.surface import Sliding
 from tests.core.grids import grid
 
 #: Of a grid of 4 x 4 x 4 hexes: a node inside, one within a side, and a corner.

@@ -8,8 +8,8 @@ import pytest
 from hexmend import io
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
-from hexmend.fixing import nodes_of, with_region_free, with_sets_fixed
-from hexmend.hexahedron import FACES
+from hexmend.mesh.fixing import nodes_of, with_region_free, with_sets_fixed
+from hexmend.mesh.hexahedron import FACES
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(5), 0.4).replace(

@@ -11,8 +11,8 @@ from hexmend.gallery import make
 from hexmend.gallery.five_side import DIVISIONS
 from hexmend.gallery.pairing import angles, paired
 from hexmend.gallery.pentagon import CORNERS, divided, fan, pentagon
+from hexmend.mesh.structure import structure
 from hexmend.quality import summarise
-from hexmend.structure import structure
 
 #: The thesis's FiveSide4, 5, 6, 60k, 90k and 110k: hexes, quads, boundary nodes of the quads' mesh, free nodes.
 THESIS = [

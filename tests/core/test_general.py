@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.gallery import make
-from hexmend.optimise import Outcome
+from hexmend.iteration import Outcome
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS, general

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from hexmend.gallery import make
-from hexmend.hexahedron import EDGES, UNIT_CUBE
+from hexmend.iteration import Outcome
 from hexmend.kernels import LANES
 from hexmend.kernels.element_step import element_step, element_steps
 from hexmend.kernels.worst_first import replay, tournament
-from hexmend.optimise import Outcome
+from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS

@@ -7,8 +7,8 @@ import pytest
 
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.getme import standing
-from hexmend.smoothers.getme_sequential import HALVINGS
+from hexmend.smoothers.getme.sequential import HALVINGS
+from hexmend.smoothers.getme.simultaneous import standing
 from tests.core.grids import grid, scrambled
 
 GETMe, Sequential = METHODS["getme"], METHODS["getme-sequential"]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES, FACES, UNIT_CUBE, VOXEL_ORDER
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES, FACES, UNIT_CUBE, VOXEL_ORDER
 
 
 def test_corner_tetrahedra_have_unit_determinant_on_the_cube():

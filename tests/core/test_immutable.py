@@ -9,8 +9,8 @@ import pytest
 
 import hexmend as hx
 from hexmend.arrays import as_immutable, is_immutable
-from hexmend.mesh import Mesh
-from hexmend.topology import Topology
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import Topology
 from tests.core.grids import grid
 
 TWO = grid(2, 1, 1)

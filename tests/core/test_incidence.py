@@ -8,12 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
-from hexmend.energy.couplings import Couplings
+from hexmend.energy.sparsity import Couplings
 from hexmend.errors import MeshError
-from hexmend.hexahedron import EDGES, FACES
 from hexmend.kernels import couplings, incidence, structure
-from hexmend.mesh import Mesh
-from hexmend.topology import Topology
+from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import Topology
 from tests.core.grids import grid
 
 
@@ -162,9 +162,14 @@ def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_writt
 @pytest.mark.parametrize(
     ("module", "most", "make", "words"),
     [
-        ("topology", 39, lambda: grid(2, 1, 1).topology.rings, "neighbours of nodes, .* there are 40 items: .* divide"),
-        ("topology", 19, lambda: grid(2, 1, 1).topology.edges, "edges, .* there are 20 items"),
-        ("energy.couplings", 27, lambda: Couplings(grid(3)), "pairs of free nodes .* there are 28 items"),
+        (
+            "mesh.topology",
+            39,
+            lambda: grid(2, 1, 1).topology.rings,
+            "neighbours of nodes, .* there are 40 items: .* divide",
+        ),
+        ("mesh.topology", 19, lambda: grid(2, 1, 1).topology.edges, "edges, .* there are 20 items"),
+        ("energy.sparsity", 27, lambda: Couplings(grid(3)), "pairs of free nodes .* there are 28 items"),
     ],
 )
 def test_a_mesh_whose_neighbours_cannot_be_numbered_is_to_be_divided(monkeypatch, module, most, make, words):

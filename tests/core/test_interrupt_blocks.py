@@ -8,8 +8,8 @@ import time
 
 import pytest
 
-from hexmend.cli import interrupts
-from hexmend.cli.interrupts import ENDING, EndsAfterIteration, EndsCleanly, FinishesWriting
+from hexmend.cli.command import interrupts
+from hexmend.cli.command.interrupts import ENDING, EndsAfterIteration, EndsCleanly, FinishesWriting
 from hexmend.signal_guard import uninterrupted
 
 #: A program that gets a signal after each handler that a block restores, and rests then.

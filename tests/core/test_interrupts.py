@@ -119,7 +119,7 @@ def ended(process):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("name", ["hexmend.cli.main", "argparse", "numpy", "hexmend.run.loop"])
+@pytest.mark.parametrize("name", ["hexmend.cli.main", "argparse", "numpy", "hexmend.run.run"])
 def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
     status, said = ended(smooth(IMPORTS.format(name=name), number))
     assert (status, said) == (128 + number, ["hexmend: interrupted"])
@@ -129,7 +129,7 @@ def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_during_an_import_of_a_command_at_work_waits_for_its_end(smooth, number):
     rests = "import time\nfrom hexmend.cli.command import files\nfiles.check_targets = lambda *_: [time.sleep(0.01) for _ in range(10_000)]\n"
-    status, said = ended(smooth(rests + IMPORTS.format(name="hexmend.fixing"), number))
+    status, said = ended(smooth(rests + IMPORTS.format(name="hexmend.mesh.fixing"), number))
     assert (status, said) == (128 + number, ["hexmend: interrupted"])
 
 
@@ -148,7 +148,7 @@ def test_a_signal_while_progress_is_printed_loses_nothing(smooth, tmp_path, numb
 
 @pytest.mark.parametrize(("module", "kind", "name"), [
     ("hexmend.cli.command.progress", "_Lines", "show"),
-    ("hexmend.run.loop", "Run", "result"),
+    ("hexmend.run.run", "Run", "result"),
     ("hexmend.cli.smooth", "Smooth", "run"),
 ])  # fmt: skip
 @pytest.mark.parametrize("count", [1, 3])
@@ -163,7 +163,7 @@ def test_signals_after_an_iteration_lose_nothing_and_before_it_everything(smooth
 
 
 def test_a_second_signal_within_the_first_iteration_ends_without_a_result(smooth, tmp_path):
-    status, said = ended(smooth(CALLS.format(module="hexmend.run.loop", kind="Run", name="__next__", count=2)))
+    status, said = ended(smooth(CALLS.format(module="hexmend.run.run", kind="Run", name="__next__", count=2)))
     assert (status, said[-1]) == (130, "hexmend: interrupted")
     assert (tmp_path / "out.vtu").read_text() == "old"
 

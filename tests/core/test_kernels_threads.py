@@ -203,7 +203,7 @@ for delay in (0.01, 0.013, 0.021, 0.034, 0.05):
 
 
 def test_the_bench_says_threads_and_build():
-    from hexmend.study.bench import machine
+    from hexmend.study.bench.sections import machine
 
     assert (machine()["threads"], machine()["kernels"]) == (kernels.threads(), kernels.BUILD)
 

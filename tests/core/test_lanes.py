@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from hexmend import kernels
 from hexmend.energy import SQUARES, Couplings, MeshEnergy, Power, energies
-from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import LANES, element_step, local, objective, plain, reach
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hexmend.optimise.raising import Limit
-from hexmend.smoothers.raised import limits_of, what_limits
+from hexmend.optimise.maxmin.slp import Limit
+from hexmend.smoothers.mend.maxmin_stage import limits_of, what_limits
 from tests.core.grids import grid
 
 BEGIN = "The least scaled Jacobian of the corners that can be moved is 0.2500: "

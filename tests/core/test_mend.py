@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
-from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.optimise import Outcome
+from hexmend.iteration import Outcome
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import corner_determinants, measure, summarise
 from hexmend.run import Stop, iterate, smooth
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
-from hexmend.smoothers.tangled import locked_corners
+from hexmend.smoothers.mend.inversion import locked_corners
 from tests.core.grids import grid, scrambled
 
 Mend = METHODS["mend"]
@@ -159,7 +159,7 @@ def test_real_meshes_end_at_the_lower_bound(name, real_mesh):
 
 
 def test_which_tetrahedra_are_held_is_what_the_bits_say():
-    from hexmend.smoothers.tangled import locked_corners
+    from hexmend.smoothers.mend.inversion import locked_corners
 
     mesh = with_locked_corner(grid(2))
     bits = locked_corners(mesh)

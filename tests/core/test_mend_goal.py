@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
-from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.io import read
-from hexmend.optimise import Outcome
-from hexmend.optimise.corners import scaled_jacobians
-from hexmend.optimise.movable import MovableCorners
+from hexmend.iteration import Outcome
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.optimise.maxmin.corner_set import MovableCorners
+from hexmend.optimise.maxmin.corner_values import scaled_jacobians
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS

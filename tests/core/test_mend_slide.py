@@ -6,12 +6,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
+from hexmend.boundary import Sliding, surface_change
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS
-from hexmend.surface import Sliding, surface_change
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid, wavy
 

@@ -8,8 +8,8 @@ import pytest
 from hexmend.energy import MeshEnergy, SlidingEnergy
 from hexmend.kernels import local
 from hexmend.quality import measure
-from hexmend.smoothers import mend
-from hexmend.smoothers.local_sweeps import local_sweeps
+from hexmend.smoothers.mend import mend
+from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from tests.core.grids import grid, scrambled
 from tests.core.surface.solids import wavy
 

@@ -5,11 +5,12 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend.optimise.raising import Limit, Raising
-from hexmend.quality.worse import JUDGED
-from hexmend.smoothers import METHODS, raised
-from hexmend.smoothers.raised import TOGETHER, lifted
-from hexmend.surface import Sliding
+from hexmend.boundary import Sliding
+from hexmend.optimise.maxmin.slp import Limit, Raising
+from hexmend.quality.regressions import JUDGED
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.mend import maxmin_stage
+from hexmend.smoothers.mend.maxmin_stage import TOGETHER, lifted
 from tests.core.surface.solids import ball, slid
 
 #: Every set of figures that can be worse.
@@ -71,7 +72,7 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
     sliding = Sliding(mesh, room=room)
     other = Raising(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
-    monkeypatch.setattr(raised, "AIM", 0.7)
+    monkeypatch.setattr(maxmin_stage, "AIM", 0.7)
     made, into = [], Raising.into
     monkeypatch.setattr(Raising, "into", lambda *given: (made.append(step.points) or step for step in into(*given)))
     steps = list(lifted(Raising(sliding.mesh, mesh.points, sliding), room, other, limit))
@@ -86,7 +87,7 @@ def test_what_is_better_off_the_surface_and_back_in_its_room_is_taken(monkeypatc
     sliding = Sliding(mesh, room=room)
     other, off = (Raising(sliding.mesh, mesh.points, sliding) for _ in range(2))
     limit = Limit(other.corners.least, np.array([0]), np.array([0]))
-    monkeypatch.setattr(raised, "AIM", 0.3)
+    monkeypatch.setattr(maxmin_stage, "AIM", 0.3)
     walk = lifted(off, room, other, limit)
     while True:
         try:

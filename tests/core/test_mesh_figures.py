@@ -8,11 +8,11 @@ import pytest
 from hexmend.errors import HexmendError
 from hexmend.quality import summarise
 from hexmend.report import write_study
-from hexmend.study import mesh_figures
-from hexmend.study.experiments import load
-from hexmend.study.measured import Measured
-from hexmend.study.mesh_figures import MESH_FIGURES, draw_figures
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
+from hexmend.study.thesis import mesh_figures
+from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiments import load
+from hexmend.study.thesis.mesh_figures import MESH_FIGURES, draw_figures
 
 
 class Joined:

@@ -11,11 +11,11 @@ import pytest
 
 import hexmend as hx
 from hexmend.errors import MeshError
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.mesh import Mesh
-from hexmend.mesh_checks import as_hexes
-from hexmend.mesh_limits import MOST_HEXES, MOST_NODES
-from hexmend.topology import Topology
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.size_limits import MOST_HEXES, MOST_NODES
+from hexmend.mesh.topology import Topology
+from hexmend.mesh.validation import as_hexes
 from tests.core.grids import grid
 
 ONE = np.arange(8)[None]

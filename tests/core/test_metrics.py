@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA, DIAGONALS, EDGES, FACES, UNIT_CUBE
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, DIAGONALS, EDGES, FACES, UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, measure, spreads
-from hexmend.quality.spread import Spread
+from hexmend.quality.statistics import Spread
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]

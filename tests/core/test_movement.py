@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.movement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Moment, Movement
+from hexmend.boundary.displacement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Moment, Movement
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 from tests.core.surface.solids import slid

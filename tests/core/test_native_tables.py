@@ -1,10 +1,10 @@
-"""The kernels number the reference hexahedron as `hexmend.hexahedron` does."""
+"""The kernels number the reference hexahedron as `hexmend.mesh.hexahedron` does."""
 
 import numpy as np
 import pytest
 
-from hexmend import hexahedron
 from hexmend.kernels import hexahedron as native
+from hexmend.mesh import hexahedron
 
 
 @pytest.mark.parametrize("table", ["CORNER_TETRAHEDRA", "EDGES", "DIAGONALS", "FACES", "UNIT_CUBE"])

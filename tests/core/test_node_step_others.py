@@ -10,9 +10,9 @@ from hexmend.gallery import make
 from hexmend.node_step import Verdict, explain
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.getme import GETMe
-from hexmend.smoothers.laplacian import Laplacian
-from hexmend.smoothers.smart_laplacian import SmartLaplacian
+from hexmend.smoothers.getme.simultaneous import GETMe
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
 from tests.core.grids import grid, scrambled
 from tests.core.node_steps import GLOBAL, OTHERS, after, patch_energy
 

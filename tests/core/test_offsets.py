@@ -4,8 +4,8 @@ import pytest
 
 from hexmend.gallery import make
 from hexmend.io import write
-from hexmend.study.experiments import Experiment, Experiments
-from hexmend.study.offsets import OFFSETS
+from hexmend.study.bench.offsets import OFFSETS
+from hexmend.study.thesis.experiments import Experiment, Experiments
 
 
 @pytest.fixture
@@ -15,7 +15,7 @@ def small(monkeypatch):
         "4.5", "FiveSide4", "five-side", 500, 500, 0, 0, 0, "initial", ("initial", "global-nr"),
         {"initial": {}, "global-nr": {"q_mean": 0.8445, "q_norm": 0.8315}},
     )  # fmt: skip
-    monkeypatch.setattr("hexmend.study.offsets.load", lambda: Experiments((experiment, experiment), {}, {}))
+    monkeypatch.setattr("hexmend.study.bench.offsets.load", lambda: Experiments((experiment, experiment), {}, {}))
 
 
 def test_each_mesh_is_one_row_beside_the_thesis(small, monkeypatch, tmp_path):

@@ -9,15 +9,15 @@ from hexmend.energy import AdaptiveDelta, FixedDelta, MeshEnergy
 from hexmend.gallery import make
 from hexmend.kernels import symmetric
 from hexmend.optimise import descent
-from hexmend.optimise.direction import (
+from hexmend.optimise.line_search import BackLineSearch
+from hexmend.optimise.linear_solvers import ConjugateGradients, Minres
+from hexmend.optimise.search_direction import (
     ModifiedNewton,
     Newton,
     TruncatedNewton,
     extreme_eigenvalues,
     steepest_descent,
 )
-from hexmend.optimise.line_search import BackLineSearch
-from hexmend.optimise.linear import ConjugateGradients, Minres
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 

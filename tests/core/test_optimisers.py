@@ -8,7 +8,7 @@ from hexmend.gallery import make
 from hexmend.kernels import local
 from hexmend.run import Stop, iterate, smooth
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.optimiser import Objective, Optimiser
+from hexmend.smoothers.base_optimiser import Objective, Optimiser
 from tests.core.grids import grid, scrambled
 
 OBJECTIVES = sorted(name for name, cls in METHODS.items() if issubclass(cls, Objective))

@@ -13,9 +13,9 @@ from hexmend.kernels import local
 from hexmend.node_step import Sweep
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.laplacian import Laplacian
-from hexmend.smoothers.local_descent import LocalDescent
-from hexmend.smoothers.order import ORDERS, Visits
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.local.single_node import LocalDescent
+from hexmend.smoothers.visit_order import ORDERS, Visits
 from tests.core.grids import grid, scrambled
 
 LOCAL = [name for name, method in METHODS.items() if issubclass(method, LocalDescent)]

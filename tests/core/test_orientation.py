@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.hexahedron import FACES
-from hexmend.mesh import Mesh
-from hexmend.orientation import TURNED_CORNERS, mirrored_parts, parts_of, turned, upright
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import TURNED_CORNERS, mirrored_parts, parts_of, turned, upright
 from hexmend.quality import corner_determinants
 from tests.core.grids import grid
 

@@ -12,12 +12,12 @@ from hexmend.gallery import GALLERY
 from hexmend.quality import Summary
 from hexmend.report import write_outlook, write_study
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.order import ORDERS
-from hexmend.study.experiments import Experiments, load
-from hexmend.study.outlook import NEAR, Outlook, Point, Tried, Variant, try_outlook
-from hexmend.study.outlook_claims import OUTLOOK_CLAIMS, from_the_boundary, middle_ground
-from hexmend.study.row import Row
-from hexmend.study.thesis import chosen_tables, run_experiments
+from hexmend.smoothers.visit_order import ORDERS
+from hexmend.study.outlook.claims import OUTLOOK_CLAIMS, from_the_boundary, middle_ground
+from hexmend.study.outlook.experiments import NEAR, Outlook, Point, Tried, Variant, try_outlook
+from hexmend.study.table_row import Row
+from hexmend.study.thesis.experiments import Experiments, load
+from hexmend.study.thesis.runner import chosen_tables, run_experiments
 
 THESIS = load()
 TINY = Outlook(
@@ -108,7 +108,7 @@ def test_sections_are_chosen_like_tables():
 
 def test_the_command_runs_a_section(tmp_path, capsys, monkeypatch):
     small = replace(THESIS, outlooks=(TINY,))
-    monkeypatch.setattr("hexmend.study.experiments.load", lambda: small)
+    monkeypatch.setattr("hexmend.study.thesis.experiments.load", lambda: small)
     assert main(["study", "thesis", "--quick", "--only", "5.2.5", "-o", str(tmp_path)]) == 0
     assert "Section 5.2.5, bridge-sharp: section-5.2.5-bridge-sharp.md" in capsys.readouterr().out
 

@@ -11,12 +11,12 @@ from hexmend import kernels
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
 from hexmend.kernels import large_patches
-from hexmend.mesh import Mesh
-from hexmend.patches import grown
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.patches import grown
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.local_patch import LocalPatch
+from hexmend.smoothers.local.patch import LocalPatch
 from tests.core.grids import grid, scrambled
 
 SIZES = st.sampled_from([1, 2, 8, 27])

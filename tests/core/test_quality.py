@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
 from hexmend.energy import Power, energies, objective
-from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants, corner_qualities, locked, measure, summarise
 from tests.core.grids import grid, scrambled
 

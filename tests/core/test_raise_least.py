@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hexmend.optimise.raising import Limit, Raised
-from hexmend.smoothers.raised import TOGETHER, raise_least
+from hexmend.optimise.maxmin.slp import Limit, Raised
+from hexmend.smoothers.mend.maxmin_stage import TOGETHER, raise_least
 
 NOTHING = np.empty(0, np.int64)
 

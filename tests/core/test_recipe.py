@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend import io
 from hexmend.errors import FileError, ParameterError
-from hexmend.optimise import Stop
+from hexmend.iteration import Stop
 from hexmend.parameters import declared
-from hexmend.recipe import Recipe, Stage, from_toml, to_toml
+from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
+from hexmend.run.recipe_files import read_recipe, write_recipe
 from hexmend.smoothers import METHODS
 
 HEAD = 'format = 2\ntitle = "T"\n'
@@ -69,10 +69,10 @@ def test_a_surface_tolerance_of_0_was_no_limit_in_the_first_format(number, writt
 
 def test_a_file_is_written_and_read(tmp_path):
     path, recipe = tmp_path / "two.toml", Recipe.of("getme", Stage(METHODS["mend"](p=3), Stop(max_iterations=7)))
-    io.write_recipe(path, recipe)
-    assert io.read_recipe(path) == recipe
+    write_recipe(path, recipe)
+    assert read_recipe(path) == recipe
     path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))  # as some editors leave it
-    assert io.read_recipe(path) == recipe
+    assert read_recipe(path) == recipe
 
 
 def test_limits_go_to_every_stage():
@@ -119,7 +119,7 @@ def test_what_is_wrong_is_said_with_its_place(text, said, tmp_path):
     path = tmp_path / "wrong.toml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(FileError) as error:
-        io.read_recipe(path)
+        read_recipe(path)
     assert str(error.value).startswith("wrong.toml: ")
     assert said in str(error.value)
 
@@ -127,11 +127,11 @@ def test_what_is_wrong_is_said_with_its_place(text, said, tmp_path):
 def test_files_that_are_no_text_are_said(tmp_path):
     (tmp_path / "mesh.toml").write_bytes(b"format = 1\n\xff\xfe")
     with pytest.raises(FileError, match="line 2 holds bytes that are not UTF-8"):
-        io.read_recipe(tmp_path / "mesh.toml")
+        read_recipe(tmp_path / "mesh.toml")
     with pytest.raises(FileError, match="is a folder: expected a recipe"):
-        io.read_recipe(tmp_path)
+        read_recipe(tmp_path)
     with pytest.raises(FileError, match=r"no such file .* Did you mean mesh.toml"):
-        io.read_recipe(tmp_path / "mash.toml")
+        read_recipe(tmp_path / "mash.toml")
 
 
 def test_the_recipe_of_the_docs_is_one():

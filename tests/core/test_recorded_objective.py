@@ -7,15 +7,15 @@ import pytest
 
 from hexmend.energy import Power, energies
 from hexmend.gallery import make
-from hexmend.optimise import Outcome, Stop
-from hexmend.optimise.figures import objective_changes
+from hexmend.iteration import Outcome, Stop
+from hexmend.iteration.figures import objective_changes
 from hexmend.quality import measure, objective
-from hexmend.recipe import Recipe, Stage
 from hexmend.report import comparison_rows, table_of
 from hexmend.report.run_figures import write_convergence
 from hexmend.run import iterate, smooth
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.optimiser import Objective
+from hexmend.smoothers.base_optimiser import Objective
 from hexmend.study.compare import compare
 
 OPTIMISERS = [name for name, cls in METHODS.items() if issubclass(cls, Objective)]

@@ -8,8 +8,8 @@ import pytest
 
 from hexmend.errors import ParameterError
 from hexmend.gallery import make
-from hexmend.optimise import Outcome, Step
-from hexmend.optimise.figures import HISTORY
+from hexmend.iteration import Outcome, Step
+from hexmend.iteration.figures import HISTORY
 from hexmend.quality import measure, summarise
 from hexmend.report import record, to_json, write_history, write_json
 from hexmend.run import Stop, iterate, smooth

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from hexmend import io
 from hexmend.cli.main import main
 from hexmend.gallery import GALLERY, make
-from hexmend.optimise import Stop
+from hexmend.iteration import Stop
 from hexmend.quality import FIGURES, JUDGED, measure
-from hexmend.recipe import Recipe, Stage, from_toml, to_toml
 from hexmend.run import iterate, smooth
+from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 from tests.core.test_mend import with_locked_corner

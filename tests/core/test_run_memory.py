@@ -9,11 +9,11 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.main import main
-from hexmend.recipe import Recipe
 from hexmend.run.memory import FIXED, available, needed, shortage
+from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
-from hexmend.study.memory import taken
-from hexmend.study.thesis import planned
+from hexmend.study.bench.memory import taken
+from hexmend.study.thesis.runner import planned
 
 MEBIBYTE = 1 << 20
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody says what is free, or what is held")
@@ -176,7 +176,7 @@ def test_a_study_is_refused_before_it_begins(tmp_path):
 
 
 def test_every_table_of_the_thesis_has_its_methods_planned():
-    from hexmend.study.experiments import load
+    from hexmend.study.thesis.experiments import load
 
     thesis = load()
     for quick in (True, False):

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from hexmend.gallery import make
-from hexmend.mesh import Mesh
-from hexmend.optimise import Outcome, Stop
-from hexmend.recipe import Recipe, Stage
+from hexmend.iteration import Outcome, Stop
+from hexmend.mesh.mesh import Mesh
 from hexmend.report import record, to_json
 from hexmend.run import iterate, smooth
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 

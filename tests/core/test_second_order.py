@@ -10,11 +10,11 @@ from hypothesis.extra.numpy import arrays
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_PLACES, PLACES, following, jacobians
+from hexmend.mesh.shape_functions import lagrange, serendipity
 from hexmend.quality import summarise_second_order
-from hexmend.second_order import MID_PLACES, PLACES, following, jacobians
-from hexmend.shape_functions import lagrange, serendipity
 from tests.core.grids import grid
 
 every_function = pytest.mark.parametrize(("functions", "width"), [(serendipity, 20), (lagrange, 27)])

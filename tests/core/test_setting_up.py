@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from hexmend.optimise import Outcome
+from hexmend.iteration import Outcome
 from hexmend.run import Stop, smooth
-from hexmend.smoothers import METHODS, local_descent
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.local import single_node
 from tests.core.grids import grid, scrambled
 
 
@@ -13,12 +14,12 @@ def test_the_order_of_visits_is_worked_out_before_the_first_step(monkeypatch):
     """So that it counts as set-up, and every sweep takes the same time."""
     asked = []
 
-    class Visits(local_descent.Visits):
+    class Visits(single_node.Visits):
         def groups(self, points, sweep):
             asked.append(sweep)
             return super().groups(points, sweep)
 
-    monkeypatch.setattr(local_descent, "Visits", Visits)
+    monkeypatch.setattr(single_node, "Visits", Visits)
     steps = METHODS["local-sd"]().steps(scrambled(grid(3), 0.2))
     next(steps)
     assert asked == [0]

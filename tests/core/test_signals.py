@@ -24,11 +24,11 @@ sys.exit(main(sys.argv[1:]))
 SLOW_TO_WRITE = """
 import signal, sys, time
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
-from hexmend.cli.interrupts import FinishesWriting
+from hexmend.cli.command.interrupts import FinishesWriting
 from hexmend.cli.main import main
-from hexmend.io import vtu
+import hexmend.io
 FinishesWriting.grace = 0.1
-from hexmend.io.format import FORMATS
+from hexmend.io.base.format import FORMATS
 whole = FORMATS["vtu"].write
 def write(path, mesh, encoding):
     whole(path, mesh, encoding)
@@ -100,7 +100,7 @@ def test_a_program_that_is_killed_while_writing_leaves_the_old_file_whole(mesh):
 def test_a_file_that_replaces_another_has_its_mode_from_the_first_byte(mesh, tmp_path):
     mesh.chmod(0o600)
     seen = []
-    from hexmend.io.atomic import replacing
+    from hexmend.io.storage.atomic import replacing
 
     with replacing(mesh) as temporary:
         seen.append(stat.S_IMODE(os.stat(temporary).st_mode))

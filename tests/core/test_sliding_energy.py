@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.boundary import Kind, Sliding
 from hexmend.energy import Power, SlidingEnergy
-from hexmend.surface import Kind, Sliding
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid
 

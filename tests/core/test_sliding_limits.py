@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.boundary import Sliding, surface_change
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS
-from hexmend.surface import Sliding, surface_change
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid, wavy
 

@@ -10,13 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend import io
+from hexmend.boundary import Kind, Skin, Sliding, surface_change
+from hexmend.boundary.closest_point import triangulated
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
-from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop, smooth
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from hexmend.surface import Kind, Skin, Sliding, surface_change
-from hexmend.surface.trees import triangulated
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid, wavy
 

@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
+from hexmend.boundary import Sliding
 from hexmend.smoothers import METHODS
-from hexmend.surface import Sliding
 from tests.core.surface.solids import ball, slid
 
 

@@ -10,18 +10,18 @@ from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
 from hexmend import io, kernels
+from hexmend.boundary import Kind, Sliding, freed_by_sliding, surface_change
 from hexmend.cli.main import main
 from hexmend.energy import SQUARES
+from hexmend.iteration import Outcome
 from hexmend.kernels import local
 from hexmend.kernels import sliding as on_surface
-from hexmend.mesh import Mesh
-from hexmend.optimise import Outcome
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import locked, measure
-from hexmend.recipe import Recipe, Stage
 from hexmend.report import record
 from hexmend.run import Stop, iterate, smooth
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from hexmend.surface import Kind, Sliding, freed_by_sliding, surface_change
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid, wavy
 

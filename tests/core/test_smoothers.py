@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from hexmend.gallery import make
 from hexmend.quality import measure
 from hexmend.run import Stop, smooth
-from hexmend.smoothers.laplacian import Laplacian
-from hexmend.smoothers.local_sd import LocalSteepestDescent
-from hexmend.smoothers.smart_laplacian import SmartLaplacian
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from tests.core.grids import grid, scrambled
 
 

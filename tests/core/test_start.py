@@ -20,7 +20,7 @@ HEAVY = {
     "numba": "", "llvmlite": "",
     "PySide6": "", "vtkmodules": "", "pyvista": "",
 }  # fmt: skip
-NUMERICAL = {"numpy", "hexmend.kernels", "hexmend.mesh", *HEAVY}
+NUMERICAL = {"numpy", "hexmend.kernels", "hexmend.mesh.mesh", *HEAVY}
 RUNNING = {"hexmend.smoothers", "hexmend.energy", "hexmend.run"}
 PROGRAM = """
 import sys

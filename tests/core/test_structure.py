@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.gallery import make
-from hexmend.hexahedron import EDGES, FACES
-from hexmend.mesh import Mesh
-from hexmend.structure import structure
-from hexmend.topology import Topology
+from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.structure import structure
+from hexmend.mesh.topology import Topology
 from tests.core.grids import grid
 from tests.core.test_topology import closed, loose
 

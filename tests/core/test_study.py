@@ -11,11 +11,11 @@ from hexmend.errors import HexmendError, ParameterError
 from hexmend.gallery import GALLERY
 from hexmend.report import plots, write_experiment, write_study
 from hexmend.smoothers import METHODS
-from hexmend.study import mesh_figures
 from hexmend.study.claims import CLAIMS
-from hexmend.study.experiments import INITIAL, load
-from hexmend.study.outlook_claims import OUTLOOK_CLAIMS
-from hexmend.study.thesis import chosen_tables, run_experiments
+from hexmend.study.outlook.claims import OUTLOOK_CLAIMS
+from hexmend.study.thesis import mesh_figures
+from hexmend.study.thesis.experiments import INITIAL, load
+from hexmend.study.thesis.runner import chosen_tables, run_experiments
 
 THESIS = load()
 

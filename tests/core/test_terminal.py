@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from hexmend.cli import terminal
+from hexmend.cli.command import terminal
 
 
 class Stream:

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from hexmend.smoothers.tangled import locked_corners
-from hexmend.smoothers.told import what_is_left, what_sliding_freed
+from hexmend.smoothers.mend.inversion import locked_corners
+from hexmend.smoothers.mend.messages import what_is_left, what_sliding_freed
 from tests.core.grids import grid
 
 

@@ -8,8 +8,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from hexmend.errors import MeshError
-from hexmend.mesh import Mesh
-from hexmend.topology import Topology
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import Topology
 from tests.core.grids import grid
 
 SIZES = st.tuples(*[st.integers(1, 4)] * 3)

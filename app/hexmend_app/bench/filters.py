@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.gallery import make
-from hexmend.study.section import Section, peak_mb
+from hexmend.study.bench.section import Section, peak_mb
 from hexmend_app.bench.windows import draw, measured, report, turning_ms
 
 if TYPE_CHECKING:

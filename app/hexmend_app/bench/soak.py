@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hexmend.study.section import resident_mb
+from hexmend.study.bench.section import resident_mb
 from hexmend_app.bench.windows import draw, end_run, save_and_wait, turn, until
 
 if TYPE_CHECKING:
@@ -186,8 +186,8 @@ def _look_around(window: Window) -> None:
 
 
 def _smooth(window: Window, method: str) -> None:
-    from hexmend.recipe import Stage
     from hexmend.run import Stop
+    from hexmend.run.recipe import Stage
     from hexmend.smoothers import METHODS
 
     smoothing, errors = window.session.smoothing, []

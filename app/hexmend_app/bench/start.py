@@ -14,7 +14,7 @@ from statistics import median
 from typing import Any
 
 from hexmend.errors import HexmendError
-from hexmend.study.section import Section
+from hexmend.study.bench.section import Section
 
 _TIMES = 5
 _PATIENCE = 120.0  # seconds for a start

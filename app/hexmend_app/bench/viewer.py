@@ -12,7 +12,7 @@ import numpy as np
 
 from hexmend.errors import HexmendError
 from hexmend.gallery import make
-from hexmend.study.section import Section
+from hexmend.study.bench.section import Section
 from hexmend_app.bench.windows import draw, end_run, measured, report, turn
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def _while_running(window: Window) -> dict[str, Any]:
     from PySide6.QtCore import QTimer
 
     from hexmend.run import Stop
-    from hexmend.smoothers.local_sd import LocalSteepestDescent
+    from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 
     window.session.document.preview(window.session.document.start)
     window.session.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))

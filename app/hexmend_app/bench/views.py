@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.gallery import make
-from hexmend.study.section import Section
+from hexmend.study.bench.section import Section
 from hexmend_app.bench.windows import draw, measured, report, turn, turning_ms
 
 if TYPE_CHECKING:

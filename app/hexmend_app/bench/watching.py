@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.gallery import make
-from hexmend.study.section import Section
+from hexmend.study.bench.section import Section
 from hexmend_app.bench.windows import draw, measured, report, turn
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def _row(window: Window) -> dict[str, Any]:
 def _run(window: Window, iterations: int) -> float:
     """Make iterations of the fastest method, which fills the history soonest; seconds."""
     from hexmend.run import Stop
-    from hexmend.smoothers.laplacian import Laplacian
+    from hexmend.smoothers.laplacian.laplacian import Laplacian
 
     began = perf_counter()
     window.session.smoothing.start(Laplacian(), Stop(tolerance=0, max_iterations=iterations))
@@ -74,7 +74,7 @@ def _scrub(window: Window, numbers: np.ndarray) -> float:
 def _stop(window: Window) -> tuple[float, float]:
     """Milliseconds from the wish to stop local-sd to its end, and those of one iteration."""
     from hexmend.run import Stop
-    from hexmend.smoothers.local_sd import LocalSteepestDescent
+    from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 
     window.session.document.preview(window.session.document.start)
     window.session.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from hexmend.errors import HexmendError
 
 if TYPE_CHECKING:
-    from hexmend.mesh import Mesh
+    from hexmend.mesh.mesh import Mesh
     from hexmend_app.shell.window import Window
     from hexmend_app.state.session import Session
 

@@ -10,10 +10,10 @@ import numpy as np
 from PIL import Image
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend.hexahedron import EDGES
-from hexmend.io.atomic import replacing
-from hexmend.mesh import Mesh
-from hexmend.study.mesh_figures import MeshFigure
+from hexmend.io.storage.atomic import replacing
+from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.mesh import Mesh
+from hexmend.study.thesis.mesh_figures import MeshFigure
 from hexmend_app.scene.camera.pose import Pose
 from hexmend_app.scene.export.layout import Layout
 from hexmend_app.scene.export.rasters import aim

@@ -38,11 +38,11 @@ class Film:
         add_force(parser)
 
     def run(self, args: argparse.Namespace) -> int:
+        from hexmend.boundary.displacement import Moment, Movement
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import chosen
         from hexmend.cli.command.progress import follow
         from hexmend.io import read
-        from hexmend.movement import Moment, Movement
         from hexmend.run import iterate
         from hexmend_app.scene.graphics import prepare_off_screen
 

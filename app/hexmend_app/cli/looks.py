@@ -12,7 +12,7 @@ from hexmend_app.cli import clip
 from hexmend_app.cli.numbers import direction, span, wrong
 
 if TYPE_CHECKING:
-    from hexmend.mesh import Mesh
+    from hexmend.mesh.mesh import Mesh
     from hexmend_app.state.look import Look, Structure
     from hexmend_app.state.scene import Colours, Scene
 

@@ -55,7 +55,7 @@ class Render:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.io import read
-        from hexmend.io.atomic import check_writable
+        from hexmend.io.storage.atomic import check_writable
 
         scene = _scene(args)
         scene.panels_of(len(args.mesh))  # what is wrong is said before the work, not after
@@ -124,7 +124,7 @@ def _camera(text: str, scene: Scene, paths: Sequence[str]) -> Camera:
 
 def _kept(paths: Sequence[str]) -> dict[str, Camera]:
     """The cameras of the sessions among some meshes; of one name, that of the first."""
-    from hexmend.io.session import SUFFIX
+    from hexmend.io.formats.session import SUFFIX
     from hexmend_app.state.scene.kept_cameras import cameras_of
 
     found: dict[str, Camera] = {}

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from hexmend_app.cli import looks
 
 if TYPE_CHECKING:
-    from hexmend.recipe import Recipe
     from hexmend.run import Stop
+    from hexmend.run.recipe import Recipe
     from hexmend.smoothers import Smoother
     from hexmend_app.state.scene import Scene
 
@@ -41,7 +41,7 @@ def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], Stop]:
     from hexmend.cli.command.limits import given_limits, limits
     from hexmend.cli.command.method import with_boundary
     from hexmend.smoothers import DEFAULT_METHOD
-    from hexmend.study.chosen import chosen, split
+    from hexmend.study.method_spec import chosen, split
 
     text = args.methods or DEFAULT_METHOD
     named = [] if text == NONE else split(text)

@@ -24,10 +24,10 @@ class Soak:
         parser.add_argument("--json", metavar="FILE", help="write the figures of every round")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.interrupts import EndsAfterIteration, FinishesWriting
+        from hexmend.cli.command.interrupts import EndsAfterIteration, FinishesWriting
         from hexmend.errors import HexmendError
         from hexmend.report import write_json
-        from hexmend.study.section import resident_mb
+        from hexmend.study.bench.section import resident_mb
         from hexmend_app.cli.numbers import numbers
         from hexmend_app.resources import demo_mesh
         from hexmend_app.shell.display import check_display

@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.carry import KINDS, WIDTHS
-from hexmend.io.cgns import ADF
-from hexmend.io.cgns_reader import JOINED_BY
-from hexmend.io.cgns_structured import hexes_between
-from hexmend.io.child import in_child
-from hexmend.io.content import Block, Content, joined, to_mesh
-from hexmend.io.format import Format
-from hexmend.mesh import Mesh
+from hexmend.io.base.content import Block, Content, joined, to_mesh
+from hexmend.io.base.format import Format
+from hexmend.io.formats.cgns import ADF
+from hexmend.io.formats.cgns.reader import JOINED_BY
+from hexmend.io.formats.cgns.structured import hexes_between
+from hexmend.io.formats.vtk.grid import KINDS, WIDTHS
+from hexmend.io.storage.subprocess_reader import in_child
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.formats.adf_links import check_links
 
 

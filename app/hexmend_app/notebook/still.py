@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from io import BytesIO
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 
 
 def still(mesh: Mesh, size: tuple[int, int]) -> bytes:

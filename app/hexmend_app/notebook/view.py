@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from hexmend.errors import HexmendError
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, Metric, measure
 
 

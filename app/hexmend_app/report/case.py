@@ -11,18 +11,18 @@ from time import perf_counter
 from typing import Any
 
 from hexmend.advice import Advice, advise
-from hexmend.energy.power import SQUARES, Power
+from hexmend.energy.norm import SQUARES, Power
 from hexmend.errors import FileError
 from hexmend.figures import printable
 from hexmend.io import read
-from hexmend.mesh import Mesh
-from hexmend.optimise import Result, Stop
+from hexmend.iteration import Result, Stop
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
-from hexmend.recipe import Recipe
 from hexmend.run import Run
+from hexmend.run.recipe import Recipe
 from hexmend.signal_guard import uninterrupted
 from hexmend.smoothers import Smoother
-from hexmend.study.row import Row, Watch, common_power, initial_record, run_one
+from hexmend.study.table_row import Row, Watch, common_power, initial_record, run_one
 
 #: What the mesh as it was given is called.
 INITIAL = "initial"

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from math import ceil, sqrt
 from pathlib import Path
 
+from hexmend.boundary.displacement import MOVEMENTS
 from hexmend.errors import ParameterError
-from hexmend.movement import MOVEMENTS
 from hexmend.report import comparison_rows, comparison_table, write_documents
 from hexmend.report.run_figures import write_convergence, write_distributions
 from hexmend.report.tables import Table

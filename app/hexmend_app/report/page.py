@@ -12,10 +12,10 @@ from typing import Any
 
 from hexmend import __version__
 from hexmend.figures import count, printable, quality, significant
-from hexmend.io.atomic import replacing
+from hexmend.io.storage.atomic import replacing
 from hexmend.report.tables import Table
-from hexmend.study.bench import machine
-from hexmend.study.row import Row
+from hexmend.study.bench.sections import machine
+from hexmend.study.table_row import Row
 from hexmend_app.report import hypertext as html
 from hexmend_app.report.case import Case, Version, command_line
 from hexmend_app.report.figure_set import Style, table_of, write_behind, write_figures

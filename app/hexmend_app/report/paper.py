@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.errors import HexmendError
-from hexmend.io.atomic import replacing
+from hexmend.io.storage.atomic import replacing
 
 
 def write_paper(path: Path, text: str) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, Metric, measure
 from hexmend_app.resources import resource
 from hexmend_app.scene.colours import INVERTED, MAPS, table

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hexmend.movement import MOVEMENTS
+from hexmend.boundary.displacement import MOVEMENTS
 from hexmend.quality import METRICS
 from hexmend_app.scene.camera.directions import direction_of
 from hexmend_app.state.scene import Camera, Colours, Cut, Plane

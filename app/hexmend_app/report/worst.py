@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.boundary import freed_by_sliding
 from hexmend.figures import count, quality
-from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, corner_determinants, locked, worst
 from hexmend.report.tables import Table
-from hexmend.surface import freed_by_sliding
 
 #: Hexes that are told of one by one.
 MOST = 12

@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from hexmend.movement import MOVEMENTS, NOTHING, named
+from hexmend.boundary.displacement import MOVEMENTS, NOTHING, named
 from hexmend_app.resources import resource
 from hexmend_app.scene.palette import INVERTED as MAGENTA
 from hexmend_app.scene.values import better, declared_range

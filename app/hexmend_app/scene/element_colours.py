@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.movement import MOVEMENTS
+from hexmend.boundary.displacement import MOVEMENTS
 from hexmend_app.scene.colours import Colouring, fitted, resolve
 from hexmend_app.scene.frame import Frame
 from hexmend_app.state.measured import values

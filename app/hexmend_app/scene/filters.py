@@ -7,7 +7,7 @@ from functools import reduce
 
 import numpy as np
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene import sides
 from hexmend_app.scene.cutting import cut

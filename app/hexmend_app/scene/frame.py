@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexmend.mesh import Mesh
-from hexmend.movement import Movement
+from hexmend.boundary.displacement import Movement
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.state.look import Look
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.scene.arrangement import Arrangement
 from hexmend_app.scene.camera.eye import Eye

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import sides
-from hexmend.mesh_checks import as_hexes, as_points, real_numbers
+from hexmend.mesh.validation import as_hexes, as_points, real_numbers
 
 
 def centres_kept(

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.kernels import skin
-from hexmend.mesh import Mesh
-from hexmend.mesh_checks import as_bools, as_points, check_node_numbers
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import as_bools, as_points, check_node_numbers
 
 #: Elements up to which all are drawn where they are shrunk; of more, those in sight. So many take 50 ms a frame without
 #: a graphics card.

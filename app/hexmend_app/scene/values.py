@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.movement import named
+from hexmend.boundary.displacement import named
 from hexmend.quality import METRICS
 from hexmend_app.state.look import RangeMode, ValueRange
 

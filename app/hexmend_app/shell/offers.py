@@ -10,10 +10,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QLineEdit, QSlider, QWidget
 
-from hexmend.movement import MOVEMENTS
+from hexmend.boundary.displacement import MOVEMENTS
 from hexmend.quality import METRICS
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel
 from hexmend_app.shell.docks import Docks

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.recipe import Recipe, Stage
+from hexmend.run.recipe import Recipe, Stage
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.mesh import Mesh
+from hexmend.boundary import Kind, boundary_of, freed_by_sliding, sliding_boundary
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
-from hexmend.surface import Kind, boundary_of, freed_by_sliding, sliding_boundary
 from hexmend_app.state.newest import Newest
 from hexmend_app.state.task import Task
 
@@ -26,7 +26,7 @@ class Classes:
     mesh : Mesh
         Whose it is.
     kinds : (n,) uint8
-        Of each node one of `hexmend.surface.Kind`, `WHISKER` or `PIN`.
+        Of each node one of `hexmend.boundary.Kind`, `WHISKER` or `PIN`.
     locked, freed : int
         Hexes that fixed nodes alone hold in inversion, and how many of them sliding can free.
     """
@@ -42,7 +42,7 @@ class Classes:
 
 
 def node_kinds(mesh: Mesh, degrees: float) -> np.ndarray:
-    """What each node is to the boundary, (n,) uint8: one of `hexmend.surface.Kind`, `WHISKER` or `PIN`.
+    """What each node is to the boundary, (n,) uint8: one of `hexmend.boundary.Kind`, `WHISKER` or `PIN`.
 
     Parameters
     ----------

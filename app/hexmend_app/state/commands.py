@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.fixing import with_pinned, with_region_free
-from hexmend.mesh import Mesh
+from hexmend.mesh.fixing import with_pinned, with_region_free
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.tags import renamed_tag, tagged, without_tag
 from hexmend.quality import summarise
-from hexmend.recipe import Recipe, Stage
 from hexmend.run.memory import Shortage, available, shortage
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend.tags import renamed_tag, tagged, without_tag
 from hexmend_app.state.deeds import Changed, Moved, WentBack, Wrote
 from hexmend_app.state.document import State
 

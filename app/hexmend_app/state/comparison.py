@@ -12,7 +12,7 @@ from hexmend.quality import measure
 from hexmend.run import Run, Stop
 from hexmend.smoothers import Smoother
 from hexmend.study import compare
-from hexmend.study.row import Row, run_one
+from hexmend.study.table_row import Row, run_one
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.task import Task
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hexmend.movement import Movement
+from hexmend.boundary.displacement import Movement
 from hexmend_app.state.document import State
 from hexmend_app.state.record import Record
 

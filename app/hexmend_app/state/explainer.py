@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import NodeStep, explain
 from hexmend.smoothers import Smoother
 from hexmend_app.state.newest import Newest

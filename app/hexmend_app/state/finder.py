@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from hexmend.mesh import Mesh
-from hexmend.structure import Structure, structure
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.structure import Structure, structure
 from hexmend_app.state.document import Document
 from hexmend_app.state.task import Task, drop
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh import Mesh
-from hexmend.movement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Movement
+from hexmend.boundary.displacement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Movement
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
 
 #: Those that a movement tells apart.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.doctor import AILMENTS, Finding, repair
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.state.deeds import Changed
 from hexmend_app.state.document import State
 from hexmend_app.state.task import Task, drop

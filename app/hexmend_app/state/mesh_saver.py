@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.io import left_out, write
-from hexmend.io.session import SUFFIX
+from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state import session_data
 from hexmend_app.state.deeds import Saved
 from hexmend_app.state.document import State

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from hexmend.advice import Advice
-from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import State
 

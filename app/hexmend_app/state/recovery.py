@@ -1,6 +1,6 @@
 """The way back after an unexpected end: the session is written beside the window, and found again at the next start.
 
-What is new of it is written each time, into a folder that is whole at any moment (`hexmend.io.session.KeptSession`).
+What is new of it is written each time, into a folder that is whole at any moment (`KeptSession`).
 Every window has a folder of its own below `state_folder`, with a lock that ends with its process. A window that ends in
 order removes its folder; one whose lock nobody holds any more was left by a crash.
 """
@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
 from hexmend.errors import HexmendError
-from hexmend.io.session import KeptSession
-from hexmend.io.temporary_files import flush_folder, make_folder
+from hexmend.io.formats.session import KeptSession
+from hexmend.io.storage.temporary_files import flush_folder, make_folder
 from hexmend_app.state.places import state_folder
 from hexmend_app.state.recovery_folder import (
     ABOUT,

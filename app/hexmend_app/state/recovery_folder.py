@@ -12,9 +12,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QLockFile
 
-from hexmend.io.archive_members import DESCRIPTION
-from hexmend.io.atomic import replacing
-from hexmend.io.session import KeptSession
+from hexmend.io.archive.members import DESCRIPTION
+from hexmend.io.formats.session import KeptSession
+from hexmend.io.storage.atomic import replacing
 from hexmend_app.state import session_data
 from hexmend_app.state.task import Task
 

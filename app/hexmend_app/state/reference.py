@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hexmend.movement import Moment, Movement
+from hexmend.boundary.displacement import Moment, Movement
 from hexmend_app.state import history
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable
 
-from hexmend.mesh import Mesh
-from hexmend.recipe import Recipe, Stage
+from hexmend.mesh.mesh import Mesh
 from hexmend.run import Run, Stop, iterate
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import State
 from hexmend_app.state.history import History, Moment, Record

@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.errors import FileError, HexmendError, ParameterError
 from hexmend.io import read
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Look
 from hexmend_app.state.scene.carried import Carried, Pictured, digest

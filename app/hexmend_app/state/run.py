@@ -11,9 +11,9 @@ from functools import partial
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.advice import Advice
-from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
 from hexmend.run.breakpoints import Breakpoints
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History, Moment, Record

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.io.session import SUFFIX
+from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.cameras import Cameras
 from hexmend_app.state.chain import Chain
 from hexmend_app.state.choices import Choices

@@ -10,13 +10,13 @@ from typing import Any
 
 from hexmend.advice import Advice
 from hexmend.errors import FileError, MeshError
-from hexmend.io.atomic import replacing
-from hexmend.io.session import SUFFIX, KeptSession, is_session, read_session, write_session
-from hexmend.mesh import Mesh
+from hexmend.io.formats.session import SUFFIX, KeptSession, is_session, read_session, write_session
+from hexmend.io.storage.atomic import replacing
+from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
-from hexmend.recipe import without_zero_for_no_limit
 from hexmend.run.breakpoints import Breakpoints
+from hexmend.run.recipe import without_zero_for_no_limit
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.state.chain import ChainData
 from hexmend_app.state.choices import ChoicesData

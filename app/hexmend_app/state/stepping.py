@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.node_step import NodeStep, Sweep
-from hexmend.smoothers.local_descent import LocalDescent
+from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.state.document import Document, State
 
 

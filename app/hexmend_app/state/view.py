@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.movement import MOVEMENTS
+from hexmend.boundary.displacement import MOVEMENTS
 from hexmend.quality import METRICS
 from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, CutLeft, PlaneClip
 from hexmend_app.state.document import Document

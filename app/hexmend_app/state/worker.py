@@ -7,12 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from hexmend.advice import Advice, advise
-from hexmend.mesh import Mesh
-from hexmend.optimise import Iteration, Result
+from hexmend.iteration import Iteration, Result
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
-from hexmend.recipe import Recipe, Stage
 from hexmend.run import Run, Stop, iterate
 from hexmend.run.breakpoints import Breakpoints, Hit
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import State
 from hexmend_app.state.measured import values

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.errors import HexmendError, ParameterError
-from hexmend.io.suffixes import suffix_for
+from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
 from hexmend.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
 from hexmend_app.widgets.parameter_form import ParameterForm

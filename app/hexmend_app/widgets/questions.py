@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox, QWidget
 
 from hexmend.io import readable_suffixes, writable_suffixes
-from hexmend.io.session import SUFFIX
+from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.settings import FOLDER
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from hexmend.advice.rules import RULES
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
-from hexmend.optimise import Outcome, Result
+from hexmend.iteration import Outcome, Result
 from hexmend.quality import worse_in_words
-from hexmend.run.words import kept
+from hexmend.run.messages import kept
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hexmend.advice.situation import Situation
-from hexmend.optimise import Outcome, Stop
-from hexmend.smoothers.optimiser import Optimiser
+from hexmend.iteration import Outcome, Stop
+from hexmend.smoothers.base_optimiser import Optimiser
 
 
 def raised_limits(now: Situation) -> tuple[Stop, str]:

@@ -13,7 +13,7 @@ import numpy as np
 from hexmend.advice.limits import keeping_last, raised_limits
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
-from hexmend.optimise import Outcome, Stop
+from hexmend.iteration import Outcome, Stop
 from hexmend.smoothers import METHODS
 
 Mend, SequentialGETMe, SmartLaplacian = METHODS["mend"], METHODS["getme-sequential"], METHODS["smart-laplacian"]

@@ -6,14 +6,14 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.energy.power import SQUARES
-from hexmend.mesh import Mesh
-from hexmend.optimise import Outcome, Result, Stop
+from hexmend.boundary import freed_by_sliding
+from hexmend.boundary.features import DEGREES
+from hexmend.energy.norm import SQUARES
+from hexmend.iteration import Outcome, Result, Stop
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure, objective
 from hexmend.quality.measure import locked
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.surface import freed_by_sliding
-from hexmend.surface.features import DEGREES
 
 #: Outcomes of a run that did not end by itself.
 CUT_SHORT = frozenset({Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS, Outcome.STOPPED})

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexmend.optimise import Stop
+from hexmend.iteration import Stop
 from hexmend.smoothers import Smoother
 
 

@@ -25,7 +25,7 @@ class Bench:
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.errors import ParameterError
         from hexmend.report import write_json
-        from hexmend.study.bench import machine, sections
+        from hexmend.study.bench.sections import machine, sections
 
         known = sections()
         for name in args.only:

@@ -58,13 +58,13 @@ class Info:
                 answer["doctor"] = [finding.to_dict(FIRST) for finding in examine(mesh)]
             print(to_json(answer))
             return 0
-        from hexmend.cli.tables import print_spreads, print_summaries
+        from hexmend.cli.command.text_tables import print_spreads, print_summaries
         from hexmend.figures import count
 
         print_summaries(args.mesh, [""], [summary])
         if summary.locked_inverted:
+            from hexmend.boundary import freed_by_sliding
             from hexmend.quality import locked
-            from hexmend.surface import freed_by_sliding
 
             which = locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
             freed = int(freed_by_sliding(mesh, which).sum())

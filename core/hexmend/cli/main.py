@@ -17,7 +17,7 @@ import sys
 from contextlib import suppress
 
 from hexmend import __version__
-from hexmend.cli.interrupts import EndsCleanly, exit_interrupted, exit_on_signals
+from hexmend.cli.command.interrupts import EndsCleanly, exit_interrupted, exit_on_signals
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from hexmend.cli.command import Command
 
-_NOT_COMMANDS = {"main", "command", "interrupts", "signal_timer", "tables", "terminal"}
+_NOT_COMMANDS = {"main", "command"}
 
 #: The command that a bare mesh, or nothing, stands for.
 _DEFAULT = "view"

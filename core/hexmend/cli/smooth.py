@@ -6,8 +6,8 @@ import argparse
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hexmend.mesh import Mesh
-    from hexmend.optimise import Result
+    from hexmend.iteration import Result
+    from hexmend.mesh.mesh import Mesh
 
 
 class Smooth:
@@ -39,13 +39,15 @@ class Smooth:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.files import check_targets, say_diagnosis, say_left_out, say_notes
+        from hexmend.cli.command.interrupts import FinishesWriting
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
-        from hexmend.cli.interrupts import FinishesWriting
-        from hexmend.fixing import hexes_of, with_region_free, with_sets_fixed
-        from hexmend.io import read, write_recipe, writer_for
+        from hexmend.io import read, writer_for
+        from hexmend.mesh.fixing import with_region_free, with_sets_fixed
+        from hexmend.quality.selection import hexes_of
         from hexmend.run import iterate
+        from hexmend.run.recipe_files import write_recipe
 
         what, stop = chosen(args)
         write = writer_for(args.output)  # what cannot be written is said before the work, not after
@@ -74,8 +76,8 @@ class Smooth:
 def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) -> None:
     """Write the reports that are asked for, and print what has become of the mesh."""
     from hexmend.advice import advise
-    from hexmend.cli.command.suggested import command_of
-    from hexmend.cli.tables import print_summaries
+    from hexmend.cli.command.suggested_command import command_of
+    from hexmend.cli.command.text_tables import print_summaries
     from hexmend.quality import summarise_second_order
     from hexmend.report import record, write_history, write_json
 

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hexmend.study.measured import Measured
+    from hexmend.study.thesis.experiment_result import Measured
 
 _OF_THE_THESIS = ("--quick", "--max-seconds", "--only", "--force")
 _OF_A_RECIPE = ("--jobs", "--scheduler", "--again", "--write-meshes")
@@ -73,7 +73,7 @@ class Study:
                 raise ParameterError(
                     f"{args.study!r} is no study: expected a recipe, as RECIPE.toml MESH..., or the word thesis"
                 )
-            from hexmend.cli.command.many import study_meshes
+            from hexmend.cli.command.batch_study import study_meshes
 
             return study_meshes(args)
         if args.meshes:
@@ -83,18 +83,18 @@ class Study:
         return self._thesis(args)
 
     def _thesis(self, args: argparse.Namespace) -> int:
+        from hexmend.cli.command.interrupts import FinishesWriting
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
-        from hexmend.cli.interrupts import FinishesWriting
         from hexmend.parameters import from_strings
         from hexmend.report import made_folder, write_experiment, write_outlook, write_study
         from hexmend.report.thesis import VERDICTS
         from hexmend.run import Stop
-        from hexmend.study.bench import machine
-        from hexmend.study.experiments import load
-        from hexmend.study.mesh_figures import draw_figures
-        from hexmend.study.outlook import Tried
-        from hexmend.study.thesis import chosen_tables, planned, run_experiments
+        from hexmend.study.bench.sections import machine
+        from hexmend.study.outlook.experiments import Tried
+        from hexmend.study.thesis.experiments import load
+        from hexmend.study.thesis.mesh_figures import draw_figures
+        from hexmend.study.thesis.runner import chosen_tables, planned, run_experiments
 
         thesis = chosen_tables(load(), args.only) if args.only else load()
         if args.max_seconds is not None:

@@ -12,8 +12,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend.doctor import cells, connection, nodes, winding  # noqa: F401  (they register themselves)
-from hexmend.doctor.ailment import AILMENTS, Ailment, Finding
-from hexmend.mesh import Mesh
+from hexmend.doctor.problem import AILMENTS, Ailment, Finding
+from hexmend.mesh.mesh import Mesh
 
 __all__ = ["AILMENTS", "Ailment", "Finding", "examine", "repair"]
 

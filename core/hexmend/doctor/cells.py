@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.cells import Cells
-from hexmend.doctor.ailment import Ailment, Finding, ailment, counted
-from hexmend.doctor.surgery import collapsed, with_hexes
-from hexmend.hexahedron import EDGES
-from hexmend.mesh import Mesh
+from hexmend.doctor.problem import Ailment, Finding, ailment, counted
+from hexmend.doctor.removal import collapsed, with_hexes
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.mesh import Mesh
 
 #: Which corners of a hex make the six of a wedge where the edges between the other pairs are collapsed: for each pair
 #: of opposite edges of a face, the wedge's corners in the order of VTK.

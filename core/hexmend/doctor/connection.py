@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import NOWHERE, Ailment, Finding, ailment
-from hexmend.hexahedron import FACES
-from hexmend.mesh import Mesh
-from hexmend.orientation import parts_of
+from hexmend.doctor.problem import NOWHERE, Ailment, Finding, ailment
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import parts_of
 
 
 @ailment

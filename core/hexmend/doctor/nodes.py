@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import NOWHERE, Ailment, Finding, ailment, counted
-from hexmend.doctor.surgery import collapsed, used_by_anything, with_nodes
-from hexmend.mesh import Mesh
+from hexmend.doctor.problem import NOWHERE, Ailment, Finding, ailment, counted
+from hexmend.doctor.removal import collapsed, used_by_anything, with_nodes
+from hexmend.mesh.mesh import Mesh
 
 #: Nodes are in one place if they are no further apart than this, in mean edge lengths.
 NEAR = 1e-6

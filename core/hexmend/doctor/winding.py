@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.ailment import NOWHERE, Ailment, Finding, ailment, counted
-from hexmend.hexahedron import FACES, VOXEL_ORDER
-from hexmend.mesh import Mesh
-from hexmend.orientation import mirrored_parts, turned
+from hexmend.doctor.problem import NOWHERE, Ailment, Finding, ailment, counted
+from hexmend.mesh.hexahedron import FACES, VOXEL_ORDER
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import mirrored_parts, turned
 from hexmend.quality import corner_determinants
 
 

@@ -9,15 +9,15 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.arrays import dot
-from hexmend.energy.assembled import Assembled
-from hexmend.energy.couplings import Couplings
-from hexmend.energy.hexahedral import corners_left_out, energies
-from hexmend.energy.operator import SymmetricOperator
-from hexmend.energy.power import SQUARES, Power
+from hexmend.energy.assembled_hessian import Assembled
+from hexmend.energy.hex_energy import corners_left_out, energies
+from hexmend.energy.linear_operator import SymmetricOperator
+from hexmend.energy.norm import SQUARES, Power
+from hexmend.energy.sparsity import Couplings
 from hexmend.kernels import assembly, reach, threads
 from hexmend.kernels import objective as kernels
-from hexmend.mesh import Mesh
-from hexmend.mesh_checks import points_like
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import points_like
 
 
 class MeshEnergy:

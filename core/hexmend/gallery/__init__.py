@@ -9,7 +9,7 @@ import importlib
 import pkgutil
 
 from hexmend.gallery.gallery_mesh import GALLERY, GalleryMesh
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.gallery.blocks import box_hexes
 from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 
 #: The left half of the underside, from its corner to the ridge, in heights of the block's sides; (4, 2). The last two

@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.gallery.blocks import extruded
 from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
 from hexmend.gallery.pentagon import divided, fan, pentagon
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 
 

@@ -10,9 +10,9 @@ import numpy as np
 from hexmend.gallery.aeroplane import PARTS, onto_aeroplane
 from hexmend.gallery.blocks import box_hexes, extruded
 from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import Topology
 from hexmend.parameters import parameter
-from hexmend.topology import Topology
 
 #: Hexes at the scale 1, for which the numbers of cells below are: the thesis's. Of the divisions tried 90 have them. Of
 #: two of these, with 1,000 choices of the lengths below, this one's inverted hexes (162, the thesis's 163) and mean

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import NoReturn
 
 from hexmend.errors import FileError, MeshError
-from hexmend.io.atomic import check_writable, replacing
-from hexmend.io.carried import found_in
-from hexmend.io.content import PLACING
-from hexmend.io.format import FORMATS, Format
-from hexmend.io.further import further
-from hexmend.mesh import Mesh
-from hexmend.orientation import upright
+from hexmend.io.base.capabilities import found_in
+from hexmend.io.base.content import PLACING
+from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.base.plugins import further
+from hexmend.io.storage.atomic import check_writable, replacing
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import upright
 
 
 def read(path: str | os.PathLike[str], *, as_is: bool = False, nodes_without_place: bool = False) -> Mesh:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from functools import singledispatch
 
 from hexmend.errors import MeshError
-from hexmend.mesh import Mesh
-from hexmend.mesh_checks import number
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import number
+from hexmend.node_step.global_step import whole_step
 from hexmend.node_step.local import local_step
+from hexmend.node_step.mean_step import straight_step
 from hexmend.node_step.record import NodeStep, Verdict
-from hexmend.node_step.straight import straight_step
-from hexmend.node_step.whole import whole_step
 from hexmend.smoothers import Smoother
-from hexmend.smoothers.global_descent import GlobalDescent
-from hexmend.smoothers.local_descent import LocalDescent
+from hexmend.smoothers.global_.base import GlobalDescent
+from hexmend.smoothers.local.single_node import LocalDescent
 
 
 def explain(mesh: Mesh, smoother: Smoother, node: int) -> NodeStep:

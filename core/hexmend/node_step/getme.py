@@ -6,17 +6,17 @@ import itertools
 
 import numpy as np
 
+from hexmend.iteration import Step
 from hexmend.kernels.element_step import element_steps
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.explain import explained
+from hexmend.node_step.mean_step import straight_step
 from hexmend.node_step.record import NodeStep, Pull, Verdict
-from hexmend.node_step.straight import straight_step
-from hexmend.optimise import Step
 from hexmend.quality import measure
+from hexmend.smoothers.base import Smoother
 from hexmend.smoothers.general import General
-from hexmend.smoothers.getme import GETMe
-from hexmend.smoothers.getme_sequential import SequentialGETMe
-from hexmend.smoothers.smoother import Smoother
+from hexmend.smoothers.getme.sequential import SequentialGETMe
+from hexmend.smoothers.getme.simultaneous import GETMe
 
 
 @explained.register

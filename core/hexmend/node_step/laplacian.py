@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.kernels import laplacian as kernels
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.explain import explained
+from hexmend.node_step.mean_step import straight_step
 from hexmend.node_step.record import NodeStep, Pull
-from hexmend.node_step.straight import straight_step
-from hexmend.smoothers.laplacian import Laplacian
-from hexmend.smoothers.smart_laplacian import SmartLaplacian
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
 
 
 @explained.register

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.kernels import local
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.patch import Patch, reach_of
 from hexmend.node_step.record import NodeStep, Trial, Verdict
-from hexmend.smoothers.local_descent import LocalDescent
+from hexmend.smoothers.local.single_node import LocalDescent
 
 _VERDICTS = {
     local.MOVED: Verdict.MOVED,

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.energy import Power
 from hexmend.kernels import local
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 
 #: Places at which a curve is drawn, and how far it reaches: so many times the step that was accepted, or a little more
 #: than the first trial.

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from hexmend.kernels import local
-from hexmend.mesh import Mesh
-from hexmend.mesh_checks import number
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import number
 from hexmend.node_step.local import local_step
 from hexmend.node_step.record import NodeStep
-from hexmend.smoothers.local_descent import LocalDescent
-from hexmend.smoothers.order import ORDERS
+from hexmend.smoothers.local.single_node import LocalDescent
+from hexmend.smoothers.visit_order import ORDERS
 
 
 class Sweep(Iterator[NodeStep]):

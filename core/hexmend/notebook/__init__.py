@@ -10,9 +10,9 @@ from collections.abc import Callable
 from typing import Any
 
 from hexmend.errors import HexmendError
-from hexmend.mesh import Mesh
-from hexmend.notebook.tables import of_mesh, of_result
-from hexmend.optimise import Result
+from hexmend.iteration import Result
+from hexmend.mesh.mesh import Mesh
+from hexmend.notebook.html_tables import of_mesh, of_result
 
 __all__ = ["Still", "View", "html", "view"]
 

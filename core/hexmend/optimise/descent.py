@@ -9,8 +9,8 @@ import numpy as np
 from hexmend.arrays import norm
 from hexmend.energy import MeshEnergy, energies
 from hexmend.kernels.reach import shorten
-from hexmend.optimise.direction import Direction, Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
+from hexmend.optimise.search_direction import Direction, Found, steepest_descent
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import binning
-from hexmend.mesh_checks import as_bools, real_numbers
+from hexmend.mesh.validation import as_bools, real_numbers
 
 
 def bin_counts(

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.hexahedron import EDGES
 from hexmend.kernels.objective import gradient
-from hexmend.mesh import Mesh
-from hexmend.mesh_checks import number as checked_number
-from hexmend.mesh_checks import real_numbers
+from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import number as checked_number
+from hexmend.mesh.validation import real_numbers
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure
 from hexmend.quality.metric import METRICS
 

@@ -7,10 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA
 from hexmend.kernels import elements
-from hexmend.mesh_checks import as_bools, as_hexes, as_points
-from hexmend.mesh_fields import members
+from hexmend.mesh.fields import members
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.mesh.validation import as_bools, as_hexes, as_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +60,7 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
 
     Examples
     --------
-    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
     >>> measure(UNIT_CUBE, np.arange(8, dtype=np.int32)[None]).q
     array([1.])
     """
@@ -127,7 +127,7 @@ def corner_qualities(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
 
     Examples
     --------
-    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
     >>> corner_qualities(UNIT_CUBE, np.arange(8)[None])
     array([[1., 1., 1., 1., 1., 1., 1., 1.]])
     """

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.mesh_checks import as_hexes, as_points
+from hexmend.mesh.validation import as_hexes, as_points
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry, load_others
 

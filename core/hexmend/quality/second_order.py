@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.figures import count, quality
-from hexmend.mesh import Mesh
-from hexmend.second_order import jacobians
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import jacobians
 
 
 @dataclass(frozen=True)

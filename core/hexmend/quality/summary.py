@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.figures import Figure, count, quality
 from hexmend.figures import objective as energy
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, locked, measure
 
 
@@ -97,7 +97,7 @@ def summarise(mesh: Mesh, figures: ElementQuality | None = None) -> Summary:
 
     Examples
     --------
-    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
     >>> summarise(Mesh(UNIT_CUBE, [range(8)])).q_norm
     1.0
     """
@@ -135,7 +135,7 @@ def objective(figures: ElementQuality, p: float = 2.0, offset: float = 1.0) -> f
 
     Examples
     --------
-    >>> from hexmend.hexahedron import UNIT_CUBE
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
     >>> figures = measure(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
     >>> objective(figures), objective(figures, p=4.0, offset=0.0)
     (0.0, 1.0)

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Protocol
 
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.figures import printable
-from hexmend.io.atomic import replacing
-from hexmend.io.suffixes import suffix_for
+from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import Parametrised, parameter
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from typing import Any
 
 from hexmend.errors import ParameterError
 from hexmend.figures import Figure, Worse, count, micro, milli, significant
+from hexmend.quality.regressions import JUDGED
 from hexmend.quality.summary import FIGURES
-from hexmend.quality.worse import JUDGED
 from hexmend.report.documents import write_document
 from hexmend.report.tables import Table
 

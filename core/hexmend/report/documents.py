@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import FileError
-from hexmend.io.atomic import replacing
-from hexmend.io.suffixes import suffix_for
-from hexmend.io.temporary_files import make_folder
+from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend.io.storage.temporary_files import make_folder
 from hexmend.report.latex import latex
 from hexmend.report.markdown import markdown
 from hexmend.report.records import write_json

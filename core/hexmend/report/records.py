@@ -7,16 +7,16 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hexmend.io.atomic import replacing
+from hexmend.io.storage.atomic import replacing
 
 if TYPE_CHECKING:
-    from hexmend.optimise import Result
+    from hexmend.iteration import Result
 
 
 def record(result: Result) -> dict[str, Any]:
     """The report of `hexmend smooth --json`; `stages` is there for a recipe alone, `surface` if the boundary slid."""
-    from hexmend.optimise.figures import HISTORY
-    from hexmend.recipe import Recipe
+    from hexmend.iteration.figures import HISTORY
+    from hexmend.run.recipe import Recipe
 
     report = {
         "method": result.method,
@@ -50,7 +50,7 @@ def write_json(path: str | Path, data: Any) -> None:
 
 def write_history(path: str | Path, result: Result) -> None:
     """Write the history as CSV, an empty field where the objective is infinite."""
-    from hexmend.optimise.figures import HISTORY
+    from hexmend.iteration.figures import HISTORY
 
     with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         rows = csv.DictWriter(file, HISTORY, extrasaction="ignore")

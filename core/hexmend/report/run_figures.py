@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hexmend.optimise.figures import HISTORY, objective_changes
+from hexmend.iteration.figures import HISTORY, objective_changes
 from hexmend.report.charts import ChartStyle, write_chart
 from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend.report.histogram import Histogram, Outline

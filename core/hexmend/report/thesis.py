@@ -31,7 +31,7 @@ def write_experiment(folder: Path, experiment: Mapping[str, Any]) -> list[Path]:
     ----------
     folder : Path
     experiment : mapping
-        `hexmend.study.measured.Measured.record`.
+        `hexmend.study.thesis.experiment_result.Measured.record`.
     """
     published = experiment["published"]
     rows = [
@@ -49,7 +49,7 @@ def write_study(folder: Path, study: Mapping[str, Any]) -> list[Path]:
     folder : Path
         Where the tables were written.
     study : mapping
-        `hexmend.study.thesis.Study.record`; where meshes were drawn (`hexmend.study.mesh_figures`), with "figures" and
+        `hexmend.study.thesis.runner.Study.record`; where meshes were drawn, with "figures" and
         "missing".
 
     Raises
@@ -156,7 +156,7 @@ def write_plots(
     ----------
     folder : Path
     study : mapping
-        `hexmend.study.thesis.Study.record`.
+        `hexmend.study.thesis.runner.Study.record`.
     formats : sequence of str
         Suffixes without the dot, of one file each.
 

@@ -8,11 +8,11 @@ from collections.abc import Callable
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.mesh import Mesh
-from hexmend.optimise import Iteration, Result, Stop
+from hexmend.iteration import Iteration, Result, Stop
+from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import declared, hint
-from hexmend.recipe import Recipe
-from hexmend.run.loop import Run
+from hexmend.run.recipe import Recipe
+from hexmend.run.run import Run
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 
 __all__ = ["Run", "Stop", "iterate", "smooth"]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.optimise import Iteration
+from hexmend.iteration import Iteration
 
 
 @dataclass(frozen=True)

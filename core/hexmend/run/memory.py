@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from hexmend.mesh import Mesh
-from hexmend.recipe import Recipe
+from hexmend.mesh.mesh import Mesh
+from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
 
 #: Bytes of every run, however small the mesh: SciPy with its libraries, and what the allocator keeps.

@@ -1,16 +1,17 @@
-"""Smoothers and untanglers: one method a file, each announcing itself in METHODS.
+"""Smoothers and untanglers: one module a method, each of which registers itself in METHODS.
 
-A file added to this folder is imported here, and with that is in the command line, the viewer, the docs and the tests.
-Other distributions add theirs through the entry-point group `hexmend.smoothers`, as soon as somebody asks for all.
+Every module of this package and of its folders is imported here: the command line, the viewer, the docs and the tests
+take the methods from METHODS. Other distributions add theirs through the entry-point group `hexmend.smoothers`, which
+is read as soon as all methods are asked for.
 """
 
 import importlib
 import pkgutil
 
-from hexmend.smoothers.smoother import METHODS, Smoother, method
+from hexmend.smoothers.base import METHODS, Smoother, method
 
-for _module in pkgutil.iter_modules(__path__):
-    importlib.import_module(f"{__name__}.{_module.name}")
+for _module in pkgutil.walk_packages(__path__, f"{__name__}."):
+    importlib.import_module(_module.name)
 
 #: The method that is used where none is named.
 DEFAULT_METHOD = "mend"

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.hexahedron import EDGES
-from hexmend.mesh import Mesh
-from hexmend.optimise import Outcome, Step
+from hexmend.iteration import Outcome, Step
+from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import measure
+from hexmend.smoothers.base import METHODS, Steps, method
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
-from hexmend.smoothers.smoother import METHODS, Steps, method
 
 
 @method

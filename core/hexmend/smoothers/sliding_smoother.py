@@ -8,10 +8,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from hexmend.mesh import Mesh
+from hexmend.boundary import Sliding
+from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
-from hexmend.smoothers.smoother import Smoother
-from hexmend.surface import Sliding
+from hexmend.smoothers.base import Smoother
 
 T = TypeVar("T")
 

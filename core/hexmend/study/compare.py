@@ -6,12 +6,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
-from hexmend.recipe import Recipe
 from hexmend.run import Stop
+from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.study.row import Row, Watch, common_power, initial_record, run_one
+from hexmend.study.table_row import Row, Watch, common_power, initial_record, run_one
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ def compare(
     ----------
     mesh : Mesh
     methods : iterable of Smoother, Recipe or str
-        Names stand for methods with their defaults; `hexmend.study.chosen` takes settings in words. All that are
+        Names stand for methods with their defaults; `hexmend.study.method_spec` takes settings in words. All that are
         registered if not given.
     stop : Stop, optional
         Limits of each method's run; a recipe has its own.

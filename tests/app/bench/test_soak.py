@@ -47,7 +47,7 @@ def test_where_memory_is_not_told_that_is_said_at_once(qapp, monkeypatch, capsys
     def untold():
         raise OSError
 
-    monkeypatch.setattr("hexmend.study.section.resident_mb", untold)
+    monkeypatch.setattr("hexmend.study.bench.section.resident_mb", untold)
     assert main(["soak", "--minutes", "0"]) != 0
     assert "soak needs a system that tells" in capsys.readouterr().err
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.study.mesh_figures import MESH_FIGURES
+from hexmend.study.thesis.mesh_figures import MESH_FIGURES
 from hexmend_app.scene.export.tally import tally
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -21,7 +21,7 @@ DRAW = """
 import sys
 from pathlib import Path
 from hexmend.gallery import make
-from hexmend.study.mesh_figures import MESH_FIGURES
+from hexmend.study.thesis.mesh_figures import MESH_FIGURES
 from hexmend_app.cli.figures import draw
 for figure in MESH_FIGURES:
     draw(figure, make(figure.mesh, size=3000), Path(sys.argv[1]) / f"{figure.number}.png")

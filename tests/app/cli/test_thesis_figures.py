@@ -6,14 +6,14 @@ from importlib.resources import files
 import pytest
 
 from hexmend.cli import main as program
-from hexmend.study import experiments
+from hexmend.study.thesis import experiments
 from hexmend_app.cli import figure_set
 
 
 @pytest.mark.slow
 def test_the_figures_of_the_thesis_are_drawn_by_one_command(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(program, "commands", lambda: {"figures": lambda: figure_set.command})
-    whole = files("hexmend.study").joinpath("thesis.toml").read_text(encoding="utf-8")
+    whole = files("hexmend.study.thesis").joinpath("thesis.toml").read_text(encoding="utf-8")
     small = tmp_path / "small.toml"
     small.write_text(whole.replace("quick = 31760", "quick = 3000"), encoding="utf-8")
     monkeypatch.setattr(experiments, "load", partial(experiments.load, small))

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from hexmend import gallery
-from hexmend.optimise import Stop
+from hexmend.iteration import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.report.case import Case, run_methods
 from tests.browsers import SOFTWARE, chromium

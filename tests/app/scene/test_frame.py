@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.mesh import Mesh
-from hexmend.movement import Moment, Movement
+from hexmend.boundary.displacement import Moment, Movement
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame, same_hexes
 from hexmend_app.scene.pane import Pane

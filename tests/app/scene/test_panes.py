@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.movement import Moment, Movement
+from hexmend.boundary.displacement import Moment, Movement
 from hexmend.quality import measure
 from hexmend_app.scene.arrangement import columns, grid
 from hexmend_app.scene.export.sheet import draw_sheet

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import MeshError
-from hexmend.hexahedron import EDGES, FACES
 from hexmend.kernels import skin
+from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend_app.scene.sides import centres_kept, touched
 from hexmend_app.scene.skin import Skin
 from tests.core.grids import grid

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.scene.camera.eye import Eye
 from hexmend_app.scene.colours import INVERTED

@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QApplication, QDialogButtonBox
 
 from hexmend import gallery, io
 from hexmend.errors import FileError
-from hexmend.mesh import Mesh
-from hexmend.recipe import Stage
+from hexmend.mesh.mesh import Mesh
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state import mesh_repairer, mesh_saver
 from hexmend_app.state.deeds import Changed, Moved, Saved

@@ -10,9 +10,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
 from hexmend import gallery, io
-from hexmend.recipe import Stage
 from hexmend.run import Stop
 from hexmend.run.breakpoints import Breakpoints
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.look import Arrows, ColourScale, Structure, Traces, ValueRange
 from hexmend_app.state.run import Phase

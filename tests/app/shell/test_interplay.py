@@ -10,10 +10,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QTableWidget
 
 from hexmend import io
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.scene.layers import body

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from hexmend.boundary import Kind, boundary_of
 from hexmend.quality import measure
-from hexmend.surface import Kind, boundary_of
 from hexmend_app.state.classer import PIN, WHISKER, Classer, classed, node_kinds
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, slid

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend.surface import surface_change
+from hexmend.boundary import surface_change
 from hexmend_app.state.document import Document, State
 from tests.core.grids import grid, scrambled
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.movement import Moment, Movement
+from hexmend.boundary.displacement import Moment, Movement
 from hexmend.quality import measure, summarise
 from hexmend_app.scene.colours import resolve
 from hexmend_app.state.document import Document, State

@@ -9,7 +9,7 @@ import pytest
 from hexmend import gallery
 from hexmend.run import Stop, iterate
 from hexmend.run.breakpoints import Breakpoints
-from hexmend.smoothers.laplacian import Laplacian
+from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend_app.state.document import State
 from hexmend_app.state.run import Phase
 from hexmend_app.state.session import Session

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hexmend.run import Stop
-from hexmend.smoothers.local_sd import LocalSteepestDescent
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Since
 from hexmend_app.state.session import Session

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from hexmend.gallery import make
-from hexmend.recipe import Stage
 from hexmend.run import Stop, iterate
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.rerun import rerun
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend.io import session
-from hexmend.recipe import Stage
+from hexmend.io.formats import session
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state import session_data
 

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend.optimise import Step
+from hexmend.iteration import Step
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import Smoother
-from hexmend.smoothers.local_sd import LocalSteepestDescent
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state import measured
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hexmend.run import Stop, smooth
-from hexmend.smoothers.laplacian import Laplacian
-from hexmend.smoothers.local_sd import LocalSteepestDescent
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.commands import Commands
 from hexmend_app.state.document import State
 from hexmend_app.state.history import Moment

@@ -2,9 +2,9 @@
 
 from hexmend.gallery import make
 from hexmend.quality import Summary
-from hexmend.study.experiments import load
-from hexmend.study.measured import Measured
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
+from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiments import load
 
 THESIS = load()
 

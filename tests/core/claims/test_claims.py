@@ -9,8 +9,8 @@ from hexmend.quality import measure
 from hexmend.study.claims import CLAIMS, delta, heuristics, local_methods, optimum, preconditioning
 from hexmend.study.claims.claim import tally
 from hexmend.study.claims.reading import objective
-from hexmend.study.measured import Measured
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
+from hexmend.study.thesis.experiment_result import Measured
 from tests.core.claims.cases import JUDGED
 from tests.core.claims.runs import MESH, THESIS, run, summary, table
 

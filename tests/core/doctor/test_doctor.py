@@ -6,13 +6,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend import io
-from hexmend.cells import Cells
 from hexmend.cli.main import main
 from hexmend.doctor import AILMENTS, examine, repair
 from hexmend.doctor.cells import _WEDGES
-from hexmend.hexahedron import EDGES, FACES, UNIT_CUBE, VOXEL_ORDER
-from hexmend.mesh import Mesh
-from hexmend.orientation import turned, upright
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.hexahedron import EDGES, FACES, UNIT_CUBE, VOXEL_ORDER
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import turned, upright
 from hexmend.quality import measure
 from tests.core.grids import grid
 

@@ -6,7 +6,7 @@ from importlib import import_module
 
 import pytest
 
-from hexmend.io import child
+from hexmend.io.storage import subprocess_reader
 
 #: Modules of tests in which the process of its own that a reader has is the point, or what may end it is read.
 _APART = ("test_child", "test_hdf5", "test_bad_files", "test_fuzz")
@@ -21,7 +21,7 @@ def readers_without_a_process_each(request, monkeypatch):
     def here(reader, path):
         module, _, function = reader.partition(":")
         arrays = {}
-        said = child.packed(getattr(import_module(module), function)(path), arrays)
-        return child.unpacked(said, arrays)
+        said = subprocess_reader.packed(getattr(import_module(module), function)(path), arrays)
+        return subprocess_reader.unpacked(said, arrays)
 
-    monkeypatch.setattr(child, "in_child", here)
+    monkeypatch.setattr(subprocess_reader, "in_child", here)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from hexmend.cells import Cells
-from hexmend.mesh import Mesh
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
 #: Twice the places of a HEX27's nodes in the unit cube, as the manual's figure has them, from node 1 on.

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.cells import Cells
-from hexmend.mesh import Mesh
-from hexmend.second_order import MID_PLACES, SHARES
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_PLACES, SHARES
 from tests.core.grids import grid, scrambled
 
 #: Edges of the cells of second order whose middles are the nodes behind their corners, as VTK orders them.

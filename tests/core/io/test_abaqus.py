@@ -7,9 +7,9 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.second_order import MID_PLACES
 from hexmend.quality import summarise
-from hexmend.second_order import MID_PLACES
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
 
 FILES = Path(__file__).parent / "files"

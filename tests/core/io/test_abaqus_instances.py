@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hexmend.hexahedron import UNIT_CUBE
+from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.quality import summarise
 from tests.core.io.test_abaqus import cube, read
 

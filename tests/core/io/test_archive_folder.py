@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from hexmend.errors import FileError
-from hexmend.io.archive import DESCRIPTION, read_archive
-from hexmend.io.archive_folder import ArchiveFolder
+from hexmend.io.archive.archive import DESCRIPTION, read_archive
+from hexmend.io.archive.folder import ArchiveFolder
 
 KIND = "test tree"
 
@@ -22,7 +22,7 @@ _WRITER = """
 import sys
 from pathlib import Path
 import numpy as np
-from hexmend.io.archive_folder import ArchiveFolder
+from hexmend.io.archive.folder import ArchiveFolder
 
 folder, arrays = ArchiveFolder(Path(sys.argv[1])), {}
 for number in range(10**6):

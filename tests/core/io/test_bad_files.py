@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io import FORMATS
-from hexmend.io.atomic import replacing
+from hexmend.io.storage.atomic import replacing
 from tests.core.grids import grid, scrambled
 
 WAYS = [(one.suffixes[0], encoding) for one in FORMATS.values() for encoding in one.encodings]

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import CELL_KINDS
 from hexmend.errors import FileError
-from hexmend.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.second_order import MID_PLACES
+from hexmend.mesh.cells import CELL_KINDS
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
+from hexmend.mesh.second_order import MID_PLACES
 
 vtk = pytest.importorskip("vtk")
 SUFFIXES = pytest.mark.parametrize("suffix", [".vtu", ".vtk"])

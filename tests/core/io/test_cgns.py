@@ -5,9 +5,9 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.second_order import MID_PLACES
 from hexmend.quality import summarise
-from hexmend.second_order import MID_PLACES
 from tests.core.grids import grid
 from tests.core.io.cgns_files import cgns, condition, section, structured, unstructured
 

@@ -6,7 +6,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.polyhedra import LOOPS, faces_of
+from hexmend.io.base.polyhedra import LOOPS, faces_of
 from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.cgns_files import cgns, condition, section, unstructured

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from hexmend.errors import FileError
-from hexmend.io.child import in_child, packed, unpacked
-from hexmend.io.content import Block, Content
+from hexmend.io.base.content import Block, Content
+from hexmend.io.storage.subprocess_reader import in_child, packed, unpacked
 
 READERS = """
 import os, signal

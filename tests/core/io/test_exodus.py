@@ -7,8 +7,8 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.hexahedron import FACES, UNIT_CUBE
-from hexmend.second_order import MID_PLACES
+from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.second_order import MID_PLACES
 from tests.core.grids import grid
 from tests.core.io.exodus_files import HEX27, SIDES, letters, written
 

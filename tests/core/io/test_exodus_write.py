@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.mesh import Mesh
-from hexmend.second_order import MID_PLACES
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_PLACES
 from tests.core.grids import grid
 from tests.core.io.exodus_files import HEX27, letters, rich, written
 

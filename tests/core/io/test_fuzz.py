@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from hexmend.io.format import FORMATS
+from hexmend.io.base.format import FORMATS
 
 pytestmark = pytest.mark.slow
 

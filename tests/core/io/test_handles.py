@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from hexmend.io.atomic import replacing
+from hexmend.io.storage.atomic import replacing
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts the open files of the process in /proc")

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
 from hexmend.errors import FileError
 from hexmend.io import FORMATS
-from hexmend.io.format import Holds
-from hexmend.mesh import Mesh
-from hexmend.second_order import MID_PLACES
+from hexmend.io.base.format import Holds
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_PLACES
 from tests.core.grids import grid
 
 WAYS = [(name, encoding) for name, one in FORMATS.items() for encoding in one.encodings]

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
 from hexmend.errors import FileError
+from hexmend.mesh.cells import Cells
 from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
 from hexmend.errors import FileError
+from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 
 h5py = pytest.importorskip("h5py")

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
-from hexmend.mesh import Mesh
-from hexmend.second_order import MID_PLACES
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_PLACES
 from tests.core.grids import grid
 
 

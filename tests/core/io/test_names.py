@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
-from hexmend.io.names import distinct
+from hexmend.io.base.unique_names import distinct
+from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 
 LONG = "é" * 45

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.io.nastran import column
-from hexmend.mesh import Mesh
+from hexmend.io.formats.nastran import column
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
 from hexmend.errors import FileError
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.io.nastran_columns import Lines, wholes
+from hexmend.io.formats.nastran.columns import Lines, wholes
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
 from tests.core.io.kept import assert_same
 from tests.core.io.test_holds import quadratic

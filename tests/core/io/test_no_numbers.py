@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
+from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.content import Block
-from hexmend.io.numbering import combinations, element_numbers, node_numbers, places, runs
+from hexmend.io.base.content import Block
+from hexmend.io.base.numbering import combinations, element_numbers, node_numbers, places, runs
 from tests.core.grids import grid
 
 numbers = st.lists(st.integers(-(10**9), 10**9), min_size=1, max_size=20, unique=True)

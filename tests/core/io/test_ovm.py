@@ -7,7 +7,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.quality import summarise
 from tests.core.grids import grid
 

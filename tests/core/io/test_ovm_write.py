@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
 from hexmend.errors import FileError
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.mesh import Mesh
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
 UNIT = """OVM ASCII

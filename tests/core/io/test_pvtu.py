@@ -5,7 +5,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
 

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from hexmend import io
-from hexmend.cells import Cells
 from hexmend.gallery import make
 from hexmend.io import FORMATS
-from hexmend.io.format import Holds
-from hexmend.mesh import Mesh
+from hexmend.io.base.format import Holds
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid, scrambled
 
 WAYS = [(one.suffixes[0], encoding) for one in FORMATS.values() for encoding in one.encodings]
@@ -135,7 +135,7 @@ def test_voxels_become_hexahedra(tmp_path):
 
 
 def test_version_5_of_the_legacy_format_is_read(tmp_path):
-    from hexmend.hexahedron import UNIT_CUBE
+    from hexmend.mesh.hexahedron import UNIT_CUBE
 
     points = "\n".join(" ".join(map(str, row)) for row in UNIT_CUBE)
     (tmp_path / "v.vtk").write_text(

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
+from hexmend.boundary import Skin
 from hexmend.errors import FileError
 from hexmend.gallery import make
-from hexmend.hexahedron import UNIT_CUBE
-from hexmend.io.archive import read_archive, write_archive
-from hexmend.io.session import SUFFIX, VERSION, read_session, write_session
-from hexmend.mesh import Mesh
-from hexmend.second_order import MID_EDGES
-from hexmend.surface import Skin
+from hexmend.io.archive.archive import read_archive, write_archive
+from hexmend.io.formats.session import SUFFIX, VERSION, read_session, write_session
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_EDGES
 
 KIND = "Hexmend session"
 

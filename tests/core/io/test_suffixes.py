@@ -3,11 +3,11 @@
 import pytest
 
 from hexmend.errors import FileError
-from hexmend.io.recipes import write_recipe
-from hexmend.io.suffixes import suffix_for
-from hexmend.recipe import Recipe, Stage
+from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.charts import check_figure
 from hexmend.run import Stop
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.recipe_files import write_recipe
 from hexmend.smoothers import METHODS
 
 

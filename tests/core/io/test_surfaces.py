@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from hexmend.boundary.closest_point import triangulated
 from hexmend.errors import FileError
 from hexmend.io import read_surface
 from hexmend.io.surfaces import SURFACES
-from hexmend.surface.trees import triangulated
 
 pv = pytest.importorskip("pyvista")
 

@@ -11,16 +11,16 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.errors import FileError
-from hexmend.io import temporary_files
-from hexmend.io.archive_folder import ArchiveFolder
-from hexmend.io.atomic import replacing
-from hexmend.io.format import FORMATS, Format
+from hexmend.io.archive.folder import ArchiveFolder
+from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.storage import temporary_files
+from hexmend.io.storage.atomic import replacing
 from hexmend.report import made_folder
 
 #: Begins to write a file, says so, and waits.
 WRITER = """
 import sys, time
-from hexmend.io.atomic import replacing
+from hexmend.io.storage.atomic import replacing
 with replacing(sys.argv[1]) as temporary:
     temporary.write_text("half")
     print(temporary, flush=True)

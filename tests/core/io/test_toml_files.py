@@ -3,7 +3,7 @@
 import pytest
 
 from hexmend.errors import FileError, ParameterError
-from hexmend.io.toml_files import read_toml, write_toml
+from hexmend.io.storage.toml_files import read_toml, write_toml
 
 
 def refuses(text):

@@ -8,7 +8,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.source import Source
+from hexmend.io.base.cursor import Source
 from tests.core.grids import grid, scrambled
 
 HEAD = "# vtk DataFile Version {}\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"

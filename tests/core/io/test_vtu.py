@@ -11,7 +11,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.hexahedron import UNIT_CUBE
+from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
 
 MODES = [("Ascii", "None"), *itertools.product(("Binary", "Base64", "Raw"), ("None", "ZLib", "LZ4", "LZMA"))]

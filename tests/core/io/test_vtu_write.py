@@ -7,7 +7,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io import vtu_write
+from hexmend.io.formats.vtk import vtu_writer
 from tests.core.grids import grid, scrambled
 
 NAMES = ["p & T", "a < b", 'say "x"', "it's", "tab\tand\nline", "ä λ 漢"]
@@ -72,7 +72,7 @@ def test_a_file_that_is_not_read_again_as_it_was_written_replaces_nothing(tmp_pa
     """As on a disk that loses bytes: the old file stays."""
     path = tmp_path / "a.vtu"
     path.write_text("old")
-    true = vtu_write.Document
+    true = vtu_writer.Document
 
     def damaging(place: Path, kind: str):
         content = bytearray(place.read_bytes())
@@ -81,7 +81,7 @@ def test_a_file_that_is_not_read_again_as_it_was_written_replaces_nothing(tmp_pa
         place.write_bytes(content)
         return true(place, kind)
 
-    monkeypatch.setattr(vtu_write, "Document", damaging)
+    monkeypatch.setattr(vtu_writer, "Document", damaging)
     with pytest.raises(FileError) as error:
         io.write(path, grid(2).replace(node_data={"a": np.arange(27)}))
     assert str(error.value).startswith("a.vtu: ")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.cells import Cells
-from hexmend.io.netcdf3_write import Writer
+from hexmend.io.formats.exodus.netcdf3_writer import Writer
+from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 
 ENDS = [-(2**31) - 1, -(2**31), 2**31 - 1, 2**31]

@@ -4,8 +4,8 @@ import pytest
 
 from hexmend import Recipe
 from hexmend.errors import FileError, ParameterError
-from hexmend.study.many.case import case_of
-from hexmend.study.many.plan import plan_of, read_plan
+from hexmend.study.batch.case import case_of
+from hexmend.study.batch.plan import plan_of, read_plan
 
 CHAIN = '[[stage]]\nmethod = "getme"\nstop = { max_iterations = 7 }\n[[stage]]\nmethod = "mend"\n'
 

@@ -6,11 +6,11 @@ import sys
 import pytest
 
 from hexmend import __version__, gallery, io, smooth
-from hexmend.study.many.case import Case
-from hexmend.study.many.columns import is_answer
-from hexmend.study.many.plan import plan_of
-from hexmend.study.many.process import run_task
-from hexmend.study.many.task import Task, content_hash
+from hexmend.study.batch.case import Case
+from hexmend.study.batch.columns import is_answer
+from hexmend.study.batch.plan import plan_of
+from hexmend.study.batch.process import run_task
+from hexmend.study.batch.task import Task, content_hash
 
 
 def task(mesh, case=None, **values):

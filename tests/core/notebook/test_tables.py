@@ -7,9 +7,9 @@ import pytest
 
 import hexmend as hx
 from hexmend.errors import HexmendError
+from hexmend.iteration import Stop
+from hexmend.notebook.html_tables import of_mesh, of_result
 from hexmend.notebook.sparkline import sparkline
-from hexmend.notebook.tables import of_mesh, of_result
-from hexmend.optimise import Stop
 from hexmend.quality.summary import FIGURES
 
 

@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.optimise.apart import Apart
-from hexmend.surface import Sliding
+from hexmend.boundary import Sliding
+from hexmend.optimise.maxmin.deviation import Apart
 from tests.core.surface.solids import ball, slid
 
 seeds = st.integers(0, 2**32 - 1)

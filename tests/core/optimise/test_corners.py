@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA, EDGES
-from hexmend.optimise.corners import gradients, of_corners, scaled_jacobians, shortest_edges
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES
+from hexmend.optimise.maxmin.corner_values import gradients, of_corners, scaled_jacobians, shortest_edges
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
 from hexmend.optimise.descent import LONGEST, descend, perfect, shorten_to_range
-from hexmend.optimise.direction import Found, steepest_descent
 from hexmend.optimise.line_search import BackLineSearch
+from hexmend.optimise.search_direction import Found, steepest_descent
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)

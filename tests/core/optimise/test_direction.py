@@ -8,8 +8,8 @@ import scipy.sparse.linalg
 from scipy.sparse.linalg import ArpackNoConvergence
 
 from hexmend.energy import MeshEnergy
-from hexmend.optimise import direction
-from hexmend.optimise.direction import ENOUGH, FALL, FIRST, RAISES, RISE, ModifiedNewton, TruncatedNewton
+from hexmend.optimise import search_direction
+from hexmend.optimise.search_direction import ENOUGH, FALL, FIRST, RAISES, RISE, ModifiedNewton, TruncatedNewton
 from tests.core.grids import grid, scrambled
 
 
@@ -93,7 +93,7 @@ class Shifted:
     [(-1.0, 100.0, 1.1), (0.05, 100.0, 0.05), (0.2, 100.0, 0.0), (-1.0, 0.01, 1.00001), (0.5, 0.01, 0.0)],
 )
 def test_the_least_eigenvalue_is_raised_to_a_thousandth_of_the_greatest(monkeypatch, least, greatest, shift):
-    monkeypatch.setattr(direction, "extreme_eigenvalues", lambda hessian: (least, greatest))
+    monkeypatch.setattr(search_direction, "extreme_eigenvalues", lambda hessian: (least, greatest))
     found = ModifiedNewton(lambda hessian, right: (right / 2, 5))(1.0, np.array([[2.0, 4.0, 6.0]]), Shifted())
     assert found.shift == pytest.approx(shift)
     assert (found.p.tolist(), found.solver_iterations) == ([[-1.0, -2.0, -3.0]], 5)
@@ -107,7 +107,7 @@ def test_where_eigenvalues_are_not_found_the_least_counts_as_0_and_the_greatest_
     mesh = scrambled(grid(3), 0.2, 1)
     energy = MeshEnergy(mesh)
     hessian = energy.hessian(energy.scaled(mesh.points), 0.0)
-    least, greatest = direction.extreme_eigenvalues(hessian)
+    least, greatest = search_direction.extreme_eigenvalues(hessian)
     assert least == 0.0
     matrix = np.column_stack([hessian.assembled() @ row for row in np.eye(hessian.shape[0])])
     assert greatest == pytest.approx(

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from hexmend.optimise import envelope as envelopes
-from hexmend.optimise.apart import Apart
-from hexmend.optimise.envelope import Envelope
-from hexmend.surface import Sliding
+from hexmend.boundary import Sliding
+from hexmend.optimise.maxmin import envelope as envelopes
+from hexmend.optimise.maxmin.deviation import Apart
+from hexmend.optimise.maxmin.envelope import Envelope
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, slid
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.optimise.corners import scaled_jacobians
-from hexmend.optimise.movable import MovableCorners
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.optimise.maxmin.corner_set import MovableCorners
+from hexmend.optimise.maxmin.corner_values import scaled_jacobians
 from tests.core.grids import grid, scrambled
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.energy import MeshEnergy, Power
 from hexmend.gallery import make
-from hexmend.optimise import Outcome
+from hexmend.iteration import Outcome
 from hexmend.optimise.descent import perfect
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS

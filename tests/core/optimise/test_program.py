@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.optimise.program import IDLE, Models, bounds_of, no_bounds, program, solve
-from hexmend.optimise.ways import Ways
+from hexmend.optimise.maxmin.directions import Ways
+from hexmend.optimise.maxmin.linear_program import IDLE, Models, bounds_of, no_bounds, program, solve
 
 ENDS = np.array([[3, 5, 7, 9]], np.int32)
 

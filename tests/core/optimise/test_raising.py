@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.optimise.corners import gradients, scaled_jacobians, shortest_edges
-from hexmend.optimise.program import IDLE
-from hexmend.optimise.raising import Limit, Raising
-from hexmend.surface import Sliding, surface_change
+from hexmend.boundary import Sliding, surface_change
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.optimise.maxmin.corner_values import gradients, scaled_jacobians, shortest_edges
+from hexmend.optimise.maxmin.linear_program import IDLE
+from hexmend.optimise.maxmin.slp import Limit, Raising
 from tests.core.grids import grid, scrambled
 from tests.core.surface.solids import ball, cylinder, slid
 

@@ -5,18 +5,18 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend.hexahedron import CORNER_TETRAHEDRA
-from hexmend.optimise import raising
-from hexmend.optimise.corners import scaled_jacobians
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.optimise.maxmin import slp
+from hexmend.optimise.maxmin.corner_values import scaled_jacobians
 from tests.core.grids import grid, scrambled
 
 
 def steps_of(monkeypatch, **constants):
     for name, value in constants.items():
-        monkeypatch.setattr(raising, name, value)
+        monkeypatch.setattr(slp, name, value)
     mesh = scrambled(grid(3), 0.4, 1)
-    *steps, limit = raising.Raising(mesh, mesh.points).steps()
-    assert isinstance(limit, raising.Limit)
+    *steps, limit = slp.Raising(mesh, mesh.points).steps()
+    assert isinstance(limit, slp.Limit)
     return steps
 
 
@@ -43,21 +43,21 @@ def test_it_never_has_more_corners_than_the_most(monkeypatch):
 
 def test_what_is_begun_again_begins_with_the_first_radius_and_few_corners():
     mesh = scrambled(grid(3), 0.6, 2)
-    raise_ = raising.Raising(mesh, mesh.points)
-    first = [step.radius for step in raise_.steps(0.4) if isinstance(step, raising.Raised)]
-    again = [step.radius for step in raise_.steps() if isinstance(step, raising.Raised)]
-    assert first[0] == again[0] == raising.FIRST
-    assert max(first[1:]) > raising.FIRST  # it had changed
+    raise_ = slp.Raising(mesh, mesh.points)
+    first = [step.radius for step in raise_.steps(0.4) if isinstance(step, slp.Raised)]
+    again = [step.radius for step in raise_.steps() if isinstance(step, slp.Raised)]
+    assert first[0] == again[0] == slp.FIRST
+    assert max(first[1:]) > slp.FIRST  # it had changed
 
 
 @pytest.mark.parametrize(("radius", "band"), [(0.3, 0.1), (0.01, 0.04), (0.001, 0.01)])
 def test_the_corners_of_a_program_are_those_within_a_band_that_narrows_with_the_radius(monkeypatch, radius, band):
     for name, value in {"FEW": 10**6, "FIRST": radius, "LARGEST": radius, "SHRINK": 1.0}.items():
-        monkeypatch.setattr(raising, name, value)
+        monkeypatch.setattr(slp, name, value)
     mesh = scrambled(grid(4), 0.2, 3)
     before, counts = mesh.points, []
-    for step in itertools.islice(raising.Raising(mesh, mesh.points).steps(), 30):
-        if isinstance(step, raising.Raised):
+    for step in itertools.islice(slp.Raising(mesh, mesh.points).steps(), 30):
+        if isinstance(step, slp.Raised):
             values = scaled_jacobians(before, mesh.hexes)[movable(mesh)]
             assert step.corners == np.count_nonzero(values < values.min() + band)
             counts.append(step.corners)

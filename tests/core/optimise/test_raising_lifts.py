@@ -4,10 +4,10 @@ import itertools
 
 import numpy as np
 
+from hexmend.boundary import Sliding, surface_change
 from hexmend.io import read
-from hexmend.optimise import envelope as envelopes
-from hexmend.optimise.raising import Limit, Raising
-from hexmend.surface import Sliding, surface_change
+from hexmend.optimise.maxmin import envelope as envelopes
+from hexmend.optimise.maxmin.slp import Limit, Raising
 from tests.core.grids import grid
 from tests.core.optimise.test_raising import raised
 from tests.core.surface.solids import ball, slid

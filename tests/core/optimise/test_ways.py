@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.optimise.corners import shortest_edges
-from hexmend.optimise.ways import ways_of
-from hexmend.surface import Kind, Sliding
+from hexmend.boundary import Kind, Sliding
+from hexmend.optimise.maxmin.corner_values import shortest_edges
+from hexmend.optimise.maxmin.directions import ways_of
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh import Mesh
-from hexmend.surface import Sliding, Surface
+from hexmend.boundary import Sliding, Surface
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
 

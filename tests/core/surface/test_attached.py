@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.surface import Kind, Surface, boundary_of
-from hexmend.surface.locked import freed_by_sliding
-from hexmend.surface.vectors import triangle_normals, vertex_normals
+from hexmend.boundary import Kind, Surface, boundary_of
+from hexmend.boundary.normals import triangle_normals, vertex_normals
+from hexmend.boundary.unlocking import freed_by_sliding
 from tests.core.grids import grid
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from hexmend.boundary import Kind, Sliding, boundary_of
+from hexmend.boundary.corner_detection import kept_bends
 from hexmend.run import Stop, smooth
 from hexmend.smoothers import METHODS
-from hexmend.surface import Kind, Sliding, boundary_of
-from hexmend.surface.bends import kept_bends
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, slid
 

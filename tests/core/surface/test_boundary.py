@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.cells import Cells
+from hexmend.boundary import Kind, boundary_of, classify
 from hexmend.gallery import GALLERY, make
 from hexmend.io import read, write
-from hexmend.mesh import Mesh
-from hexmend.surface import Kind, boundary_of, classify
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, wavy
 

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.cells import Cells
+from hexmend.boundary import Kind, Skin, Surface, boundary_of, distances, surface_change
 from hexmend.errors import MeshError
-from hexmend.mesh import Mesh
-from hexmend.surface import Kind, Skin, Surface, boundary_of, distances, surface_change
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, project, wavy
 from tests.core.surface.test_surface import brute

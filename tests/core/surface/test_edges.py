@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.surface.edges import Edges
+from hexmend.boundary.edges import Edges
 from tests.core.grids import grid
 
 

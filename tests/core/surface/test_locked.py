@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from hexmend.boundary import boundary_of, freed_by_sliding
 from hexmend.quality import locked, measure
-from hexmend.surface import boundary_of, freed_by_sliding
 from tests.core.surface.solids import ball, slid
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.surface.change import Skin
-from hexmend.surface.room import Room
+from hexmend.boundary.band import Room
+from hexmend.boundary.comparison import Skin
 from tests.core.grids import grid
 
 

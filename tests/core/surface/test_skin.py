@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.surface.change import Skin
+from hexmend.boundary.comparison import Skin
 from tests.core.grids import grid
 
 

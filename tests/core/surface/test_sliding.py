@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from hexmend.boundary import Kind, Sliding
 from hexmend.gallery import make
-from hexmend.surface import Kind, Sliding
 from tests.core.surface.solids import ball
 
 

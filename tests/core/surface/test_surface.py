@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
+from hexmend.boundary import Kind, Surface, Trees, boundary_of, classify
 from hexmend.errors import MeshError
-from hexmend.surface import Kind, Surface, Trees, boundary_of, classify
 from tests.core.grids import grid
 from tests.core.surface.solids import ball, cylinder, project, wavy
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hexmend.surface import Sliding
+from hexmend.boundary import Sliding
 from tests.core.grids import grid
 
 

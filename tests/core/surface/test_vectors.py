@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.surface.boundary import Kind, boundary_of
-from hexmend.surface.vectors import curve_tangents, segment_tangents, unit
+from hexmend.boundary.classification import Kind, boundary_of
+from hexmend.boundary.normals import curve_tangents, segment_tangents, unit
 from tests.core.surface.solids import cylinder
 
 

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from hexmend.energy.power import Power
+from hexmend.energy.norm import Power
 from hexmend.quality import objective
-from hexmend.recipe import Stage
 from hexmend.report import markdown, table_of, write_comparison
 from hexmend.report.charts import ChartStyle
 from hexmend.report.comparison import LINES
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend.study.row import common_power
+from hexmend.study.table_row import common_power
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.compare.compare_panel import ComparePanel
 from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_of

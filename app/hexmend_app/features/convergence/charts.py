@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hexmend.figures import Figure, significant
-from hexmend.optimise.figures import HISTORY, NOTES
+from hexmend.iteration.figures import HISTORY, NOTES
 
 #: The time of one iteration, which the plot takes from the times of two.
 STEP_SECONDS = Figure(

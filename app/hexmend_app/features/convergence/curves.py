@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.optimise.figures import objective_changes
+from hexmend.iteration.figures import objective_changes
 from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
 from hexmend_app.scene.palette import BLUE, KEPT, Role
 from hexmend_app.state.history import Record

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.suffixes import suffix_for
+from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend.report.documents import write_csv

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from hexmend.io.recipes import write_recipe
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
-from hexmend.recipe import Recipe
 from hexmend.report import made_folder
 from hexmend.report.charts import check_matplotlib
-from hexmend.study.row import Row
+from hexmend.run.recipe import Recipe
+from hexmend.run.recipe_files import write_recipe
+from hexmend.study.table_row import Row
 from hexmend_app.report.captions import write_captions
 from hexmend_app.report.case import Case, Version, command_line
 from hexmend_app.report.figure_set import Figure, Style, write_figures

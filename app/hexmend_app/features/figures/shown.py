@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from hexmend.parameters import from_values
-from hexmend.recipe import Recipe, Stage
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.report.case import INITIAL
 from hexmend_app.state.document import State

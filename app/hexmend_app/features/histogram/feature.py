@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.movement import MOVEMENTS
+from hexmend.boundary.displacement import MOVEMENTS
 from hexmend.quality import measure
 from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
-from hexmend.io.suffixes import suffix_for
-from hexmend.mesh import Mesh
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.documents import write_text

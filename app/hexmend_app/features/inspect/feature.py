@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from hexmend.boundary import Kind
 from hexmend.quality import element, node
-from hexmend.surface import Kind
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.inspect.element_panel import ElementPanel
 from hexmend_app.features.inspect.file import write_worst

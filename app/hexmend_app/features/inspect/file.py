@@ -6,8 +6,8 @@ import csv
 import io
 from pathlib import Path
 
-from hexmend.io.suffixes import suffix_for
-from hexmend.mesh import Mesh
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend.report.documents import write_text
 from hexmend_app.features.inspect.worst import Worst

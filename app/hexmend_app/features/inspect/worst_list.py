@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
 from hexmend_app.features.inspect.worst import Worst
 from hexmend_app.features.inspect.worst_model import ELEMENT, JACOBIAN, STATE, VALUE, WorstModel

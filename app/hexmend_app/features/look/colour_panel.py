@@ -8,7 +8,7 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
-from hexmend.movement import MOVEMENTS, named
+from hexmend.boundary.displacement import MOVEMENTS, named
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
 from hexmend_app.features.look.map_box import MapBox

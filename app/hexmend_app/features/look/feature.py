@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hexmend.movement import MOVEMENTS, Movement
+from hexmend.boundary.displacement import MOVEMENTS, Movement
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.look.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.scene.frame import Frame

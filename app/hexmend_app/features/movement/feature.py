@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.movement import MOVEMENTS, Movement
+from hexmend.boundary.displacement import MOVEMENTS, Movement
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.movement.movement_panel import MovementPanel
 from hexmend_app.state.kinds import of_kind

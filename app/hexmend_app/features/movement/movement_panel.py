@@ -7,7 +7,7 @@ import dataclasses
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
-from hexmend.movement import MOVEMENTS, Counts
+from hexmend.boundary.displacement import MOVEMENTS, Counts
 from hexmend_app.scene.layers.arrows import MOST
 from hexmend_app.state.look import Arrows, Since, Traces
 from hexmend_app.widgets.segmented import Segmented

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.smoothers.local_descent import LocalDescent
+from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.state.document import State
 from hexmend_app.state.run import Phase
 from hexmend_app.state.session import Session

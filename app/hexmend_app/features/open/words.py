@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hexmend.io.session import SUFFIX
+from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.opener import Doing, Progress
 from hexmend_app.state.restoring import Beside, Lack, Restored, Wanting
 from hexmend_app.state.views import MOST

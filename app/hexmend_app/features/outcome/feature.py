@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend.advice import Advice, Suggestion
-from hexmend.recipe import Stage
+from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, Place
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.history import Record

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.figures import Figure
-from hexmend.quality import FIGURES, JUDGED, worse
+from hexmend.quality import FIGURES, JUDGED, regressions
 from hexmend_app.widgets.link_table import LinkTable
 from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, smaller, tabular
 from hexmend_app.widgets.wording import figure
@@ -156,7 +156,7 @@ class StatisticsTable(QWidget):
     def set_summaries(self, start: Any, now: Any) -> None:
         """Take two summaries, as `hexmend.quality.summarise` gives them; None for both clears the table."""
         self._summaries = (start, now)
-        fallen = {JUDGED[name] for name in worse(start, now)} if start is not None and now is not None else set()
+        fallen = {JUDGED[name] for name in regressions(start, now)} if start is not None and now is not None else set()
         for at, row in enumerate(ROWS):
             was, is_ = (None if summary is None else getattr(summary, row.key) for summary in (start, now))
             shown = start is not None and now is not None

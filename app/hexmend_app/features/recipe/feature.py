@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from hexmend.errors import HexmendError
-from hexmend.io import read_recipe, write_recipe
 from hexmend.parameters import Parametrised, declared
-from hexmend.recipe import Recipe, Stage
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.recipe_files import read_recipe, write_recipe
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import HexmendError
-from hexmend.io.session import SUFFIX
-from hexmend.recipe import Recipe
+from hexmend.io.formats.session import SUFFIX
+from hexmend.run.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
 from hexmend_app.state.deeds import Wrote, moved_since

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from hexmend.optimise import Outcome
+from hexmend.iteration import Outcome
 from hexmend.quality import summarise
 from hexmend.smoothers import METHODS
 from hexmend.study import compare
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
 from hexmend_app.features.script.lines import Lines, call
 from hexmend_app.features.script.stored import Stored
 from hexmend_app.features.script.words import made

@@ -11,8 +11,8 @@ from typing import Any
 import hexmend
 from hexmend import __version__
 from hexmend.parameters import Parametrised
-from hexmend.recipe import Recipe, Stage
 from hexmend.report.charts import ChartStyle
+from hexmend.run.recipe import Recipe, Stage
 from hexmend_app.features.script.words import WIDTH, comment_of, lines_of, made, numbers
 from hexmend_app.state.scene import Scene, from_toml, to_toml
 

@@ -9,7 +9,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.script.comparisons import Comparisons
 from hexmend_app.features.script.lines import Lines, call
 from hexmend_app.features.script.runs import Told

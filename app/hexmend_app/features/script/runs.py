@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from hexmend.optimise import Outcome, Result, StageResult
-from hexmend.recipe import Recipe, Stage
+from hexmend.iteration import Outcome, Result, StageResult
 from hexmend.run import Stop
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.features.script.words import made, with_limits
 

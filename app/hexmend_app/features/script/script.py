@@ -8,12 +8,12 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.io.atomic import replacing
-from hexmend.mesh import Mesh
+from hexmend.io.storage.atomic import replacing
+from hexmend.iteration import Result
+from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import Sweep
-from hexmend.optimise import Result
 from hexmend.report import write_comparison
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
 from hexmend_app.features.script.lines import Lines, call
 from hexmend_app.features.script.names import Names, read_from
 from hexmend_app.features.script.runs import Told

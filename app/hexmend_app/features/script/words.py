@@ -11,8 +11,8 @@ import numpy as np
 from hexmend.doctor import repair
 from hexmend.figures import printable
 from hexmend.parameters import Parametrised, declared
-from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 
 #: Letters of a line.
@@ -52,7 +52,7 @@ def with_limits(work: Smoother | Recipe, stop: Stop | None) -> str:
 def called(mesh: str, change: Callable[..., Any], values: Sequence[Any]) -> str:
     """The call of a function of the core with the mesh of a name and some values, for a mesh.
 
-    >>> from hexmend.fixing import with_pinned
+    >>> from hexmend.mesh.fixing import with_pinned
     >>> called("mesh_1", with_pinned, (3, False))
     'with_pinned(mesh_1, 3, False)'
     """

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.recipe import Recipe
 from hexmend.run.memory import Shortage
+from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel

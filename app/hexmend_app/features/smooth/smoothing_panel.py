@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QScrollArea, QSpinBox, QVBoxLayout, QWidget
 
-from hexmend.recipe import Stage
+from hexmend.run.recipe import Stage
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
 from hexmend_app.features.smooth.stage_form import StageForm

@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QComboBox
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import declared
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.order import Order
 from hexmend_app.widgets.combo import let_shrink

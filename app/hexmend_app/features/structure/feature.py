@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend.surface.features import DEGREES
+from hexmend.boundary.features import DEGREES
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.structure.structure_panel import StructurePanel
 

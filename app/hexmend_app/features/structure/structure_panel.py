@@ -9,9 +9,9 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
-from hexmend.structure import SHARP as DEGREES
-from hexmend.structure import Structure as Found
-from hexmend.surface import Kind
+from hexmend.boundary import Kind
+from hexmend.mesh.structure import SHARP as DEGREES
+from hexmend.mesh.structure import Structure as Found
 from hexmend_app.features.structure.layer_row import Entry, LayerRow
 from hexmend_app.scene.layers.structure import (
     BOUNDARY,

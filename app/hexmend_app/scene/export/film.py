@@ -10,9 +10,9 @@ import numpy as np
 from PIL import Image, ImageDraw
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend.io.atomic import replacing
-from hexmend.io.suffixes import suffix_for
-from hexmend.movement import Moment, Movement
+from hexmend.boundary.displacement import Moment, Movement
+from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.scene.export.chart import histogram
 from hexmend_app.scene.export.frames import INK, colour_bar, letters, paper, pen_of, strip_height
 from hexmend_app.scene.export.movie import check_installed, write_movie

@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.boundary.displacement import MOVEMENTS, named
 from hexmend.errors import ParameterError
-from hexmend.movement import MOVEMENTS, named
 from hexmend_app.scene.export.letters import Letters
 from hexmend_app.scene.export.subject import Subject
 from hexmend_app.state.scene import Captions, Panel, Place, Scene

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.export.film import format_of, pictures, write_film
 from hexmend_app.scene.export.rasters import aim
 from hexmend_app.scene.export.shots import shots

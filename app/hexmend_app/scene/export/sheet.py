@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image
 
-from hexmend.io.atomic import replacing
-from hexmend.io.suffixes import suffix_for
+from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.suffixes import suffix_for
 from hexmend.node_step import NodeStep
 from hexmend_app.scene.export.bar import draw_bar
 from hexmend_app.scene.export.captions import draw_captions

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from hexmend.boundary.displacement import MOVEMENTS, Moment, Movement
 from hexmend.errors import ParameterError
-from hexmend.mesh import Mesh
-from hexmend.movement import MOVEMENTS, Moment, Movement
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend.recipe import Recipe
+from hexmend.run.recipe import Recipe
 from hexmend_app.scene.export.sheet import Sheet, draw_sheet
 from hexmend_app.scene.export.subject import Subject
 from hexmend_app.scene.graphics import prepare_off_screen

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.mesh import Mesh
-from hexmend.movement import Movement
+from hexmend.boundary.displacement import Movement
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend_app.scene.frame import Frame
 from hexmend_app.state.look import Look

@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
-from hexmend.movement import NOTHING, Movement
+from hexmend.boundary.displacement import NOTHING, Movement
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.structure import uncut

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyvista as pv
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.cutting import cut
 from hexmend_app.scene.cutting.polygons import Polygons, together
 from hexmend_app.scene.element_colours import ElementColours

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import Node, corner_qualities
 from hexmend_app.scene.layers.highlight import Highlight

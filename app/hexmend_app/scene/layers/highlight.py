@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkPolyDataMapper, vtkRenderer
 
-from hexmend.hexahedron import EDGES
+from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.palette import rgb
 from hexmend_app.scene.pane import Pane

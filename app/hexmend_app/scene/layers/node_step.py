@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
-from hexmend.hexahedron import EDGES, FACES
+from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.node_step import NodeStep
 from hexmend_app.scene.palette import OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, UPHILL, Role, rgb
 from hexmend_app.scene.pane import Pane

@@ -6,8 +6,8 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.cells import Cells
-from hexmend.mesh import Mesh
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.see_through import SeeThrough
 from hexmend_app.scene.palette import OTHER_CELLS, rgb

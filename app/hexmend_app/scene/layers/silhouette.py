@@ -7,8 +7,8 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkMapper, vtkRenderer
 
 from hexmend.kernels import skin
-from hexmend.mesh import Mesh
-from hexmend.structure import sharp_edges
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.structure import sharp_edges
 from hexmend_app.scene.layers.flat import flat_actor
 from hexmend_app.scene.layers.structure import uncut
 from hexmend_app.scene.layers.surface import set_points

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from hexmend.boundary import Kind
+from hexmend.boundary.features import DEGREES
 from hexmend.kernels import skin
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.structure import Structure as Found
+from hexmend.mesh.structure import structure
 from hexmend.quality import ElementQuality, locked
-from hexmend.structure import Structure as Found
-from hexmend.structure import structure
-from hexmend.surface import Kind
-from hexmend.surface.features import DEGREES
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.layers.marks import Marks
 from hexmend_app.scene.pane import Pane

@@ -11,10 +11,10 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-import hexmend.recipe as recipes
+import hexmend.run.recipe as recipes
 from hexmend.errors import FileError, ParameterError
-from hexmend.mesh import Mesh
-from hexmend.recipe import Recipe
+from hexmend.mesh.mesh import Mesh
+from hexmend.run.recipe import Recipe
 from hexmend.toml_text import parsed
 from hexmend_app.state.scene import png
 from hexmend_app.state.scene.camera import MOST, Panel

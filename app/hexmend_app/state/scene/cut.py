@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from hexmend.errors import ParameterError
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, CutLeft, PlaneClip
 from hexmend_app.state.scene.table import Table, key
 from hexmend_app.state.stand import Vector

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend_app.state.look import Look, Structure, Traces
 from hexmend_app.state.scene.camera import MOST, Camera, Panel
 from hexmend_app.state.scene.cut import Cut

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from hexmend.boundary.displacement import MOVEMENTS
 from hexmend.errors import ParameterError
-from hexmend.movement import MOVEMENTS
 from hexmend.quality import METRICS
 from hexmend_app.state.look import COLOUR_MAPS, ColourScale, Isolation, Look, RangeMode, ValueRange
 from hexmend_app.state.scene.table import Table, key

@@ -9,7 +9,7 @@ import re
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.io.toml_files import read_toml, write_toml
+from hexmend.io.storage.toml_files import read_toml, write_toml
 from hexmend.toml_text import parsed
 from hexmend_app.state.scene.camera import Camera
 from hexmend_app.state.scene.scene import Scene

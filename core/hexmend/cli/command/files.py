@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hexmend.mesh import Mesh
+    from hexmend.mesh.mesh import Mesh
 
 
 def add_mesh(parser: argparse.ArgumentParser) -> None:
@@ -45,7 +45,7 @@ def check_targets(source: str, output: str, *targets: str | None) -> None:
     from pathlib import Path
 
     from hexmend.errors import FileError
-    from hexmend.io.atomic import check_writable
+    from hexmend.io.storage.atomic import check_writable
 
     taken: set[Path] = {Path(source).resolve(), Path(output).resolve()}
     for target in targets:

@@ -8,8 +8,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hexmend.mesh import Mesh
-    from hexmend.recipe import Recipe
+    from hexmend.mesh.mesh import Mesh
+    from hexmend.run.recipe import Recipe
     from hexmend.smoothers import Smoother
 
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from hexmend.cli.command.limits import add_limits, given_limits, limits
 
 if TYPE_CHECKING:
-    from hexmend.mesh import Mesh
-    from hexmend.recipe import Recipe
+    from hexmend.mesh.mesh import Mesh
     from hexmend.run import Stop
+    from hexmend.run.recipe import Recipe
     from hexmend.smoothers import Smoother
 
 
@@ -120,8 +120,8 @@ def with_boundary(args: argparse.Namespace, methods: Iterable[str]) -> dict[str,
 def chosen(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop | None]:
     """What is to be run, and its limits where it does not hold them itself."""
     from hexmend.errors import ParameterError
-    from hexmend.io import read_recipe
     from hexmend.parameters import from_strings
+    from hexmend.run.recipe_files import read_recipe
     from hexmend.smoothers import DEFAULT_METHOD, METHODS
 
     if args.recipe:

@@ -9,14 +9,14 @@ from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from hexmend.cli.interrupts import EndsAfterIteration
-from hexmend.cli.terminal import redraws_lines
+from hexmend.cli.command.interrupts import EndsAfterIteration
+from hexmend.cli.command.terminal import redraws_lines
 from hexmend.signal_guard import uninterrupted
 
 if TYPE_CHECKING:
     import rich.progress
 
-    from hexmend.optimise import Iteration
+    from hexmend.iteration import Iteration
     from hexmend.run import Run
 
 #: Seconds between plain lines, and of iterations before the first of them: a short run says nothing.

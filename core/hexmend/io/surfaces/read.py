@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.boundary import Skin
+from hexmend.boundary.edges import components
 from hexmend.errors import FileError
 from hexmend.io.files import check_readable
 from hexmend.io.surfaces.format import SURFACES, Polygons
-from hexmend.surface import Skin
-from hexmend.surface.edges import components
 
 #: Corners nearer to each other than this, as a share of the diagonal, are one; and a surface whose area is no larger a
 #: share of the square of its extent has none.

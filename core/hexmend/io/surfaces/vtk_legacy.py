@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from hexmend.io.formats.vtk.legacy_reader import read_polygons
 from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_one_width
-from hexmend.io.vtk_legacy import read_polygons
 
 
 def read(path: Path) -> Polygons:

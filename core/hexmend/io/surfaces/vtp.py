@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
+from hexmend.io.formats.vtk.xml_arrays import values_of
+from hexmend.io.formats.vtk.xml_document import Document
 from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_one_width, parsed
-from hexmend.io.vtk_xml import Document
-from hexmend.io.vtk_xml_arrays import values_of
 
 
 def read(path: Path) -> Polygons:

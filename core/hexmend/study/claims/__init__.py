@@ -13,7 +13,7 @@ from hexmend.study.claims import (
     robustness,
 )
 from hexmend.study.claims.claim import Claim
-from hexmend.study.measured import Measured
+from hexmend.study.thesis.experiment_result import Measured
 
 #: Every claim, in the order of the report.
 CLAIMS: tuple[Callable[[Sequence[Measured]], Claim], ...] = (

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.study.claims.claim import Finding, judges
 from hexmend.study.claims.reading import arrived, of_mesh
-from hexmend.study.measured import Measured
+from hexmend.study.thesis.experiment_result import Measured
 
 #: "Constant in the mesh size": within this factor. The thesis's own figures of global-sd vary by 3.4.
 _CONSTANT = 3.5

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.optimise import Outcome
+from hexmend.iteration import Outcome
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import end, ended, of_mesh, optimisers
-from hexmend.study.experiments import INITIAL
-from hexmend.study.measured import Measured
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
+from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiments import INITIAL
 
 _LOCAL = "local-sd", "local-nr"
 

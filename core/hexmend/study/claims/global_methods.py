@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import FAR, arrivals, arrived, end, ended, name, near_best, of_mesh, tables, times
-from hexmend.study.measured import Measured
+from hexmend.study.thesis.experiment_result import Measured
 
 #: "Negligible advantage": less than this share of the seconds is saved.
 _NEGLIGIBLE = 0.1

@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.quality import measure
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import arrivals, ended, name, of_mesh, settled, tables, times
-from hexmend.study.measured import Measured
+from hexmend.study.thesis.experiment_result import Measured
 
 #: "An order of magnitude".
 _ORDER = 10.0

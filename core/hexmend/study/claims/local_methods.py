@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import arrivals, arrived, end, ended, name, of_mesh, tables, times
-from hexmend.study.measured import Measured
+from hexmend.study.thesis.experiment_result import Measured
 
 #: "Reduce the number of iterations": by this share at least. A sweep more or less is where A.1's tolerance is met.
 _FEWER = 0.05

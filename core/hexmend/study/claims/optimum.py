@@ -21,7 +21,7 @@ from hexmend.study.claims.reading import (
     settled,
     tables,
 )
-from hexmend.study.measured import Measured
+from hexmend.study.thesis.experiment_result import Measured
 
 #: Qualities of one optimum as runs end: q min and q mean of the thesis's own in Table 4.15 differ by 0.0035 at most.
 _SAME_QUALITY = 0.005

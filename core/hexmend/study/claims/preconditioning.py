@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import arrived, end, ended, of_mesh
-from hexmend.study.experiments import INITIAL
-from hexmend.study.measured import Measured
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
+from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiments import INITIAL
 
 #: From this delta on the optimum may be another (4.2.1): such a run is not compared.
 _LARGE = 0.1

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from hexmend.energy.power import SQUARES
-from hexmend.optimise import Outcome
+from hexmend.energy.norm import SQUARES
+from hexmend.iteration import Outcome
 from hexmend.smoothers import METHODS
-from hexmend.study.measured import Measured
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
+from hexmend.study.thesis.experiment_result import Measured
 
 #: Objectives that differ by less than this share are one optimum's: what the tolerance of A.1 leaves open.
 SAME = 1e-3

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import arrivals, arrived, end, ended, name, of_mesh, optimisers, tables
-from hexmend.study.measured import Measured
-from hexmend.study.row import Row
+from hexmend.study.table_row import Row
+from hexmend.study.thesis.experiment_result import Measured
 
 #: "Several": at least so many.
 _SEVERAL = 2

@@ -22,14 +22,14 @@ import numpy as np
 
 from hexmend.errors import HexmendError
 from hexmend.gallery import make
-from hexmend.hexahedron import FACES
 from hexmend.io import read, write
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
 from hexmend.run import Stop, smooth
-from hexmend.study.mending import real
+from hexmend.study.bench.default_method import real
+from hexmend.study.bench.section import Section
 from hexmend.study.peers.programs import GMSH, TMOP
-from hexmend.study.section import Section
 
 #: Gallery meshes by name, size and scramble.
 MESHES = [("cube", 1000, 0.6), ("bridge-sharp", 1372, 0.6), ("five-side", 1360, 0.0), ("plane", 2500, 0.0)]

@@ -10,8 +10,8 @@ from PIL import Image
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.scene import Cut, Page, write_scene

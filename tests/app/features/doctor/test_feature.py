@@ -5,9 +5,9 @@ import pytest
 from PySide6.QtWidgets import QLabel, QPushButton
 
 from hexmend.gallery import make
-from hexmend.mesh import Mesh
-from hexmend.recipe import Stage
+from hexmend.mesh.mesh import Mesh
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.state.document import State

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from hexmend.gallery import make
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.features.histogram.file import write_histogram
 

@@ -11,9 +11,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit
 
 from hexmend import io
+from hexmend.boundary import Kind
 from hexmend.quality import METRICS
 from hexmend.run import Stop
-from hexmend.surface import Kind
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.shell.palette import CommandPalette

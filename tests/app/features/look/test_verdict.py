@@ -5,7 +5,7 @@ import pytest
 import vtk
 from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 
-from hexmend.hexahedron import EDGES, UNIT_CUBE
+from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
 from hexmend.quality import METRICS, measure
 
 #: Metrics whose values are Verdict's, the infinite ones apart.

@@ -9,8 +9,8 @@ from PySide6.QtWidgets import QFileDialog, QPushButton
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.clip import PlaneClip
 from hexmend_app.state.look import ColourScale, Structure

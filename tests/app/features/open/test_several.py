@@ -7,9 +7,9 @@ import pytest
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.mesh import Mesh
-from hexmend.recipe import Stage
+from hexmend.mesh.mesh import Mesh
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.scene import Panel, Scene, Wiped, write_scene
 from hexmend_app.state.views import Wipe

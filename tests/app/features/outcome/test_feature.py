@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 
 from hexmend import gallery, io
-from hexmend.optimise import Stop
+from hexmend.iteration import Stop
 from hexmend_app.state.run import Phase
 from tests.app.driving import choose, click, key, open_and_wait, phase
 from tests.app.driving import press as press_button

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtWidgets import QLabel
 
 from hexmend.run import Stop
-from hexmend.smoothers.local_sd import LocalSteepestDescent
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.features.outcome.feature import FeatureOutcome
 from tests.app.hosting import PlainHost
 from tests.core.grids import grid, scrambled

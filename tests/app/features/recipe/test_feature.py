@@ -6,11 +6,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QLabel, QLineEdit, QListWidget, QPushButton
 
-from hexmend import io
-from hexmend.optimise import Stop
-from hexmend.recipe import Recipe, Stage
+from hexmend.iteration import Stop
 from hexmend.run import smooth
 from hexmend.run.breakpoints import Breakpoints
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
 from hexmend_app.state.chain import Chain
 from hexmend_app.state.run import Phase
@@ -217,7 +217,7 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     QTest.keyClick(title, Qt.Key.Key_Return)
     press(button(panel, "Save"))
     assert window.messages.messages()[-1][1] == f"Recipe saved to {path}"
-    saved = io.read_recipe(path)
+    saved = read_recipe(path)
     assert saved == window.session.chain.recipe
     assert saved.title == "Mine"
     window.session.chain.take(Recipe.of("laplacian"))

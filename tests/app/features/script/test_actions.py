@@ -8,9 +8,9 @@ from PySide6.QtWidgets import QFileDialog
 
 from hexmend import io
 from hexmend.gallery import make
-from hexmend.mesh import Mesh
-from hexmend.recipe import Recipe, Stage
+from hexmend.mesh.mesh import Mesh
 from hexmend.run import Stop
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.features.film.film_dialog import FilmDialog
 from hexmend_app.features.save.picture_dialog import PictureDialog

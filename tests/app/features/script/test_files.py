@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from hexmend.recipe import Recipe, Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.film.film_dialog import FilmChoice

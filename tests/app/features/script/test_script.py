@@ -10,9 +10,9 @@ import pytest
 from hexmend import io
 from hexmend.doctor import examine
 from hexmend.gallery import make
-from hexmend.mesh import Mesh
-from hexmend.recipe import Recipe, Stage
+from hexmend.mesh.mesh import Mesh
 from hexmend.run import Stop
+from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.script.script import Script

@@ -8,11 +8,11 @@ from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
-from hexmend.io.archive import read_archive, write_archive
-from hexmend.io.session import VERSION
-from hexmend.recipe import Stage
+from hexmend.io.archive.archive import read_archive, write_archive
+from hexmend.io.formats.session import VERSION
 from hexmend.run import Stop
 from hexmend.run.breakpoints import Breakpoints
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.shell.starting import Starting

@@ -12,8 +12,8 @@ import sys
 import pytest
 from PySide6.QtWidgets import QPushButton
 
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state import session_data
 from hexmend_app.state.places import VARIABLE
@@ -26,7 +26,7 @@ pytestmark = pytest.mark.slow
 _PROGRAM = """
 import hashlib, json, sys
 from pathlib import Path
-from hexmend.recipe import Stage
+from hexmend.run.recipe import Stage
 from hexmend.run import Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.shell.program import application

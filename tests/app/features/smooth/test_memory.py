@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMessageBox
 
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state import commands
 from hexmend_app.state.run import Phase

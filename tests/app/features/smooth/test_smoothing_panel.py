@@ -5,8 +5,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QScrollArea
 
-from hexmend.recipe import Stage
 from hexmend.run import Stop
+from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.order import Order

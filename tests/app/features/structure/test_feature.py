@@ -9,10 +9,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit
 
 from hexmend import gallery, io
-from hexmend.cells import Cells
-from hexmend.mesh import Mesh
-from hexmend.structure import structure
-from hexmend.surface import Kind
+from hexmend.boundary import Kind
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.structure import structure
 from hexmend_app.scene.layers.structure import KINDS, LOCKED, PINNED, VALENCES
 from hexmend_app.shell.palette import CommandPalette
 from hexmend_app.state.classer import PIN

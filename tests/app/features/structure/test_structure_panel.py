@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QLabel
 
-from hexmend.mesh import Mesh
-from hexmend.structure import structure
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.structure import structure
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.shell.program import application
 from hexmend_app.state.look import Structure

@@ -13,7 +13,7 @@ from PySide6.QtGui import QOpenGLContext
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io import write
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, measure
 from hexmend_app.cli.clip import cut_of, plane
 from hexmend_app.cli.looks import look_of

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from hexmend.boundary.displacement import Moment, Movement
 from hexmend.errors import ParameterError
-from hexmend.movement import Moment, Movement
 from hexmend_app.scene.colours import INVERTED, table
 from hexmend_app.scene.export.sheet import draw_sheet
 from hexmend_app.scene.export.subject import Subject

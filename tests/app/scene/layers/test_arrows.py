@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.movement import Moment, Movement
+from hexmend.boundary.displacement import Moment, Movement
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers import arrows as layer

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.cells import Cells
-from hexmend.mesh import Mesh
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.others import FACES, outer_faces

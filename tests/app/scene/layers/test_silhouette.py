@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.mesh import Mesh
-from hexmend.structure import sharp_edges
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.structure import sharp_edges
 from hexmend_app.scene.layers.silhouette import Silhouette, form_lines
 from hexmend_app.state.look import Look
 from tests.core.grids import grid

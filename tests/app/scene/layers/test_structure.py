@@ -5,11 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
+from hexmend.boundary import Kind
 from hexmend.gallery.blocks import extruded
 from hexmend.gallery.pentagon import divided, fan
-from hexmend.mesh import Mesh
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend.surface import Kind
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.structure import (
     BOUNDARY,

@@ -13,7 +13,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from hexmend.errors import FileError, ParameterError
-from hexmend.recipe import Recipe
+from hexmend.run.recipe import Recipe
 from hexmend_app.state.scene import Cut, Page, Panel, Plane, Scene, Show
 from hexmend_app.state.scene.carried import Pictured, carrying, digest, read_carried
 from hexmend_app.state.scene.png import is_png, texts

@@ -1,0 +1,126 @@
+"""Closest points of triangles and segments, by a tree of boxes for each group of them."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.errors import MeshError
+from hexmend.kernels import closest
+from hexmend.mesh.fields import members
+from hexmend.mesh.validation import as_faces, as_points, points_like
+
+#: Coordinates from which on distances leave the range of numbers.
+FARTHEST = 1e150
+
+
+@dataclass(frozen=True, eq=False)
+class Closest:
+    """Closest points.
+
+    Parameters
+    ----------
+    places : (k, 3) float64
+    pieces : (k,) int32
+        The piece that each lies on.
+    weights : (k, 3) float64
+        Of the piece's corners at each place.
+    """
+
+    places: np.ndarray
+    pieces: np.ndarray
+    weights: np.ndarray
+
+
+class Trees:
+    """Triangles and segments in groups, each group with a tree.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    pieces : (k, 3) int32
+        Triangles (a, b, c), and segments as (a, b, b).
+    group : (k,) int
+        Of each piece, from 0; none is empty.
+
+    Attributes
+    ----------
+    order : (k,) int64
+        Where each piece, as `Closest.pieces` counts them, was in `pieces`.
+    points, pieces, boxes, links, roots
+        What `hexmend.kernels.closest` takes.
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a point that does not exist.
+    """
+
+    def __init__(self, points: np.ndarray, pieces: np.ndarray, group: np.ndarray):
+        points = as_points(points)
+        pieces = as_faces(pieces, len(points))
+        group = members(group, "group", len(pieces))
+        if pieces.shape[1] != 3 or len(group) != len(pieces):
+            raise MeshError(
+                f"pieces have shape {pieces.shape} and group {group.shape}: expected (k, 3), and a group for each"
+            )
+        order = np.argsort(group, kind="stable")
+        start = np.searchsorted(group[order], np.arange(group.max(initial=-1) + 2)).astype(np.int32)
+        pieces = np.ascontiguousarray(pieces[order], dtype=np.int32)
+        within, self.boxes, self.links, self.roots = closest.trees(points, pieces, start)
+        self.points, self.pieces, self.order = points, np.ascontiguousarray(pieces[within]), order[within]
+
+    def with_points(self, points: np.ndarray) -> Trees:
+        """The same pieces with their points (n, 3) elsewhere; the nearer to where they were, the faster it is."""
+        other, points = copy.copy(self), points_like(points, self.points.shape)
+        other.points, other.boxes = points, np.empty_like(self.boxes)
+        closest.refit(points, self.pieces, self.links, other.boxes)
+        return other
+
+    def closest(self, x: np.ndarray, group: np.ndarray, enough: float = 0.0) -> Closest:
+        """The point closest to each of x in a group.
+
+        Parameters
+        ----------
+        x : (k, 3) float64
+        group : (k,) int
+        enough : float
+            A point no further than that will do for the closest, which is faster.
+
+        Raises
+        ------
+        MeshError
+            For a point that is infinite or next to it, and for arrays of another shape or type.
+        """
+        x = as_points(x, "places")
+        group = members(group, "group", len(self.roots))
+        if len(group) != len(x):
+            raise MeshError(f"there are {len(group)} groups: expected one for each of {len(x)} places")
+        piece, places, weights = np.empty(len(x), dtype=np.int32), np.empty_like(x), np.empty_like(x)
+        roots = self.roots[group]
+        closest.closest(self.points, self.pieces, self.boxes, self.links, x, roots, enough, piece, places, weights)
+        if len(piece) and piece.min() < 0:
+            wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
+            raise MeshError(f"nothing is closest to the point {wrong}: expected finite numbers, below {FARTHEST:g}")
+        return Closest(places, piece, weights)
+
+
+def triangulated(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Faces as triangles, a quad as four around the mean of its corners, so that no diagonal is preferred.
+
+    Returns
+    -------
+    vertices : (v, 3) float64
+        The points, then the middles of quads.
+    triangles : (t, 3) int32
+    face : (t,) int64
+        The face of each triangle.
+    """
+    if faces.shape[1] == 3:
+        return np.ascontiguousarray(points), faces, np.arange(len(faces))
+    middle = len(points) + np.arange(len(faces), dtype=np.int32)
+    around = np.stack([faces, np.roll(faces, -1, axis=1), np.repeat(middle[:, None], 4, axis=1)], axis=-1)
+    vertices = np.concatenate([points, points[faces].mean(axis=1)])
+    return vertices, around.reshape(-1, 3).astype(np.int32), np.repeat(np.arange(len(faces)), 4)

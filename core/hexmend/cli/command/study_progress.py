@@ -1,0 +1,47 @@
+"""How far a study of many tasks is, on standard error: a live line on a terminal, else plain lines now and then."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import suppress
+from time import monotonic
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+from hexmend.cli.command.progress import EVERY, drawn_line
+from hexmend.cli.command.terminal import redraws_lines
+
+if TYPE_CHECKING:
+    from hexmend.study.batch.runner import Count
+
+
+class Counting:
+    """Shows the count of tasks while the block lasts."""
+
+    def __enter__(self) -> Self:
+        self._line = None
+        self._due = monotonic() + EVERY
+        if redraws_lines():
+            self._line = drawn_line("{task.description}")
+            self._line.start()
+            self._task = self._line.add_task("", total=None)
+        return self
+
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        if self._line is not None:
+            with suppress(OSError):  # the terminal may have gone
+                self._line.stop()
+
+    def show(self, count: Count) -> None:
+        """Show how far it is."""
+        words = f"{count.kept + count.done:,} of {count.tasks:,} tasks"
+        if count.failed:
+            words += f", {count.failed:,} without a result"
+        if count.last:
+            words += f": {count.last}"
+        if self._line is not None:
+            self._line.update(self._task, description=words)
+        elif monotonic() >= self._due:
+            with suppress(OSError):
+                print(words, file=sys.stderr, flush=True)
+            self._due = monotonic() + EVERY

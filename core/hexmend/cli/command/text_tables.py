@@ -1,0 +1,69 @@
+"""Small tables of the command line, drawn without a library: loading one takes longer than most commands do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from hexmend.cli.command.terminal import shows_colours
+from hexmend.figures import Worse, printable
+
+if TYPE_CHECKING:
+    from hexmend.quality import Spread, Summary
+
+
+def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summary]) -> None:
+    """Print one or several summaries side by side; what is worse than in the first stands out."""
+    from hexmend.quality import FIGURES, JUDGED, regressions
+
+    print(printable(title))
+    columns = [
+        (summary.to_dict(), {JUDGED[name] for name in regressions(summaries[0], summary)}) for summary in summaries
+    ]
+    rows = [
+        [
+            f"  {figure.label}" if figure.part_of else figure.title,
+            *((Worse if figure.key in fallen else str)(figure.of(record)) for record, fallen in columns),
+        ]
+        for figure in FIGURES.values()
+    ]
+    print_columns(["", *heads] if len(heads) > 1 else None, rows)
+
+
+def print_spreads(spreads: Mapping[str, Spread]) -> None:
+    """Print what every metric's values are, and how many hexes have one that is not acceptable."""
+    from hexmend.figures import count
+    from hexmend.quality import METRICS
+
+    rows = []
+    for name, spread in spreads.items():
+        low, high = METRICS[name].acceptable
+        values = ("–" if value is None else f"{value:.3g}" for value in (spread.min, spread.mean, spread.max))
+        acceptable = f"{low:g} to {high:g}".replace("inf", "∞")
+        rows.append([name, *values, acceptable, count(spread.unacceptable), count(spread.infinite)])
+    print_columns(["Metric", "Min", "Mean", "Max", "Acceptable", "Outside", "Infinite"], rows)
+
+
+def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> None:
+    """Print rows in columns, the first from the left and the others from the right, with a line below the head.
+
+    On a terminal that has colours, a cell that is a `Worse` is red.
+    """
+    red, plain = ("\x1b[31m", "\x1b[0m") if shows_colours() else ("", "")
+    every = [*([head] if head else []), *rows]
+    widths = [max(map(len, column)) for column in zip(*every, strict=True)]
+
+    def line(row: Sequence[str]) -> str:
+        cells = (cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))
+        painted = (
+            f"{red}{text}{plain}" if isinstance(cell, Worse) else text
+            for cell, text in zip(row[1:], cells, strict=True)
+        )
+        return "  " + "   ".join([row[0].ljust(widths[0]), *painted])
+
+    print()
+    if head:
+        print(line(head))
+        print(" " + "─" * (len(line(head)) - 1))
+    print("\n".join(map(line, rows)))
+    print()

@@ -1,0 +1,77 @@
+"""eta(H), the energy of a hex: (3.1), (3.2), (B.20)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.energy.norm import SQUARES, Power
+from hexmend.errors import MeshError
+from hexmend.kernels import objective as kernels
+from hexmend.mesh.validation import as_hexes, as_points
+
+
+def energies(
+    points: np.ndarray,
+    hexes: np.ndarray,
+    delta: float = 0.0,
+    left_out: np.ndarray | None = None,
+    offset: float = 1.0,
+) -> np.ndarray:
+    """Energy of every hex: mean of eta(T) over its corners minus `offset`.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    delta : float
+        In the unit of sigma, the cube of the points' unit of length.
+    left_out : (m,) uint8, optional
+        Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
+    offset : float
+        See `Power`.
+
+    Returns
+    -------
+    (m,) float64
+        For a cube 0, if the offset is 1; +inf for an inverted hex at delta = 0.
+
+    Examples
+    --------
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
+    >>> energies(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
+    array([0.])
+    """
+    points = as_points(points)
+    hexes = as_hexes(hexes, len(points))
+    eta = np.empty(len(hexes))
+    out = corners_left_out(left_out, len(hexes))
+    kernels.energies(points, hexes, float(delta), float(offset), out, eta)
+    return eta
+
+
+def corners_left_out(left_out: np.ndarray | None, hexes: int) -> np.ndarray:
+    """Which corner tetrahedra of so many hexes are left out, (m,) uint8; none without an array.
+
+    Raises
+    ------
+    MeshError
+        For an array of another length or type.
+    """
+    if left_out is None:
+        return np.zeros(hexes, np.uint8)
+    if not isinstance(left_out, np.ndarray) or left_out.shape != (hexes,) or left_out.dtype != np.uint8:
+        raise MeshError(f"left_out is no array ({hexes},) of type uint8: expected a byte for each hex")
+    return np.ascontiguousarray(left_out)
+
+
+def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: Power = SQUARES) -> float:
+    """(sum eta(H)^p)^(1/p) over all hexes, (3.3).
+
+    Examples
+    --------
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
+    >>> float(objective(UNIT_CUBE, np.arange(8, dtype=np.int32)[None]))
+    0.0
+    """
+    p, offset = power
+    return float(np.power(energies(points, hexes, delta, None, offset), p).sum() ** (1 / p))

@@ -1,0 +1,135 @@
+"""The energy of a mesh whose boundary nodes slide on its surface."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.boundary import Sliding
+from hexmend.energy.assembled_hessian import Assembled, full
+from hexmend.energy.mesh_energy import Hessian, MeshEnergy
+from hexmend.energy.norm import SQUARES, Power
+
+#: How far nodes are led to see where that is, in mean edge lengths.
+_NEAR = 1e-5
+
+
+class SlidingEnergy(MeshEnergy):
+    """As a function of the free nodes, those of the boundary on their curves and patches.
+
+    Derivatives are those along the surface: the gradient has no component off it, and the Hessian couples none, so that
+    a direction that is found by them is tangential. What the surface's curvature adds to the Hessian is left out.
+    Wherever nodes are moved to, they are put back on the surface.
+
+    Parameters
+    ----------
+    sliding : Sliding
+    power, left_out
+        See `MeshEnergy`.
+    """
+
+    faceted = True
+
+    def __init__(self, sliding: Sliding, power: Power = SQUARES, left_out: np.ndarray | None = None):
+        super().__init__(sliding.mesh, power, left_out)
+        self.sliding = sliding
+        self._rows = np.searchsorted(self.nodes, sliding.nodes)
+        self._seen: tuple[np.ndarray, np.ndarray] | None = None
+
+    def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
+        there = super().moved(x, step, alpha)
+        nodes = self.sliding.nodes
+        there[nodes] = self.sliding.put_back(there[nodes] * self.unit) / self.unit
+        return there
+
+    def descending(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
+        """The slope along a step (k, 3) once nodes are put back; in it, those stay that are led up.
+
+        On a faceted surface a node that is led over an edge goes elsewhere than along its tangent.
+        """
+        gradient = super().gradient(x, delta)
+        rows, nodes, unit = self._rows, self.sliding.nodes, self.unit
+        size = np.linalg.norm(step[rows], axis=1)
+        far = _NEAR / np.maximum(size, np.finfo(float).tiny)[:, None]
+        aims = (x[nodes] + far * step[rows]) * unit
+        leads = (self.sliding.put_back(aims) / unit - x[nodes]) / far
+        slopes = np.einsum("ki,ki->k", leads, gradient[rows])
+        step[rows[~(slopes < 0)]] = 0.0
+        inside = np.ones(len(step), dtype=bool)
+        inside[rows] = False
+        return float((step[inside] * gradient[inside]).sum() + slopes[slopes < 0].sum())
+
+    def strayed(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
+        nodes = self.sliding.refused(x * self.unit, there * self.unit)
+        nodes = nodes[(x[nodes] != there[nodes]).any(axis=1)]
+        if not nodes.size:
+            return None
+        strayed = np.zeros(len(x), dtype=bool)
+        strayed[nodes] = True
+        return strayed
+
+    def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
+        gradient = super().gradient(x, delta)
+        gradient[self._rows] = np.einsum("kij,kj->ki", self.projectors(x), gradient[self._rows])
+        return gradient
+
+    def hessian(self, x: np.ndarray, delta: float = 0.0) -> SlidingHessian:
+        return SlidingHessian(self, x, delta)
+
+    def projectors(self, x: np.ndarray) -> np.ndarray:
+        """What takes displacements of sliding nodes at x, all nodes' (n, 3), along the surface, (k, 3, 3) symmetric."""
+        seen = self._seen  # another thread may put its own there
+        if seen is None or seen[0] is not x:
+            bases = self.sliding.bases(x[self.sliding.nodes] * self.unit)
+            seen = self._seen = x, bases @ bases.transpose(0, 2, 1)
+        return seen[1]
+
+    @cached_property
+    def touched(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The blocks above an assembled Hessian's diagonal of nodes that slide, and the slots of both, (b,) each."""
+        couplings = self.couplings
+        slides = np.zeros(couplings.nodes.size, dtype=bool)
+        slides[couplings.order[self._rows]] = True
+        row = np.repeat(np.arange(slides.size), np.diff(couplings.row_start))
+        at = np.flatnonzero(slides[row] | slides[couplings.columns])
+        return at, row[at], couplings.columns[at]
+
+
+class SlidingHessian(Hessian):
+    """Hessian of a `SlidingEnergy` along the surface; off it, where the gradient is 0, a multiple of the identity."""
+
+    energy: SlidingEnergy
+
+    def shifted(self, shift: float) -> SlidingHessian:
+        other = SlidingHessian(self.energy, self.x, self.delta)
+        other.shift = self.shift + shift
+        return other
+
+    def _product(self, v: np.ndarray) -> np.ndarray:
+        energy = self.energy
+        rows, along = energy._rows, energy.projectors(self.x)
+        v = v.reshape(-1, 3).copy()
+        off = v[rows]
+        v[rows] = np.einsum("kij,kj->ki", along, off)
+        off -= v[rows]
+        product = super()._product(v.ravel()).reshape(-1, 3)
+        product[rows] = np.einsum("kij,kj->ki", along, product[rows]) + off
+        return product.ravel()
+
+    def assembled(self, dtype: type = np.float32, room: Assembled | None = None) -> Assembled:
+        matrix = super().assembled(dtype, room)
+        energy = self.energy
+        slots = matrix.order[energy._rows]
+        along = energy.projectors(self.x).astype(dtype)
+        of_slot = np.broadcast_to(np.eye(3, dtype=dtype), (matrix.order.size, 3, 3)).copy()
+        of_slot[slots] = along
+        at, row, column = energy.touched
+        blocks = of_slot[row] @ matrix.off[at].reshape(-1, 3, 3) @ of_slot[column]
+        matrix.off[at] = blocks.reshape(-1, 9)
+        own = along @ full(matrix.diagonal[slots]) @ along
+        size = np.abs(np.trace(own, axis1=1, axis2=2) / np.maximum(np.trace(along, axis1=1, axis2=2), 1))
+        size = np.where(size > 0, size, 1)[:, None, None]  # neither the least nor the greatest eigenvalue
+        own += size * (np.eye(3, dtype=dtype) - along)
+        matrix.diagonal[slots] = own.reshape(-1, 9)[:, [0, 1, 2, 4, 5, 8]]
+        return matrix

@@ -1,0 +1,101 @@
+"""Which free nodes are coupled by a mesh's energy, and in what order an assembled Hessian keeps them."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from hexmend.kernels import couplings as kernels
+from hexmend.kernels import ordering
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.size_limits import MOST_ITEMS, too_many
+
+#: Slots are divided into parts that threads solve side by side: from so many slots on into 2, 4 and 8.
+_PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
+
+
+class Couplings:
+    """Pattern of the blocks of a Hessian: free nodes in slots, neighbours near each other, and who shares a hex.
+
+    Depends on the mesh alone, not on the number of threads.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    parts : int, optional
+        In how many parts the slots are; by their number where it is not given.
+
+    Raises
+    ------
+    MeshError
+        For more blocks than 32 bits can number.
+
+    Attributes
+    ----------
+    nodes : (k,) int32
+        The node in each slot.
+    bounds : (2 parts,) int32
+        Where the parts, and behind them the separators, begin and end.
+    order : (k,) int64
+        The slot of each free node, these by number.
+    slots : (m, 8) int32
+        Slot of each corner, -1 if it is fixed.
+    target : (m, 28) int32
+        The block that each pair of a hex's corners adds to.
+    row_start, columns : (k + 1,) int32, (blocks,) int32
+        The blocks above the diagonal, as compressed rows.
+    """
+
+    def __init__(self, mesh: Mesh, parts: int | None = None):
+        corners, rings = mesh.topology.node_corners, mesh.topology.rings
+        if parts is None:
+            free = np.count_nonzero(mesh.free)
+            parts = max((parts for least, parts in _PARTS if free >= least), default=1)
+        self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, mesh.free, parts)
+        slot = np.full(mesh.n_nodes, -1, np.int32)
+        slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
+        self.order = np.argsort(self.nodes)
+        self.slots = slot[mesh.hexes]
+        with too_many("pairs of free nodes that share a hex"):
+            self.row_start, self.columns, self.target = kernels.pattern(
+                self.slots, self.nodes, corners.start, corners.items, MOST_ITEMS
+            )
+        self._hexes = mesh.hexes
+        self._shares: dict[int, tuple[np.ndarray, ...]] = {}
+
+    def shares(self, count: int) -> tuple[np.ndarray, ...]:
+        """The slots in `count` shares, and the hexes at the slots of each, as `assembly.assemble` takes them.
+
+        Returns
+        -------
+        bounds : (count + 1,) int32
+            Where the shares begin and end, in slots.
+        start : (count + 1,) int32
+            Where the hexes of each begin and end in what follows.
+        chosen : (j,) int32
+            Their numbers; a hex at slots of several shares is in each.
+        hexes, slots : (j, 8) int32
+        target : (j, 28) int32
+        """
+        if count not in self._shares:
+            bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
+            slots = self.slots
+            lowest, highest = slots.view(np.uint32).min(axis=1), slots.max(axis=1)  # so a fixed corner is no least one
+            order = np.argsort(lowest, kind="stable").astype(np.int32)
+            lowest, highest = lowest[order], highest[order]
+            there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]
+            start = np.cumsum([0, *map(len, there)], dtype=np.int32)
+            chosen = np.concatenate(there)
+            self._shares[count] = bounds, start, chosen, self._hexes[chosen], slots[chosen], self.target[chosen]
+        return self._shares[count]
+
+    @property
+    def pattern(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """`bounds`, `row_start` and `columns`: what the kernels of `conjugate_gradients` begin with."""
+        return self.bounds, self.row_start, self.columns
+
+    @property
+    def blocks(self) -> int:
+        """Blocks above the diagonal."""
+        return self.columns.size

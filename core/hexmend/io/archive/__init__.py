@@ -1,0 +1,1 @@
+"""Archives of plain data and arrays, as a zip file or a folder."""

@@ -1,0 +1,206 @@
+"""Meshes as plain data with arrays for an archive, and back; arrays that several meshes share stay shared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from hexmend.errors import MeshError
+from hexmend.mesh.cells import CELL_KINDS, Cells
+from hexmend.mesh.mesh import Mesh, Target
+from hexmend.mesh.size_limits import check_size
+from hexmend.mesh.validation import check_finite, check_node_numbers
+
+_TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
+#: The fields of a mesh, by the version of sessions that they are in from then on.
+_SINCE = dict.fromkeys(("points", "hexes", "surface", "pinned", "mid_nodes", "cells", "name", "notes", *_TABLES), 1) | {
+    "target": 2
+}
+#: What is set mesh by mesh; all else is shared by those that have the same.
+_OWN = {"points", "surface", "mid_nodes"}
+
+
+def mesh_data(mesh: Mesh) -> dict[str, Any]:
+    """Everything that a mesh is and carries; `surface` and `target` are where its boundary slides."""
+    target = mesh.target
+    return {
+        "points": mesh.points,
+        "hexes": mesh.hexes,
+        "surface": mesh.surface,
+        "target": target and {"points": target.points, "faces": target.faces, "name": target.name},
+        "pinned": mesh.pinned,
+        "mid_nodes": mesh.mid_nodes,
+        "cells": [{"kind": c.kind, "nodes": c.nodes, "data": c.data, "sets": c.sets} for c in mesh.cells],
+        "name": mesh.name,
+        "notes": list(mesh.notes),
+        **{table: dict(getattr(mesh, table)) for table in _TABLES},
+    }
+
+
+class Meshes:
+    """Makes meshes of plain data; those with the same arrays of hexes share one topology.
+
+    Parameters
+    ----------
+    version : int
+        Of the session that they are from.
+    """
+
+    def __init__(self, version: int):
+        self._fields = {name for name, since in _SINCE.items() if since <= version}
+        self._bare: dict[int, Mesh] = {}  # by their array of hexes
+        self._carriers: dict[tuple, Mesh] = {}  # with all but what is of each mesh alone
+        self._targets: dict[tuple, Target] = {}
+
+    def mesh(self, data: Any) -> Mesh:
+        """The mesh that `mesh_data` describes.
+
+        Raises
+        ------
+        MeshError
+            For unknown or missing fields, and for values that cannot be a mesh's.
+        """
+        check_fields("a mesh", data, self._fields)
+        points, surface = (_array(data, name, "f", (-1, 3)) for name in ("points", "surface"))
+        carrier, mid_nodes = self._carrier(data, points), data["mid_nodes"]
+        mesh = carrier.with_points(surface).keeping_surface().with_points(points)
+        if mid_nodes is not None:  # last: with them, points would not stay to the bit what they are
+            mesh = mesh.replace(mid_nodes=_array(data, "mid_nodes", "i", (len(mesh.hexes), 19)))
+        return mesh
+
+    def _carrier(self, data: Mapping[str, Any], points: np.ndarray) -> Mesh:
+        hexes = _array(data, "hexes", "i", (-1, 8))
+        bare = self._bare.get(id(hexes))
+        if bare is None or bare.n_nodes != len(points):
+            bare = self._bare[id(hexes)] = Mesh(points, hexes)
+        key = (id(bare), _key({name: data[name] for name in sorted(self._fields - _OWN)}))
+        if key not in self._carriers:
+            carrier = bare.replace(**_carried(data, bare))
+            target = self._target(data.get("target"))
+            self._carriers[key] = carrier if target is None else carrier.sliding_on(target, check=False)
+        return self._carriers[key]
+
+    def _target(self, data: Any) -> Target | None:
+        """The surface that the boundary slides on where that is not the boundary itself."""
+        if data is None:
+            return None
+        key = _key(data)
+        if key not in self._targets:
+            self._targets[key] = _skin(data)
+        return self._targets[key]
+
+
+def check_fields(what: str, data: Any, known: set[str]) -> None:
+    """Raise `MeshError` unless data is a table with exactly these fields."""
+    if not isinstance(data, dict):
+        raise MeshError(f"{what} is no table: expected the fields {', '.join(sorted(known))}")
+    for name in sorted(data.keys() ^ known):
+        raise MeshError(f"{what} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
+
+
+def _key(value: Any) -> Any:
+    """What is the same for the same data; arrays are the same where they are one."""
+    if isinstance(value, dict):
+        return tuple((name, _key(one)) for name, one in value.items())
+    if isinstance(value, list):
+        return tuple(map(_key, value))
+    return ("array", id(value)) if isinstance(value, np.ndarray) else value
+
+
+def _carried(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
+    n, m = mesh.n_nodes, mesh.n_hexes
+    for name in ("notes", "cells"):
+        if not isinstance(data[name], list):
+            raise MeshError(f"{name} is no list")
+    if not all(isinstance(line, str) for line in (data["name"], *data["notes"])):
+        raise MeshError("the mesh's name or notes are no text")
+    field_data = _table(data, "field_data")
+    for name, values in field_data.items():
+        words = isinstance(values, list) and all(isinstance(one, str) for one in values)
+        if not (words or isinstance(values, np.ndarray | str | int | float)):
+            raise MeshError(f"field data {name!r} is neither an array nor text")
+    return {
+        "pinned": None if data["pinned"] is None else _array(data, "pinned", "b", (n,)),
+        "node_data": _values(data, "node_data", n),
+        "hex_data": _values(data, "hex_data", m),
+        "node_sets": _sets(data, "node_sets", n),
+        "hex_sets": _sets(data, "hex_sets", m),
+        "side_sets": _side_sets(data, m),
+        "field_data": field_data,
+        "cells": tuple(_cells(one, n) for one in data["cells"]),
+        "name": data["name"],
+        "notes": tuple(data["notes"]),
+    }
+
+
+def _skin(data: Any) -> Target:
+    from hexmend.boundary import Skin  # not before it is needed: commands start without it
+
+    check_fields("the surface that the boundary slides on", data, {"points", "faces", "name"})
+    points, faces, name = data["points"], data["faces"], data["name"]
+    width = faces.shape[1] if isinstance(faces, np.ndarray) and faces.ndim == 2 else 0
+    if width not in (3, 4) or not len(faces) or not isinstance(name, str):
+        raise MeshError("the surface that the boundary slides on has no triangles or quads, or no name")
+    points, faces = _array(data, "points", "f", (-1, 3)), _array(data, "faces", "i", (-1, width))
+    check_finite(points)
+    check_size(points)
+    if faces.min() < 0 or faces.max() >= len(points):
+        raise MeshError(f"a face of {name!r} has a corner that is not from 0 to {len(points) - 1}")
+    return Skin(np.asarray(points, np.float64), np.ascontiguousarray(faces, np.int32), name)
+
+
+def _array(data: Mapping[str, Any], name: str, kind: str, shape: tuple[int, ...]) -> np.ndarray:
+    """An array of whole numbers ("i"), numbers ("f") or switches ("b"); -1 stands for any length."""
+    array = data[name]
+    if not isinstance(array, np.ndarray):
+        raise MeshError(f"{name} is no array")
+    fits = array.ndim == len(shape) and all(a in (-1, b) for a, b in zip(shape, array.shape, strict=True))
+    if not fits or (array.dtype.kind != kind and not (kind == "i" and array.dtype.kind == "u")):
+        raise MeshError(f"{name} has the shape {array.shape} of {array.dtype}: expected {shape} of kind {kind!r}")
+    return array
+
+
+def _table(data: Mapping[str, Any], name: str) -> dict[str, Any]:
+    table = data[name]
+    if not isinstance(table, dict):
+        raise MeshError(f"{name} is no table")
+    return table
+
+
+def _values(data: Mapping[str, Any], table: str, rows: int) -> dict[str, np.ndarray]:
+    values = _table(data, table)
+    for name, array in values.items():
+        if not isinstance(array, np.ndarray) or array.ndim == 0 or len(array) != rows:
+            raise MeshError(f"{table} {name!r} is no array of {rows} rows")
+    return values
+
+
+def _sets(data: Mapping[str, Any], table: str, count: int) -> dict[str, np.ndarray]:
+    sets = _table(data, table)
+    for name in sets:
+        members = _array(sets, name, "i", (-1,))
+        if members.size and not 0 <= members.min() <= members.max() < count:
+            raise MeshError(f"{table} {name!r} has a member that is not from 0 to {count - 1}")
+    return sets
+
+
+def _side_sets(data: Mapping[str, Any], hexes: int) -> dict[str, np.ndarray]:
+    sets = _table(data, "side_sets")
+    for name in sets:
+        sides = _array(sets, name, "i", (-1, 2))
+        if sides.size and not ((sides >= 0).all() and (sides < [hexes, 6]).all()):
+            raise MeshError(f"side set {name!r} has a side of a hex that does not exist")
+    return sets
+
+
+def _cells(data: Any, n: int) -> Cells:
+    check_fields("a block of cells", data, {"kind", "nodes", "data", "sets"})
+    kind = data["kind"]
+    if not isinstance(kind, str) or kind not in CELL_KINDS:
+        raise MeshError(f"there is no kind of cells {str(kind)[:80]!r}")
+    nodes = _array(data, "nodes", "i", (-1, CELL_KINDS[kind].nodes))
+    if nodes.size:
+        check_node_numbers(nodes, n)
+    return Cells(kind, nodes, _values(data, "data", len(nodes)), _sets(data, "sets", len(nodes)))

@@ -1,0 +1,1 @@
+"""Parts that all readers and writers share: a file's content, its format, and the helpers that check them."""

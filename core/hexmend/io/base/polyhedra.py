@@ -1,0 +1,162 @@
+"""Cells given by their faces, as OpenVolumeMesh and CGNS have them: hexes, wedges, pyramids and tetrahedra.
+
+A face is a loop of nodes, and a cell a list of faces, each of which it sees from inside as the loop says, or turned.
+The first face of the right width is a cell's base, whose corners come first; from each of them one edge rises::
+
+    kind     faces             base   corner 0 lies in the base and in the faces
+    hex      6 quads           quad   2 and 4
+    wedge    2 triangles, ...  3      1 and 2
+    pyramid  1 quad, ...       quad   1 and 2
+    tetra    4 triangles       3      1 and 2
+
+Faces are counted from 0. Where no or several corners lie in these, corner 0 is that with which the base's loop begins.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.mesh.hexahedron import FACES
+
+#: Of each kind the faces' loops as they are seen from inside, the base first, in OpenVolumeMesh's order for hexes.
+LOOPS = {
+    "hex": tuple(map(tuple, FACES[[4, 5, 0, 1, 2, 3], ::-1].tolist())),
+    "wedge": ((0, 1, 2), (0, 3, 4, 1), (0, 2, 5, 3), (1, 4, 5, 2), (3, 5, 4)),
+    "pyramid": ((0, 1, 2, 3), (0, 4, 1), (0, 3, 4), (1, 4, 2), (2, 4, 3)),
+    "tetra": ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)),
+}
+#: Faces that meet the base in corner 0.
+_FIRST = {"hex": (2, 4), "wedge": (1, 2), "pyramid": (1, 2), "tetra": (1, 2)}
+
+
+@dataclass(frozen=True, eq=False)
+class Lists:
+    """Rows of different lengths.
+
+    Parameters
+    ----------
+    start : (k + 1,) int64
+        Row i is values[start[i]:start[i + 1]].
+    values : (start[-1],) int64
+    """
+
+    start: np.ndarray
+    values: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.start) - 1
+
+    @property
+    def lengths(self) -> np.ndarray:
+        """How many numbers each row has, (k,) int64."""
+        return np.diff(self.start)
+
+
+def cells_of(faces: Lists, cells: Lists, turned: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """The cells of each kind that there is.
+
+    Parameters
+    ----------
+    faces : Lists
+        Nodes of each face.
+    cells : Lists
+        Faces of each cell.
+    turned : (cells.start[-1],) bool
+        Whether a cell sees the face from inside as the other way round.
+
+    Returns
+    -------
+    dict of kind to (which, nodes)
+        Which cells are of the kind, (k,) int64, and their nodes in VTK's order, (k, width) int64.
+    """
+    found = {kind: _of_kind(kind, faces, cells, turned) for kind in LOOPS}
+    return {kind: (which, nodes) for kind, (which, nodes) in found.items() if len(which)}
+
+
+def _of_kind(kind: str, faces: Lists, cells: Lists, turned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    sizes = [len(loop) for loop in LOOPS[kind]]
+    count, base = len(sizes), sizes[0]
+    which = np.flatnonzero(cells.lengths == count)
+    at = cells.start[which][:, None] + np.arange(count)
+    widths = faces.lengths[cells.values[at]]
+    alike = (np.sort(widths, axis=1) == sorted(sizes)).all(axis=1)
+    which, at, widths = which[alike], at[alike], widths[alike]
+    if not len(which):
+        return which, np.empty((0, 0), np.int64)
+
+    def corner(k: np.ndarray) -> np.ndarray:
+        """Corner k of each face from inside, 0 behind the last, (cells, faces, 4)."""
+        k = np.where(k < widths[:, :, None], k, 0)
+        k = np.where(turned[at][:, :, None], widths[:, :, None] - 1 - k, k)
+        return faces.values[faces.start[cells.values[at]][:, :, None] + k]
+
+    begin, end = corner(np.arange(4)), corner(np.arange(1, 5))
+    rows = np.arange(len(which))
+    lower = begin[rows, (widths == base).argmax(axis=1), :base]
+    first = np.ones(lower.shape, bool)
+    for face in _FIRST[kind]:
+        first &= (lower[:, :, None] == begin[:, face, None, :]).any(axis=2)
+    shift = np.where(first.sum(axis=1) == 1, first.argmax(axis=1), 0)
+    lower = np.take_along_axis(lower, (np.arange(base) + shift[:, None]) % base, axis=1)
+
+    begin, end = begin.reshape(len(which), -1), end.reshape(len(which), -1)
+    rises = ~(end[:, :, None] == lower[:, None, :]).any(axis=2)
+    upper, right = np.empty_like(lower), np.ones(len(which), bool)
+    for k in range(base):
+        there = rises & (begin == lower[:, k, None])
+        right &= there.sum(axis=1) == 1
+        upper[:, k] = end[rows, there.argmax(axis=1)]
+    if kind in ("pyramid", "tetra"):
+        right &= (upper == upper[:, :1]).all(axis=1)
+        upper = upper[:, :1]
+    nodes = np.concatenate([lower, upper], axis=1)
+    right &= (np.diff(np.sort(nodes, axis=1), axis=1) > 0).all(axis=1)
+    right &= 1 + (np.diff(np.sort(begin, axis=1), axis=1) > 0).sum(axis=1) == nodes.shape[1]
+    return which[right], nodes[right]
+
+
+def faces_of(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, np.ndarray, Lists]:
+    """The faces of cells, each once, and the half-faces of each cell.
+
+    Parameters
+    ----------
+    blocks : list of (kind, (k, width) int array)
+        Cells and their nodes, no node twice in a cell.
+
+    Returns
+    -------
+    loops : (f, 4) int64
+        The nodes of each face as the first cell that has it sees it from inside; -1 behind those of a triangle.
+    halves : Lists
+        Of each cell 2 k for face k, or 2 k + 1 where the cell sees it the other way round.
+    """
+    loops, start = [], [np.zeros(1, np.int64)]
+    for kind, nodes in blocks:
+        table = np.array([[*loop, -1][:4] for loop in LOOPS[kind]])
+        given = np.where(table >= 0, np.asarray(nodes, np.int64)[:, table], -1)
+        loops.append(given.reshape(-1, 4))
+        start.append(start[-1][-1] + len(table) * np.arange(1, len(nodes) + 1))
+    given = np.concatenate(loops)
+    widths = (given >= 0).sum(axis=1)
+    low = np.where(given < 0, np.iinfo(np.int64).max, given).argmin(axis=1)[:, None]
+    forth = np.take_along_axis(given, _places(widths, low + np.arange(4)), axis=1)
+    back = np.take_along_axis(given, _places(widths, low - np.arange(4)), axis=1)
+    turned = back[:, 1] < forth[:, 1]  # of the two ways round, that whose second node is the lower
+    alike = np.where(turned[:, None], back, forth)
+    order = np.lexsort(alike.T)  # which is stable: of faces that are one, the first comes first
+    new = np.concatenate([[True], (np.diff(alike[order], axis=0) != 0).any(axis=1)])
+    group = np.empty(len(given), np.int64)
+    group[order] = np.cumsum(new) - 1
+    first = order[new]
+    number = np.argsort(np.argsort(first))
+    halves = 2 * number[group] + (turned != turned[first][group])
+    return given[np.sort(first)], Lists(np.concatenate(start), halves)
+
+
+def _places(widths: np.ndarray, k: np.ndarray) -> np.ndarray:
+    """Places round loops of 3 or 4 nodes; those of triangles end with the place that is empty."""
+    k = k % widths[:, None]
+    k[widths == 3, 3] = 3
+    return k

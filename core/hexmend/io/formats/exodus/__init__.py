@@ -1,0 +1,67 @@
+"""ExodusII (.exo, .e, .g): element blocks, node, side and element sets, ids, and results of the last time step."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hexmend.io.base import hdf5
+from hexmend.io.base.content import to_mesh
+from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.formats.exodus import netcdf3
+from hexmend.io.formats.exodus.ids import IDS
+from hexmend.io.formats.exodus.records import INFORMATION, QA
+from hexmend.mesh.mesh import Mesh
+
+
+def read(path: Path) -> Mesh:
+    """Read an ExodusII file; one on HDF5 in a process of its own, which its library may end."""
+    from hexmend.io.formats.exodus.reader import content
+
+    with open(path, "rb") as file:
+        classic = file.read(3) == b"CDF"
+    if classic:
+        return to_mesh(path, content(path))
+    return to_mesh(path, hdf5.content_by("hexmend.io.formats.exodus.reader:content", path))
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write an ExodusII file of NetCDF's classic format with 64-bit offsets."""
+    from hexmend.io.formats.exodus.writer import write as write_file
+
+    write_file(path, mesh)
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """What it cannot hold of what it holds as a rule, in words."""
+    from hexmend.io.formats.exodus import writer as exodus_writer
+
+    return exodus_writer.cannot(mesh)
+
+
+def recognised(head: bytes) -> bool:
+    """Whether a file begins as NetCDF's do; on HDF5, as one with what Exodus keeps."""
+    if netcdf3.recognised(head):
+        return True
+    return head.startswith(hdf5.MAGIC) and any(mark in head for mark in (b"num_nodes", b"_NCProperties", b"coordx"))
+
+
+FORMATS.add(
+    "exodus",
+    Format(
+        "exodus",
+        "ExodusII",
+        (".exo", ".e", ".ex2", ".g", ".gen"),
+        ("binary",),
+        read,
+        write,
+        frozenset(
+            {
+                Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.SIDE_SETS,
+                Holds.PINS, Holds.CELL_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER,
+            }
+        ),
+        names=frozenset({IDS, QA, INFORMATION}),
+        recognised=recognised,
+        cannot=cannot,
+    )
+)  # fmt: skip

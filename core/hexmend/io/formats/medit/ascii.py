@@ -1,0 +1,96 @@
+"""Medit's format in decimals (.mesh), as libMeshb describes it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.io.base.cursor import Source, shown
+from hexmend.io.base.decimals import blocks, lines
+from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.formats.medit.content import HELD, NAMES_HELD, SECTIONS, cannot, from_mesh, to_mesh
+from hexmend.mesh.mesh import Mesh
+
+_KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexaedra": SECTIONS["Hexahedra"]}
+
+
+def read(path: Path) -> Mesh:
+    """Read a Medit file; coordinates are taken in double precision whatever its version says."""
+    source = Source(path, _without_comments(path.read_bytes()))
+    if source.word() != "MeshVersionFormatted":
+        raise source.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
+    source.whole(source.word(), "the version")
+    points = refs = None
+    sections: dict[str, np.ndarray] = {}
+    dimension = 0
+    while not source.ended:
+        line, key = source.here, source.word()
+        if key == "End":
+            break
+        if key == "Dimension":
+            dimension = source.whole(source.word(), "Dimension")
+            if dimension != 3:
+                raise source.error(f"its Dimension is {dimension}: expected 3", "Hexmend works in space.")
+        elif key == "Vertices":
+            rows = source.decimals("Vertices", source.whole(source.word(), "the number of Vertices"), 4, np.float64)
+            points, refs = np.ascontiguousarray(rows[:, :3]), _whole(source, rows[:, 3])
+        elif key.lower() in _KNOWN:
+            section = _KNOWN[key.lower()]
+            count = source.whole(source.word(), f"the number of {section.name}")
+            sections[section.name] = source.decimals(section.name, count, section.width, np.int64)
+        elif key[:1].isalpha():
+            _skip(source)  # a section that says nothing about hexes
+        else:
+            raise source.error(f"{shown(key)} stands where a section should begin ({line})")
+    if points is None:
+        raise source.error("has no section Vertices")
+    if "Hexahedra" not in sections and not source.data.rstrip().endswith(b"End"):
+        raise source.error(f"ends at {source.here} without Hexahedra")
+    return to_mesh(path, points, refs, sections)
+
+
+def _whole(source: Source, numbers: np.ndarray) -> np.ndarray:
+    """References of vertices, (n,) int64."""
+    with np.errstate(invalid="ignore"):
+        wrong = np.flatnonzero(~((numbers == np.rint(numbers)) & (np.abs(numbers) < 2.0**53)))
+    if wrong.size:
+        row = int(wrong[0])
+        raise source.error(f"vertex {row + 1} has the reference {numbers[row]:g}: expected a whole number")
+    return numbers.astype(np.int64)
+
+
+def _skip(source: Source) -> None:
+    """Go to the next word that begins with a letter."""
+    while not source.ended:
+        mark = source.pos
+        if source.word()[:1].isalpha():
+            source.pos = mark
+            return
+
+
+def _without_comments(data: bytes) -> bytes:
+    """The content with comments blanked out; lines keep their numbers."""
+    if b"#" not in data:
+        return data
+    return b"\n".join(line.split(b"#", 1)[0] for line in data.split(b"\n"))
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write version 2; decimals are the shortest that give the same number back."""
+    points, refs, sections = from_mesh(mesh)
+    with open(path, "wb") as file:
+        file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n".encode())
+        for part in blocks(len(points)):
+            file.write(lines(points[part], refs[part]))
+        for name, rows in sections.items():
+            file.write(f"{name}\n{len(rows)}\n".encode())
+            for part in blocks(len(rows)):
+                file.write(lines(rows[part]))
+        file.write(b"End\n")
+
+
+FORMATS.add(
+    "medit",
+    Format("medit", "Medit", (".mesh",), ("ascii",), read, write, holds=HELD, names=NAMES_HELD, cannot=cannot),
+)

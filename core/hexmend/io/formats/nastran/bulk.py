@@ -1,0 +1,114 @@
+"""Nastran's bulk data as cards: fields of 8 or 16 columns, or between commas, with their continuations."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.io.base.cursor import shown
+from hexmend.io.formats.nastran.columns import Lines, Stretch
+
+#: The line, name and fields of a card.
+Card = tuple[int, str, list[str]]
+
+_BEGIN = re.compile(rb"^[ \t\v\f]*BEGIN", re.IGNORECASE | re.MULTILINE)
+_EXPONENT = re.compile(r"([+-]?[0-9.]+)(?:[ED]([+-]?)|([+-]))([0-9]+)", re.IGNORECASE)
+
+#: Fields of a line behind its name: eight of 8 columns, or four of 16.
+_SMALL = [slice(k, k + 8) for k in range(8, 72, 8)]
+_LARGE = [slice(k, k + 16) for k in range(8, 72, 16)]
+
+
+class Bulk:
+    """The cards of a file.
+
+    Parameters
+    ----------
+    path : Path
+    data : bytes
+        With "\\n" at the ends of lines.
+    """
+
+    def __init__(self, path: Path, data: bytes):
+        self.path, self.lines = path, Lines(data)
+        found = _BEGIN.search(data)
+        self._begin = int(np.searchsorted(self.lines.start, found.end(), "right")) if found else 0
+
+    def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
+        """The error to raise."""
+        return FileError(self.path, problem, remedy)
+
+    def pieces(self, names: Collection[str]) -> Iterator[Card | Stretch]:
+        """The cards up to ENDDATA, in order: those of some names many at a time where they can be."""
+        at = self._begin
+        for stretch in self.lines.stretches(at, names):
+            for card in self.cards(at, stretch.first):
+                yield card
+                if card[1] == "ENDDATA":
+                    return
+            yield stretch
+            at = stretch.last
+        yield from self.cards(at, len(self.lines))
+
+    def cards(self, first: int, last: int) -> Iterator[Card]:
+        """The cards of some lines up to ENDDATA, continuations joined; fields are stripped."""
+        where, name, fields = 0, "", []
+        for k, line in enumerate(self.lines.text(first, last), first):
+            if "$" in line:
+                line = line[: line.index("$")]
+            if not line or line.isspace():
+                continue
+            head, own = _parted(line)
+            if head[:1] in ("", "+", "*"):  # goes on with the card before
+                if name:
+                    fields += own
+                continue
+            if name:
+                yield where, name, fields
+            where, name, fields = k + 1, head, own
+            if name == "ENDDATA":
+                break
+        if name:
+            yield where, name, fields
+
+    def whole(self, word: str, line: int, name: str) -> int:
+        """A whole number; 0 for a blank."""
+        if not word:
+            return 0
+        if word.isdecimal() and word.isascii() and len(word) < 19:
+            return int(word)
+        digits = word[1:] if word[0] in "+-" else word
+        if not (digits.isascii() and digits.isdigit() and len(digits) < 19):
+            raise self.error(f"{name} in line {line} holds {shown(word)}: expected a whole number")
+        return int(word)
+
+    def real(self, word: str, line: int, name: str) -> float:
+        """A number, whose exponent may have the letter D, or lack its letter: 1.5D3, 1.5-3; 0 for a blank."""
+        try:
+            return float(word or 0)
+        except ValueError:
+            pass
+        found = _EXPONENT.fullmatch(word)
+        try:
+            return float(f"{found[1]}e{found[2] or found[3] or ''}{found[4]}" if found else word)
+        except ValueError:
+            raise self.error(f"{name} in line {line} holds {shown(word)}: expected a number") from None
+
+
+def _parted(line: str) -> tuple[str, list[str]]:
+    """Name and fields of a line; as many fields as its kind of line has."""
+    if "," in line:
+        parts = [part.strip() for part in line.split(",")]
+        head = parts[0].upper()
+        width = 4 if head.endswith("*") or head.startswith("*") else 8
+        own = parts[1 : 1 + width] + [""] * (width - len(parts[1 : 1 + width]))
+    else:
+        line = line.expandtabs(8) if "\t" in line else line
+        head = line[:8].strip().upper()
+        large = head.endswith("*") or head.startswith("*")
+        own = [line[part].strip() for part in (_LARGE if large else _SMALL)]
+    return (head.rstrip("*") if len(head) > 1 and not head.startswith("*") else head), own

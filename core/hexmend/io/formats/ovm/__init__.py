@@ -1,0 +1,166 @@
+"""OpenVolumeMesh's format in decimals (.ovm): polyhedra of half-faces, of which those of six quads are hexes.
+
+Cells have properties, of which those named "set:..." are sets, as in VTK's formats.
+
+Edge e is the half-edges 2e and, the other way, 2e + 1; face f the half-faces 2f and 2f + 1.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.io.base.cursor import Source, shown, text_of
+from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.polyhedra import Lists, cells_of
+from hexmend.io.formats.ovm.writer import cannot, write
+from hexmend.io.formats.vtk.grid import NUMBERS, WIDTHS, Grid, to_mesh
+from hexmend.mesh.mesh import Mesh
+
+_LETTER = re.compile(rb"[A-Za-z]")
+_PROPERTY = re.compile(r'([A-Z]+Prop)\s+(.+?)\s+"?([^"]*?)"?\s*\Z', re.IGNORECASE)
+_VECTOR = re.compile(r"(?:vec|Vec|Vector)([234])(d|f|i|ui)\Z")
+#: What has to come before properties of it.
+_BEFORE = {"VPROP": "Vertices", "CPROP": "Polyhedra"}
+_REALS = ("double", "float")
+_WHOLES = ("int", "unsigned int", "uint", "long", "unsigned long", "ulong", "short", "bool", "char", "unsigned char")
+
+
+def read(path: Path) -> Mesh:
+    """Read a mesh of polyhedra; properties of its vertices and cells are data of nodes and hexes."""
+    source = Source(path, text_of(path))
+    if source.line().upper() != "OVM ASCII":
+        raise source.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
+    points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)
+    faces = cells = Lists(np.zeros(1, np.int64), np.zeros(0, np.int64))
+    seen: set[object] = set()
+    node_data: dict[str, np.ndarray] = {}
+    cell_data: dict[str, np.ndarray] = {}
+    notes: list[str] = []
+    while not source.ended:
+        line, key = source.here, source.line()
+        section, named = key.upper(), _PROPERTY.match(key)
+        mark = (named[1].upper(), *named.groups()[1:]) if named else section  # capitals tell names apart
+        if mark in seen:
+            raise source.error(f"holds {shown(key)} twice, again at {line}")
+        seen.add(mark)
+        if section == "VERTICES":
+            points = source.decimals("Vertices", _count(source, "Vertices"), 3, np.float64)
+        elif section == "EDGES":
+            edges = source.decimals("Edges", _count(source, "Edges"), 2, np.int64)
+            _check(source, "Edges", edges, len(points))
+        elif section == "FACES":
+            faces = _rows(source, "Faces", 2 * len(edges))
+        elif section == "POLYHEDRA":
+            cells = _rows(source, "Polyhedra", 2 * len(faces))
+        elif found := _PROPERTY.match(key):
+            first = _BEFORE.get(found[1].upper())
+            if first is not None and first.upper() not in seen:
+                raise source.error(f"{shown(key)} stands before {first} ({line})")
+            _property(source, found, {"VPROP": (node_data, len(points)), "CPROP": (cell_data, len(cells))}, notes)
+        else:
+            raise source.error(f"{shown(key)} stands where a section should begin ({line})")
+    if "POLYHEDRA" not in seen:
+        raise source.error("ends without Polyhedra")
+    loops = Lists(faces.start, edges[faces.values >> 1, faces.values & 1])  # where each half-edge begins
+    found = cells_of(loops, Lists(cells.start, cells.values >> 1), (cells.values & 1) == 1)
+    others = len(cells) - sum(len(which) for which, _ in found.values())
+    if "hex" not in found and others:
+        raise source.error(f"holds no hexahedra, but {others:,} other polyhedra", "Hexmend works on hexahedra only.")
+    if others:
+        notes.append(f"{others:,} polyhedra of other kinds are left out.")
+    return to_mesh(path, _grid(points, found, node_data, cell_data, notes))
+
+
+def _grid(
+    points: np.ndarray,
+    found: dict[str, tuple[np.ndarray, np.ndarray]],
+    node_data: dict[str, np.ndarray],
+    cell_data: dict[str, np.ndarray],
+    notes: list[str],
+) -> Grid:
+    """The grid of cells of some kinds: which they are, and their nodes."""
+    which = np.concatenate([np.zeros(0, np.int64), *(which for which, _ in found.values())])
+    types = np.concatenate([np.full(len(which), NUMBERS[kind]) for kind, (which, _) in found.items()] or [which])
+    return Grid(
+        points,
+        types,
+        np.concatenate([[0], np.cumsum([WIDTHS[number] for number in types.tolist()])]).astype(np.int64),
+        np.concatenate([np.zeros(0, np.int64), *(nodes.ravel() for _, nodes in found.values())]),
+        node_data,
+        {name: values[which] for name, values in cell_data.items()},
+        notes=tuple(notes),
+    )
+
+
+def _rows(source: Source, name: str, limit: int) -> Lists:
+    """Rows that each begin with how many numbers follow, which are from 0 to limit - 1."""
+    count = _count(source, name)
+    letter = _LETTER.search(source.data, source.pos)
+    values = source.decimals_to(name, letter.start() if letter else len(source.data), np.int64)
+    starts, at, view = [], 0, memoryview(values)
+    while at < values.size and view[at] >= 0:
+        starts.append(at + 1)
+        at += 1 + view[at]
+    if len(starts) != count or at != values.size:
+        raise source.error(f"{name} holds {len(starts)} whole rows of {count} before {source.here}")
+    inside = np.ones(values.size, bool)
+    inside[np.array(starts, np.int64) - 1] = False
+    _check(source, name, values[inside], limit)
+    lengths = values[~inside]
+    return Lists(np.concatenate([[0], np.cumsum(lengths)]), values[inside])
+
+
+def _property(
+    source: Source, head: re.Match[str], kept: dict[str, tuple[dict[str, np.ndarray], int]], notes: list[str]
+) -> None:
+    """Values of a property; those that are no numbers, or of edges and faces, are passed over."""
+    entity, type, name = head[1], head[2], head[3]
+    vector = _VECTOR.match(type)
+    if entity.upper() in kept and (vector or type in _REALS + _WHOLES):
+        data, count = kept[entity.upper()]
+        width = int(vector[1]) if vector else 1
+        real = vector[2] in "df" if vector else type in _REALS
+        values = source.decimals(f"{entity} {shown(name)}", count, width, np.float64 if real else np.int64)
+        data[name] = values if vector else values[:, 0]
+        return
+    notes.append(f"The property {shown(name)} ({entity} {shown(type)[1:-1]}) is left out.")
+    while not source.ended:
+        before = source.pos
+        if _PROPERTY.match(source.line()):
+            source.pos = before
+            return
+
+
+def _count(source: Source, name: str) -> int:
+    return source.whole(source.line(), f"the number of {name}")
+
+
+def _check(source: Source, name: str, values: np.ndarray, limit: int) -> None:
+    if values.size and (values.min() < 0 or values.max() >= limit):
+        wrong = int(values[(values < 0) | (values >= limit)].flat[0])
+        raise source.error(f"{name} name {wrong}: expected numbers from 0 to {limit - 1}")
+
+
+def _recognised(head: bytes) -> bool:
+    return head[:9].upper() == b"OVM ASCII"
+
+
+HELD = (Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.PINS, Holds.OTHER_CELLS)
+
+FORMATS.add(
+    "ovm",
+    Format(
+        "ovm",
+        "OpenVolumeMesh",
+        (".ovm",),
+        ("ascii",),
+        read,
+        write,
+        holds=frozenset(HELD),
+        recognised=_recognised,
+        cannot=cannot,
+    ),
+)

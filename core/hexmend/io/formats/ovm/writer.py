@@ -1,0 +1,123 @@
+"""Writes OpenVolumeMesh's format in decimals: each edge and face once, and cells as lists of half-faces.
+
+The half-faces of a hex come in pairs, x- and x+ after z- and z+, as OpenVolumeMesh's own hexahedral meshes have them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from hexmend.errors import FileError
+from hexmend.io.base.content import from_mesh as content_of
+from hexmend.io.base.decimals import blocks as parts_of
+from hexmend.io.base.decimals import lines
+from hexmend.io.base.fixed_marks import with_marks
+from hexmend.io.base.lower_order import middles_lost, reduced
+from hexmend.io.base.numbering import runs
+from hexmend.io.base.polyhedra import LOOPS, Lists, faces_of
+from hexmend.io.base.unique_names import distinct, renamed
+from hexmend.io.formats.vtk.grid import of_content
+from hexmend.mesh.mesh import Mesh
+
+#: Kinds of cells that are written.
+_KINDS = frozenset(LOOPS)
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write vertices, edges, faces, polyhedra and properties; nodes of second order are left out."""
+    content = reduced(replace(content_of(mesh), node_data=with_marks(mesh)), _KINDS)
+    for block in content.blocks:
+        twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
+        if twice.size:
+            raise FileError(
+                path,
+                f"{block.kind} {twice[0]} has a node twice, so that its faces are none of OpenVolumeMesh's",
+                "Mend it with hexmend repair, or write .vtu instead.",
+            )
+    loops, halves = faces_of([(block.kind, block.nodes) for block in content.blocks])
+    edges, around = _edges(loops, len(content.points))
+    grid = of_content(content)
+    with open(path, "wb") as file:
+        file.write(b"OVM ASCII\n")
+        _write_rows(file, "Vertices", content.points)
+        _write_rows(file, "Edges", edges)
+        _write_lists(file, "Faces", around)
+        _write_lists(file, "Polyhedra", halves)
+        _write_properties(file, "VProp", grid.node_data)
+        _write_properties(file, "CProp", grid.cell_data)
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """Data of no type of the format, names that it cannot have, and mid-nodes, in words."""
+    grid = of_content(replace(content_of(mesh), node_data=with_marks(mesh)))
+    left = []
+    for what, data in (("point data", grid.node_data), ("cell data", grid.cell_data)):
+        odd = sorted(name for name, values in data.items() if _type(np.asarray(values)) is None)
+        left += [f"{what} of more than 4 columns, or no numbers ({', '.join(odd)})"] if odd else []
+        left += renamed(_titles(data), f"{what} and sets")
+    return left + middles_lost(mesh, _KINDS)
+
+
+def _edges(loops: np.ndarray, count: int) -> tuple[np.ndarray, Lists]:
+    """The edges of faces, (e, 2) nodes, and the half-edges of each face: 2 k, or 2 k + 1 for edge k the other way."""
+    widths = (loops >= 0).sum(axis=1)
+    inside = np.arange(4) < widths[:, None]
+    begin = loops[inside]
+    end = np.where(np.arange(1, 5) < widths[:, None], np.roll(loops, -1, axis=1), loops[:, :1])[inside]
+    low, high = np.minimum(begin, end), np.maximum(begin, end)
+    _, first, which = np.unique(low * count + high, return_index=True, return_inverse=True)
+    number = np.argsort(np.argsort(first))[which]  # as they come in the faces
+    pairs = np.column_stack([begin, end])[np.sort(first)]
+    return pairs, Lists(np.concatenate([[0], np.cumsum(widths)]), 2 * number + (pairs[number, 0] != begin))
+
+
+def _write_rows(file: BinaryIO, name: str, rows: np.ndarray) -> None:
+    file.write(f"{name}\n{len(rows)}\n".encode())
+    for part in parts_of(len(rows)):
+        file.write(lines(rows[part]))
+
+
+def _write_lists(file: BinaryIO, name: str, lists: Lists) -> None:
+    file.write(f"{name}\n{len(lists)}\n".encode())
+    for part in runs(lists.lengths):
+        rows = lists.values[lists.start[part.start] : lists.start[part.stop]].reshape(part.stop - part.start, -1)
+        file.write(lines(np.column_stack([np.full(len(rows), rows.shape[1]), rows])))
+
+
+def _write_properties(file: BinaryIO, entity: str, data: Mapping[str, np.ndarray]) -> None:
+    titles = _titles(data)
+    for name, values in data.items():
+        array = np.asarray(values)
+        kind = _type(array)
+        if kind is not None:
+            file.write(f'{entity} {kind} "{titles[name]}"\n'.encode("utf-8", "replace"))
+            for part in parts_of(len(array)):
+                file.write(lines(array[part].astype(np.int64) if array.dtype.kind == "b" else array[part]))
+
+
+def _type(values: np.ndarray) -> str | None:
+    """The format's name of what an array holds; None where there is none."""
+    if values.dtype.kind not in "biuf" or values.ndim > 2 or (values.ndim == 2 and not 1 <= values.shape[1] <= 4):
+        return None
+    real, limit = values.dtype.kind == "f", np.iinfo(np.int32)
+    small = real or not values.size or (values.min() >= limit.min and values.max() <= limit.max)
+    if values.ndim == 2 and values.shape[1] > 1:
+        return f"vec{values.shape[1]}{'d' if real else 'i'}" if small else None
+    if real:
+        return "double"
+    return "int" if small else "long" if int(values.max()) <= np.iinfo(np.int64).max else None
+
+
+def _titles(data: Mapping[str, np.ndarray]) -> dict[str, str]:
+    """Names as the format can have them: between quotes, in one line."""
+
+    def form(name: str, end: str) -> str:
+        clean = "".join(letter if letter.isprintable() else " " for letter in name.replace('"', "'"))
+        return (clean.strip() or "property") + end
+
+    return distinct(data, form)

@@ -1,0 +1,218 @@
+"""SU2's format (.su2): zones of elements by VTK's numbers, and markers of boundary faces."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
+from hexmend.io.base.content import to_mesh as mesh_of
+from hexmend.io.base.cursor import Source, shown, text_of
+from hexmend.io.base.decimals import blocks as parts_of
+from hexmend.io.base.decimals import lines
+from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.lower_order import middles_lost, reduced
+from hexmend.io.base.unique_names import distinct, renamed
+from hexmend.mesh.cells import CELL_KINDS
+from hexmend.mesh.mesh import Mesh
+
+#: What the elements of a number are; these and no others has the format.
+KINDS = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hex", 13: "wedge", 14: "pyramid"}
+NUMBERS = {kind: number for number, kind in KINDS.items()}
+_KEY = re.compile(rb"^[ \t]*([A-Za-z_]+)[ \t]*=[ \t]*([^\n]*)", re.MULTILINE)
+_COMMENT = re.compile(rb"%[^\n]*")
+
+
+@dataclass(eq=False)
+class _Zone:
+    points: np.ndarray | None = None
+    cells: dict[str, np.ndarray] | None = None
+    markers: list[tuple[str, dict[str, np.ndarray]]] = field(default_factory=list)
+
+
+def read(path: Path) -> Mesh:
+    """Read all zones as one mesh; markers are sets of the boundary's cells."""
+    data = text_of(path)
+    source = Source(path, _COMMENT.sub(b"", data) if b"%" in data else data)
+    keys = list(_KEY.finditer(source.data))
+    zones = [_Zone()]
+    announced, tag = 1, ""
+    for k, found in enumerate(keys):
+        key, value = found[1].decode().upper(), found[2].decode("utf-8", errors="replace").strip()
+        source.pos = min(found.end() + 1, len(source.data))
+        end = keys[k + 1].start() if k + 1 < len(keys) else len(source.data)
+        if key == "NZONE":
+            announced = source.whole(value, "NZONE")
+        elif key == "IZONE":
+            if zones[-1].points is not None or zones[-1].cells is not None:
+                zones.append(_Zone())
+        elif key == "NDIME":
+            if value != "3":
+                raise source.error(f"NDIME is {shown(value)}: expected 3", "Hexmend works in space.")
+        elif key == "NELEM":
+            zones[-1].cells = _cells(source, end, source.whole(value, "NELEM"), "NELEM")
+        elif key == "NPOIN":
+            zones[-1].points = _points(source, end, source.whole((value.split() or [""])[0], "NPOIN"))
+        elif key == "MARKER_TAG":
+            tag = value
+        elif key == "MARKER_ELEMS":
+            zones[-1].markers.append((tag, _cells(source, end, source.whole(value, "MARKER_ELEMS"), shown(tag))))
+    if zones[0].points is None and zones[0].cells is None:
+        raise source.error("has neither NELEM= nor NPOIN=", "Is it an SU2 file? Check its suffix.")
+    if len(zones) != announced:
+        raise source.error(f"holds {len(zones)} zones: expected {announced} as NZONE says")
+    return mesh_of(path, _joined(source, zones))
+
+
+def _joined(source: Source, zones: list[_Zone]) -> Content:
+    rows: dict[str, list[np.ndarray]] = {}
+    sets: dict[str, dict[str, list[np.ndarray]]] = {}
+    count = 0
+
+    def add(kind: str, nodes: np.ndarray, name: str) -> None:
+        first = sum(map(len, rows.setdefault(kind, [])))
+        rows[kind].append(nodes + count)
+        if name and len(nodes):
+            sets.setdefault(kind, {}).setdefault(name, []).append(np.arange(first, first + len(nodes)))
+
+    for k, zone in enumerate(zones):
+        if zone.points is None or zone.cells is None:
+            raise source.error(f"zone {k + 1} has no {'NPOIN' if zone.points is None else 'NELEM'}=")
+        for cells in (zone.cells, *(cells for _, cells in zone.markers)):
+            for nodes in cells.values():
+                if nodes.size and (nodes.min() < 0 or nodes.max() >= len(zone.points)):
+                    wrong = int(nodes[(nodes < 0) | (nodes >= len(zone.points))][0])
+                    raise source.error(
+                        f"an element of zone {k + 1} names the node {wrong}: "
+                        f"expected numbers from 0 to {len(zone.points) - 1}"
+                    )
+        for kind, nodes in zone.cells.items():
+            add(kind, nodes, f"zone {k + 1}" if len(zones) > 1 else "")
+        for tag, cells in zone.markers:
+            for kind, nodes in cells.items():
+                add(kind, nodes, tag)
+        count += len(zone.points)
+    note = f"{len(zones)} zones are read as one mesh; nodes where they meet are not joined."
+    kinds = sorted(
+        rows, key=lambda kind: (kind not in HEX_KINDS, -CELL_KINDS[kind].dimension if kind in CELL_KINDS else 0)
+    )
+    return Content(
+        np.concatenate([zone.points for zone in zones]),
+        tuple(
+            Block(
+                kind,
+                np.concatenate(rows[kind]),
+                sets={name: np.concatenate(members) for name, members in sets.get(kind, {}).items()},
+            )
+            for kind in kinds
+        ),
+        notes=(note,) if len(zones) > 1 else (),
+    )
+
+
+def _points(source: Source, end: int, count: int) -> np.ndarray:
+    """Coordinates, (count, 3); behind them there may be a number."""
+    values = source.decimals_to("NPOIN", end, np.float64)
+    for width in (3, 4):
+        if values.size == count * width:
+            return np.ascontiguousarray(values.reshape(count, width)[:, :3])
+    raise source.error(f"NPOIN holds {values.size} numbers: expected 3 or 4 for each of {count} nodes")
+
+
+def _cells(source: Source, end: int, count: int, name: str) -> dict[str, np.ndarray]:
+    """Elements by kind, each its number, nodes and perhaps one number more."""
+    values = source.decimals_to(name, end, np.int64)
+    for behind in (0, 1):
+        starts, at, view = [], 0, memoryview(values)
+        while at < values.size and view[at] in KINDS and len(starts) < count:
+            starts.append(at)
+            at += 1 + _width(KINDS[view[at]]) + behind
+        if len(starts) == count and at == values.size:
+            begins = np.array(starts, np.int64)
+            types = values[begins]
+            return {
+                KINDS[number]: values[begins[types == number][:, None] + np.arange(1, 1 + _width(KINDS[number]))]
+                for number in np.unique(types).tolist()
+            }
+    raise source.error(
+        f"{name} holds {values.size} numbers, which are not {count} elements of the types {', '.join(map(str, KINDS))}",
+    )
+
+
+def _width(kind: str) -> int:
+    return HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes
+
+
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write one zone; sets of quads and triangles are its markers.
+
+    Other sets, other cells and nodes of second order are left out.
+    """
+    content = reduced(from_mesh(mesh), NUMBERS)
+    titles = _titles(content)
+    volumes = [block for block in content.blocks if block.kind == "hex" or CELL_KINDS[block.kind].dimension == 3]
+    markers: dict[str, list[tuple[str, np.ndarray]]] = {}
+    for block in content.blocks:
+        if block.kind in ("triangle", "quad"):
+            for name, members in block.sets.items():
+                markers.setdefault(titles[name], []).append((block.kind, block.nodes[members]))
+    with open(path, "wb") as file:
+        file.write(b"NDIME= 3\nNELEM= %d\n" % sum(map(len, volumes)))
+        for block in volumes:
+            _write_cells(file, block.kind, block.nodes)
+        file.write(b"NPOIN= %d\n" % len(content.points))
+        for part in parts_of(len(content.points)):
+            file.write(lines(content.points[part]))
+        file.write(b"NMARK= %d\n" % len(markers))
+        for name, groups in markers.items():
+            count = sum(len(nodes) for _, nodes in groups)
+            file.write(f"MARKER_TAG= {name}\nMARKER_ELEMS= {count}\n".encode())
+            for kind, nodes in groups:
+                _write_cells(file, kind, nodes)
+
+
+def cannot(mesh: Mesh) -> list[str]:
+    """Names that markers cannot have, and mid-nodes, in words."""
+    return renamed(_titles(reduced(from_mesh(mesh), NUMBERS))) + middles_lost(mesh, NUMBERS)
+
+
+def _titles(content: Content) -> dict[str, str]:
+    """Names of markers: words of one piece without %, which begins a comment."""
+
+    def form(name: str, end: str) -> str:
+        return "_".join((name.replace("%", " ") + end).split()) or "unnamed"
+
+    boundary = [block for block in content.blocks if block.kind in ("triangle", "quad")]
+    return distinct((name for block in boundary for name in block.sets), form)
+
+
+def _write_cells(file: object, kind: str, nodes: np.ndarray) -> None:
+    file.write(lines(np.column_stack([np.full(len(nodes), NUMBERS[kind]), nodes])))
+
+
+def _recognised(head: bytes) -> bool:
+    first = _KEY.search(_COMMENT.sub(b"", head))
+    return (
+        first is not None
+        and first[1].upper() in (b"NDIME", b"NZONE", b"IZONE", b"NELEM")
+        and not (head[: first.start()].translate(None, b" \t\r\n") and not head.lstrip().startswith(b"%"))
+    )
+
+
+FORMATS.add(
+    "su2",
+    Format(
+        "su2",
+        "SU2",
+        (".su2",),
+        ("ascii",),
+        read,
+        write,
+        holds=frozenset({Holds.OTHER_CELLS, Holds.CELL_SETS}),
+        recognised=_recognised,
+        cannot=cannot,
+    ),
+)

@@ -1,0 +1,143 @@
+"""VTK's XML format for unstructured grids (.vtu), as VTK and others write it: in every mode, order and compression."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from hexmend.io.base.capabilities import no_numbers
+from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.formats.vtk.grid import Grid, to_mesh
+from hexmend.io.formats.vtk.merge_grids import joined
+from hexmend.io.formats.vtk.vtu_writer import write
+from hexmend.io.formats.vtk.xml_arrays import strings_of, values_of
+from hexmend.io.formats.vtk.xml_document import Document, Element, title
+from hexmend.mesh.mesh import Mesh
+
+_ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']UnstructuredGrid[\"']")
+
+
+def read(path: Path) -> Mesh:
+    """Read a VTU file, its pieces put together."""
+    return to_mesh(path, joined(grids_of(path)))
+
+
+def grids_of(path: Path) -> list[Grid]:
+    """The pieces of a VTU file, at least one; field data are with the first."""
+    with Document(path, "UnstructuredGrid") as document:
+        top = document.root.first("UnstructuredGrid")
+        pieces = list(top.all("Piece"))
+        if not pieces:
+            raise document.error("holds no Piece")
+        for piece in pieces:
+            _charge(document, piece)
+        left: dict[str, None] = {}
+        grids = [_grid(document, piece, left) for piece in pieces]
+        fields: dict[str, object] = {}
+        for section in (top.first("FieldData"), *(piece.first("FieldData") for piece in pieces)):
+            for array in section.arrays():
+                fields[array.get("Name") or f"array {len(fields)}"] = _field(document, array)
+    notes = (f"Arrays of strings, one for each node or cell, are left out: {', '.join(left)}.",) if left else ()
+    return [replace(grids[0], field_data=fields, notes=notes), *grids[1:]]
+
+
+def _charge(document: Document, piece: Element) -> None:
+    """Announce the arrays of a piece whose lengths its head tells."""
+    for section, rows in (("Points", "NumberOfPoints"), ("PointData", "NumberOfPoints"), ("CellData", "NumberOfCells")):
+        for array in piece.first(section).arrays():
+            if array.get("type") != "String":
+                width = _width(document, array) * document.dtype(array).itemsize
+                document.allowance.charge(document.count(piece, rows) * width, title(array))
+    for array in piece.first("Cells").arrays():
+        if array.get("Name") in ("offsets", "types"):
+            document.allowance.charge(
+                document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, title(array)
+            )
+
+
+def _grid(document: Document, piece: Element, left: dict[str, None]) -> Grid:
+    points, cells = document.count(piece, "NumberOfPoints"), document.count(piece, "NumberOfCells")
+    found = piece.first("Points").arrays()
+    if points and not found:
+        raise document.error("its Points hold no array")
+    if points and _width(document, found[0]) != 3:
+        raise document.error(f"its Points have {_width(document, found[0])} coordinates each: expected 3")
+    places = values_of(document, found[0], 3 * points) if points else np.empty(0)
+    arrays = {array.get("Name"): array for array in piece.first("Cells").arrays()}
+    for name in ("connectivity", "offsets", "types"):
+        if cells and name not in arrays:
+            raise document.error(f"its Cells hold no array {name!r}")
+    ends = _whole(document, arrays["offsets"], cells) if cells else np.empty(0, np.int64)
+    start = np.concatenate([[0], ends])
+    falls = np.flatnonzero(np.diff(start) < 0)
+    if falls.size:
+        raise document.error(f"its offsets fall at cell {falls[0]}: expected where each cell's nodes end")
+    if cells:
+        document.allowance.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
+    return Grid(
+        places.reshape(-1, 3).astype(np.float64, copy=False),
+        _whole(document, arrays["types"], cells) if cells else np.empty(0, np.int64),
+        start,
+        _whole(document, arrays["connectivity"], int(start[-1])) if cells else np.empty(0, np.int64),
+        _data(document, piece.first("PointData"), points, left),
+        _data(document, piece.first("CellData"), cells, left),
+    )
+
+
+def _whole(document: Document, array: Element, count: int) -> np.ndarray:
+    """Whole numbers, (count,) int64."""
+    values = values_of(document, array, count)
+    if values.dtype.kind == "f" or (values.dtype == np.uint64 and values.size and values.max() > np.iinfo(int).max):
+        with np.errstate(invalid="ignore"):
+            wrong = np.flatnonzero((values.astype(np.int64) != values) | (np.abs(values) > 2.0**53))
+        if wrong.size:
+            raise document.error(f"{title(array)} holds {values[wrong[0]]}: expected whole numbers")
+    return values.astype(np.int64, copy=False)
+
+
+def _data(document: Document, section: Element, rows: int, left: dict[str, None]) -> dict[str, np.ndarray]:
+    answer: dict[str, np.ndarray] = {}
+    for array in section.arrays():
+        name, width = array.get("Name"), _width(document, array)
+        if array.get("type") == "String":
+            left[name] = None
+            continue
+        values = values_of(document, array, rows * width)
+        name = name if name not in answer else f"{name} ({len(answer) + 1})"
+        answer[name] = values if width == 1 else values.reshape(rows, width)
+    return answer
+
+
+def _field(document: Document, array: Element) -> np.ndarray | list[str]:
+    if array.get("type") == "String":
+        return strings_of(document, array)
+    width = _width(document, array)
+    values = values_of(document, array)
+    if array.get("type") == "Bit" and "NumberOfTuples" in array.attributes:
+        values = values[: document.count(array, "NumberOfTuples") * width]
+    if len(values) % width:
+        raise document.error(f"{title(array)} has {len(values)} numbers: expected rows of {width}")
+    return values if width == 1 else values.reshape(-1, width)
+
+
+def _width(document: Document, array: Element) -> int:
+    return max(1, document.count(array, "NumberOfComponents"))  # VTK's writers leave 1 away, and old ones say 0
+
+
+FORMATS.add(
+    "vtu",
+    Format(
+        "vtu",
+        "VTU",
+        (".vtu",),
+        ("binary", "ascii"),
+        read,
+        write,
+        holds=frozenset(Holds) - {Holds.SIDE_SETS, Holds.EMPTY_SETS},
+        cannot=no_numbers,
+        recognised=lambda head: _ROOT.search(head) is not None,
+    ),
+)

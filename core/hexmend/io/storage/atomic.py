@@ -1,0 +1,85 @@
+"""Writing a file as a whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from hexmend.errors import FileError
+from hexmend.io.storage.temporary_files import TemporaryFile, flush_file, flush_folder
+
+
+@contextmanager
+def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """A temporary path beside `path`, of the same suffix, which takes the place of `path` when the block ends well.
+
+    Where the block raises, the temporary file is removed and the old file stays as it was. The content is on the disk
+    before the name changes, and the name before the block is left, so that a power cut leaves the old file or the new
+    one. A new file gets the permissions that the user's umask grants; a replaced one keeps its own. A link is followed.
+    What is no regular file (a pipe, /dev/stdout) cannot be replaced and is written to directly.
+
+    Parameters
+    ----------
+    path : path-like
+        What to write in the end.
+
+    Yields
+    ------
+    Path
+        Where to write meanwhile; the file is there and empty.
+
+    Raises
+    ------
+    FileError
+        Where the folder is missing or cannot be written to, `path` is a folder or read-only, or the disk is full.
+    """
+    path = Path(path)
+    temporary: TemporaryFile | None = None
+    try:
+        if path.exists() and not path.is_file() and not path.is_dir():
+            yield path
+            return
+        target, mode = _writable(path)
+        temporary = TemporaryFile(target)
+        temporary.create(mode)
+        yield temporary.path
+        flush_file(temporary.path)
+        os.replace(temporary.path, target)
+        flush_folder(target.parent)
+    except OSError as error:
+        ours = (path,) if temporary is None else (path, temporary.path, temporary.lock_path)
+        if error.filename is not None and Path(error.filename) not in ours:
+            raise  # about another file, which the caller touched inside the block
+        raise FileError(
+            path, f"cannot be written: {error.strerror or error}", "Free the place or choose another."
+        ) from None
+    finally:
+        if temporary is not None:
+            temporary.remove()
+
+
+def check_writable(path: str | os.PathLike[str]) -> None:
+    """Raise `FileError` where `replacing` would, as far as can be known before anything is written."""
+    path = Path(path)
+    if not path.exists() or path.is_file() or path.is_dir():
+        _writable(path)
+
+
+def _writable(path: Path) -> tuple[Path, int | None]:
+    """The file that `path` stands for, links followed, and its permissions where it exists."""
+    if path.is_dir():
+        raise FileError(path, "is a folder: expected the name of a file to write", "Add a file name.")
+    target = Path(os.path.realpath(path))
+    folder = target.parent
+    if not folder.is_dir():
+        raise FileError(path, f"cannot be written: there is no folder {folder}", "Make the folder or choose another.")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise FileError(path, f"cannot be written: no permission to write in {folder}", "Choose another folder.")
+    if not target.exists():
+        return target, None
+    if not os.access(target, os.W_OK):
+        raise FileError(path, "cannot be written: the file is read-only", "Make it writable or choose another name.")
+    return target, stat.S_IMODE(target.stat().st_mode)

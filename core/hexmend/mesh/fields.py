@@ -1,0 +1,164 @@
+"""Checks of what a mesh carries besides its points and hexes, field by field."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+import numpy as np
+
+from hexmend.arrays import as_immutable
+from hexmend.errors import MeshError
+from hexmend.mesh.cells import CELL_KINDS, Cells
+from hexmend.mesh.second_order import MID_PLACES
+from hexmend.mesh.validation import as_array, as_bools, check_node_numbers, place, whole_numbers
+
+
+def checked(field: str, value: object, nodes: int, hexes: int) -> object:
+    """The value of a field of a mesh, checked, its arrays immutable; of a field without a check the value itself.
+
+    Parameters
+    ----------
+    field : str
+        The name of a field of `hexmend.Mesh`.
+    value : object
+    nodes, hexes : int
+        How many the mesh has.
+
+    Raises
+    ------
+    MeshError
+        Where it is of another type or shape, or names what does not exist.
+    """
+    check = _CHECKS.get(field)
+    return value if check is None else check(value, nodes, hexes)
+
+
+def check_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
+    """The nodes of second order of so many hexes, numbers below `nodes` or -1, as (m, 19) int32.
+
+    Raises
+    ------
+    MeshError
+        For another shape or type, and for a node that does not exist.
+    """
+    array = whole_numbers(mid_nodes, "mid_nodes", ("hex", "mid-node"))
+    if array.shape != (hexes, len(MID_PLACES)):
+        raise MeshError(f"mid_nodes have shape {array.shape}: expected ({hexes}, {len(MID_PLACES)})")
+    check_node_numbers(array, nodes, ("hex", "mid-node"), -1)
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def members(values: object, what: str, count: int) -> np.ndarray:
+    """A named set as an array of integers (k,), each from 0 to `count` - 1.
+
+    Raises
+    ------
+    MeshError
+        For another shape or type, and naming the first member that does not exist.
+    """
+    array = whole_numbers(values, what, ("member",))
+    if array.ndim != 1:
+        raise MeshError(f"{what} has shape {array.shape}: expected (k,)")
+    _check_members(array, what, ("member",), (count,))
+    return array
+
+
+def sides(values: object, what: str, hexes: int) -> np.ndarray:
+    """A named set of faces as an array of integers (k, 2): a hex, and the number of one of its six faces.
+
+    Raises
+    ------
+    MeshError
+        For another shape or type, and naming the first side that does not exist.
+    """
+    array = whole_numbers(values, what, ("side", "column"))
+    if not array.size:
+        return array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise MeshError(f"{what} has shape {array.shape}: expected (k, 2), a hex and one of its faces in each row")
+    _check_members(array, what, ("side", "column"), (hexes, 6))
+    return array
+
+
+def _check_members(array: np.ndarray, what: str, places: tuple[str, ...], counts: tuple[int, ...]) -> None:
+    for column, count in enumerate(counts):
+        numbers = array if array.ndim == 1 else array[:, column]
+        if numbers.size and (numbers.min() < 0 or numbers.max() >= count):
+            at = int(np.flatnonzero((numbers < 0) | (numbers >= count))[0])
+            raise MeshError(
+                f"{what} has {numbers[at]} at {place(places, (at, column))}: expected numbers from 0 to {count - 1}"
+            )
+
+
+def rows(values: object, what: str, count: int) -> np.ndarray:
+    """Data as an array of so many rows; `MeshError` where they are more or fewer."""
+    array = as_array(values, what)
+    if array.ndim == 0:
+        raise MeshError(f"{what} is a single value: expected {count} rows")
+    if len(array) != count:
+        raise MeshError(f"{what} has {len(array)} rows: expected {count}")
+    return array
+
+
+def check_cells(cells: object, nodes: int) -> Cells:
+    """Cells that are no hexes with int32 node numbers below `nodes`, their data and sets; all arrays immutable.
+
+    Raises
+    ------
+    MeshError
+        For an unknown kind of cells, another shape or type of an array, and a node or cell that does not exist.
+    """
+    if not isinstance(cells, Cells):
+        raise MeshError(f"cells hold {type(cells).__name__}: expected hexmend.Cells")
+    kind = cells.kind
+    if not isinstance(kind, str) or kind not in CELL_KINDS:
+        raise MeshError(f"there is no kind of cells {kind!r}: expected one of {', '.join(CELL_KINDS)}")
+    places, width = (kind, "corner"), CELL_KINDS[kind].nodes
+    array = whole_numbers(cells.nodes, f"{kind} cells", places)
+    if array.ndim != 2 or array.shape[1] != width:
+        raise MeshError(f"{kind} cells have shape {array.shape}: expected (k, {width})")
+    check_node_numbers(array, nodes, places)
+    return Cells(
+        kind,
+        as_immutable(np.asarray(array, dtype=np.int32)),
+        _arrays(cells.data, f"data of {kind} cells", len(array), rows),
+        _arrays(cells.sets, f"set of {kind} cells", len(array), members),
+    )
+
+
+def _pinned(value: object, nodes: int, hexes: int) -> np.ndarray | None:
+    return None if value is None else as_immutable(as_bools(value, "pinned", nodes))
+
+
+def _mid_nodes(value: object, nodes: int, hexes: int) -> np.ndarray | None:
+    return None if value is None else as_immutable(check_mid_nodes(value, nodes, hexes))
+
+
+def _cells(value: object, nodes: int, hexes: int) -> tuple[Cells, ...]:
+    if not isinstance(value, Iterable):
+        raise MeshError(f"cells are of type {type(value).__name__}: expected a tuple of hexmend.Cells")
+    return tuple(check_cells(cells, nodes) for cells in value)
+
+
+def _arrays(value: object, what: str, count: int, check: Callable[[object, str, int], np.ndarray]) -> dict:
+    """Named arrays, each checked by a function of the array, its name in messages and a count, and immutable."""
+    if not isinstance(value, Mapping):
+        raise MeshError(f"{what}: found {type(value).__name__}, expected a mapping of names to arrays")
+    return {name: as_immutable(check(array, f"{what} {name!r}", count)) for name, array in value.items()}
+
+
+def _table(what: str, of_nodes: bool, check: Callable[[object, str, int], np.ndarray]) -> Callable[..., object]:
+    """A check of named arrays, one row or member for each of the nodes or hexes."""
+    return lambda value, nodes, hexes: _arrays(value, what, nodes if of_nodes else hexes, check)
+
+
+_CHECKS: dict[str, Callable[..., object]] = {
+    "pinned": _pinned,
+    "mid_nodes": _mid_nodes,
+    "cells": _cells,
+    "node_data": _table("node data", True, rows),
+    "hex_data": _table("hex data", False, rows),
+    "node_sets": _table("node set", True, members),
+    "hex_sets": _table("hex set", False, members),
+    "side_sets": _table("side set", False, sides),
+}

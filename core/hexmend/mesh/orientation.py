@@ -1,0 +1,91 @@
+"""Hexes wound the other way: their corners are numbered left-handed, so that each is inside out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.kernels import elements
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import EXCHANGED
+
+#: Corners of a hex whose lower and upper face are exchanged; and its faces.
+TURNED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])
+TURNED_FACES = np.array([0, 1, 2, 3, 5, 4])
+
+
+def upright(mesh: Mesh) -> Mesh:
+    """The mesh with every part turned that is wound the other way, and a note that says so.
+
+    Single inverted hexes are never turned: they are what is to be mended.
+    """
+    which = mirrored_parts(mesh)
+    count = int(which.sum())
+    if not count:
+        return mesh
+    where = "All hexes" if count == mesh.n_hexes else f"{count:,} hexes, which make whole parts,"
+    return turned(mesh, which).replace(
+        notes=(*mesh.notes, f"{where} were wound the other way (inside out) in the file, and have been turned.")
+    )
+
+
+def mirrored_parts(mesh: Mesh) -> np.ndarray:
+    """True for the hexes of every part that is wound the other way, (m,) bool.
+
+    Parts hang together by nodes. A part is wound the other way if some of its hexes have a negative volume and none a
+    positive one; flat hexes, whose volume is zero but for rounding, belong to the part and say nothing about it.
+    """
+    determinants = np.empty((mesh.n_hexes, 8))
+    elements.corner_determinants(mesh.points, mesh.hexes, determinants)
+    with np.errstate(all="ignore"):  # of coordinates that are very large
+        volumes = determinants.sum(axis=1)
+        wrong = volumes < 0
+        if not wrong.any():
+            return wrong
+        rounding = _rounding(mesh)
+        wrong, right = volumes < -rounding, volumes > rounding
+    part = parts_of(mesh)
+    of_part = (np.bincount(part, wrong) > 0) & (np.bincount(part, right) == 0)
+    return of_part[part]
+
+
+def _rounding(mesh: Mesh) -> np.ndarray:
+    """How far from zero the sum of the corner determinants of a flat hex may be, (m,) float64."""
+    corners = mesh.points[mesh.hexes]
+    size = np.linalg.norm(corners.max(axis=1) - corners.min(axis=1), axis=1)
+    return 64 * np.finfo(np.float64).eps * np.abs(corners).max(axis=(1, 2)) * size**2
+
+
+def turned(mesh: Mesh, which: np.ndarray) -> Mesh:
+    """The mesh with the lower and the upper face of some hexes, (m,) bool, exchanged: each is turned inside out."""
+    hexes = mesh.hexes.copy()
+    hexes[which] = hexes[which][:, TURNED_CORNERS]
+    mids = None
+    if mesh.mid_nodes is not None:
+        mids = mesh.mid_nodes.copy()
+        mids[which] = mids[which][:, EXCHANGED]
+    sides = {}
+    for name, rows in mesh.side_sets.items():
+        sides[name] = rows = np.array(rows)
+        there = which[rows[:, 0]]
+        rows[there, 1] = TURNED_FACES[rows[there, 1]]
+    return mesh.rebuilt(hexes=hexes, mid_nodes=mids, side_sets=sides)
+
+
+def parts_of(mesh: Mesh, others: bool = False) -> np.ndarray:
+    """The part that each hex belongs to, parts hanging together by nodes; (m,) int from 0.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    others : bool
+        Cells of other kinds join parts too.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    rows = [mesh.hexes, *(cells.nodes for cells in mesh.cells if others)]
+    cells, width = sum(map(len, rows)), [one.shape[1] for one in rows]
+    first = np.repeat(np.arange(cells), np.repeat(width, [len(one) for one in rows]))
+    ends = first, np.concatenate([one.ravel() for one in rows]) + cells
+    graph = coo_array((np.ones(len(first), np.int8), ends), (cells + mesh.n_nodes,) * 2)
+    return np.unique(connected_components(graph, directed=False)[1][: mesh.n_hexes], return_inverse=True)[1]

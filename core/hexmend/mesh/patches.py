@@ -1,0 +1,67 @@
+"""Patches of a mesh that hold several free nodes, 5.2.5: built once, as arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.kernels import large_patches as kernels
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import Rows
+from hexmend.parameters import Parameter
+
+_SIZES = tuple(Parameter(name, int, 1, low, 2**31 - 1, None, "", "") for name, low in (("size", 1), ("overlap", 0)))
+
+
+@dataclass(frozen=True, eq=False)
+class Patches:
+    """Groups of free nodes that hang together, the hexes at them, and which of them know nothing of each other.
+
+    Parameters
+    ----------
+    nodes : Rows
+        The nodes of each patch, ascending. Every free node is in one; with overlap in several.
+    chosen : Rows
+        The hexes at the nodes of each patch.
+    hexes : (t, 8) int32
+        Corners of those hexes, one patch after another.
+    slots : (t, 8) int32
+        Where each corner is among the patch's nodes; -1 if it stays.
+    colours : Rows
+        The patches in groups, so that two of one group share no hex.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> patches = grown(make("cube", size=125), size=8, overlap=0)
+    >>> len(patches.nodes), patches.nodes[0].size
+    (8, 8)
+    """
+
+    nodes: Rows
+    chosen: Rows
+    hexes: np.ndarray
+    slots: np.ndarray
+    colours: Rows
+
+
+def grown(mesh: Mesh, size: int, overlap: int) -> Patches:
+    """Divide the free nodes of a mesh into patches.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    size : int
+        Nodes of a patch, taken breadth first from the lowest that is left, from node to node of a hex; fewer where no
+        more hang together.
+    overlap : int
+        Rings of free nodes around those, that a patch moves too.
+    """
+    size, overlap = (one.check(value) for one, value in zip(_SIZES, (size, overlap), strict=True))
+    corners = mesh.topology.node_corners
+    node_start, nodes, hex_start, chosen, slots = kernels.grow(
+        mesh.hexes, corners.start, corners.items, mesh.free, size, overlap
+    )
+    colours = Rows(*kernels.colours(hex_start, chosen, mesh.n_hexes))
+    return Patches(Rows(node_start, nodes), Rows(hex_start, chosen), mesh.hexes[chosen], slots, colours)

@@ -1,0 +1,103 @@
+"""Hexahedra of second order: the nodes that they have besides their corners, and how these follow them.
+
+Numbered as VTK numbers types 25 (20 nodes) and 29 (27 nodes), after the corners 0 to 7::
+
+    8 to 19    the middles of the edges 01 12 23 30, 45 56 67 74, 04 15 26 37
+    20 to 25   those of the faces x-, x+, y-, y+, z-, z+
+    26         that of the hex
+
+`mid_nodes` (m, 19) int32 holds nodes 8 to 26 of each hex, -1 where it has none.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.shape_functions import lagrange, serendipity
+
+#: The edges of nodes 8 to 19.
+MID_EDGES = np.array(
+    [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]], dtype=np.int64
+)
+
+#: Places of nodes 8 to 26 in the unit cube, (19, 3).
+MID_PLACES = np.concatenate(
+    [UNIT_CUBE[MID_EDGES].mean(axis=1), UNIT_CUBE[FACES].mean(axis=1), UNIT_CUBE.mean(axis=0)[None]]
+)
+
+#: Shares of the corners in nodes 8 to 26, (19, 8): the trilinear functions of the corners there.
+SHARES = np.prod(np.where(UNIT_CUBE[None] == 1, MID_PLACES[:, None], 1 - MID_PLACES[:, None]), axis=2)
+
+#: Where nodes 8 to 26 are in a hex whose lower and upper face are exchanged.
+EXCHANGED = np.array([4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 17, 16, 18])
+
+#: Places of all 27 nodes, and of the 3 x 3 x 3 Gauss points.
+PLACES = np.concatenate([UNIT_CUBE, MID_PLACES])
+_GAUSS = np.array([0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)])
+GAUSS_PLACES = np.stack(np.meshgrid(_GAUSS, _GAUSS, _GAUSS, indexing="ij"), axis=-1).reshape(-1, 3)
+
+#: Hexes of which Jacobians are computed at a time.
+_AT_A_TIME = 1 << 15
+
+
+def following(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
+    """Places of all nodes once those of second order have followed the corners.
+
+    A node moves as the trilinear map of the corners moves its place, so that an element that is carried as a whole
+    keeps its shape, and a node on a boundary whose corners stay does not move.
+
+    Parameters
+    ----------
+    before, after : (n, 3) float64
+        Of `after` only the corners count.
+    hexes : (m, 8) int32
+    mid_nodes : (m, 19) int32
+
+    Returns
+    -------
+    (n, 3) float64
+        A copy of `after`.
+    """
+    answer = after.copy()
+    for corner in range(mid_nodes.shape[1]):
+        chosen = np.flatnonzero(mid_nodes[:, corner] >= 0)
+        nodes = mid_nodes[chosen, corner]
+        nodes, first = np.unique(nodes, return_index=True)  # hexes that share it agree on it
+        used = np.flatnonzero(SHARES[corner])
+        corners = hexes[chosen[first]][:, used]
+        moves = np.einsum("c,kcx->kx", SHARES[corner, used], after[corners] - before[corners])
+        answer[nodes] = before[nodes] + moves
+    return answer
+
+
+def jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
+    """The least determinant of each hex's map from the unit cube, over its nodes and the Gauss points, scaled.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    mid_nodes : (m, 19) int32
+
+    Returns
+    -------
+    (m,) float64
+        The determinant by the lengths of its columns: 1 at right angles, 0 or less where the element is of no use. NaN
+        for hexes that have neither 20 nor 27 nodes.
+    """
+    answer = np.full(len(hexes), np.nan)
+    more = (mid_nodes >= 0).sum(axis=1)
+    for width, functions in ((20, serendipity), (27, lagrange)):
+        gradients = functions(np.concatenate([PLACES[:width], GAUSS_PLACES]), PLACES[:width])[1]
+        chosen = np.flatnonzero(more == width - 8)
+        for some in np.split(chosen, range(_AT_A_TIME, len(chosen), _AT_A_TIME)):
+            nodes = points[np.column_stack([hexes[some], mid_nodes[some, : width - 8]])]
+            least = np.full(len(some), np.inf)
+            for gradient in gradients:
+                columns = gradient.T @ nodes  # the derivatives of the place, one by one
+                sizes = np.linalg.norm(columns, axis=2).prod(axis=1)
+                scaled = np.linalg.det(columns) / np.where(sizes > 0, sizes, 1)
+                least = np.minimum(least, scaled)
+            answer[some] = least
+    return answer

@@ -1,0 +1,52 @@
+"""Named groups of hexes: what the window calls tags, and a mesh its hex sets."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hexmend.mesh.fields import members
+from hexmend.mesh.mesh import Mesh
+
+
+def tagged(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
+    """The mesh with some hexes in a named group, or out of it where `on` is false.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    name : str
+        A group of which nothing is left is no more; one that there is not begins.
+    hexes : (k,) int
+    on : bool
+
+    Raises
+    ------
+    MeshError
+        For a hex that does not exist.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> mesh = tagged(make("cube", size=27), "corner", [0, 3])
+    >>> mesh.hex_sets["corner"].tolist(), sorted(tagged(mesh, "corner", [0, 3], on=False).hex_sets)
+    ([0, 3], [])
+    """
+    sets = dict(mesh.hex_sets)
+    before = sets.get(name, np.empty(0, dtype=np.int64))
+    hexes = members(hexes, f"hex set {name!r}", mesh.n_hexes)
+    sets[name] = np.union1d(before, hexes) if on else np.setdiff1d(before, hexes)
+    if not len(sets[name]):
+        del sets[name]
+    return mesh.replace(hex_sets=sets)
+
+
+def without_tag(mesh: Mesh, name: str) -> Mesh:
+    """The mesh without a named group."""
+    return mesh.replace(hex_sets={key: hexes for key, hexes in mesh.hex_sets.items() if key != name})
+
+
+def renamed_tag(mesh: Mesh, name: str, other: str) -> Mesh:
+    """The mesh with a group under another name."""
+    return mesh.replace(hex_sets={other if key == name else key: hexes for key, hexes in mesh.hex_sets.items()})

@@ -1,0 +1,252 @@
+"""Topology: what a mesh's connectivity alone determines, built once, when first asked for, as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.arrays import as_immutable
+from hexmend.kernels import incidence, structure, visiting
+from hexmend.mesh.fields import members
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.size_limits import MOST_ITEMS, too_many
+from hexmend.mesh.validation import as_bools, as_hexes
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows of different lengths in one array: row i is `items[start[i]:start[i + 1]]`.
+
+    Parameters
+    ----------
+    start : (rows + 1,) int32
+    items : (start[-1],) int32
+    """
+
+    start: np.ndarray
+    items: np.ndarray
+
+    def __getitem__(self, i: int) -> np.ndarray:
+        return self.items[self.start[i] : self.start[i + 1]]
+
+    def __len__(self) -> int:
+        return self.start.size - 1
+
+    def of(self, rows: np.ndarray) -> np.ndarray:
+        """The items of several rows (k,), one row after another, (j,) int32."""
+        count = self.start[rows + 1] - self.start[rows]
+        before = np.cumsum(count) - count
+        return self.items[np.arange(count.sum()) + np.repeat(self.start[rows] - before, count)]
+
+    def without(self, left_out: np.ndarray) -> Rows:
+        """The same rows without the items i of which left_out[i]; (n,) bool."""
+        kept = ~left_out[self.items]
+        start = np.concatenate([[0], np.cumsum(kept)])[self.start]
+        return Rows(start.astype(np.int32), self.items[kept])
+
+
+class Topology:
+    """Incidences of a hexahedral mesh.
+
+    Parameters
+    ----------
+    hexes : (m, 8) int32
+        Corner nodes, numbered as in `hexmend.mesh.hexahedron`; copied unless nobody can change them.
+    n : int
+        Number of nodes, used by a hex or not.
+
+    Raises
+    ------
+    MeshError
+        Where the hexes are no (m, 8) whole numbers from 0 to n - 1.
+    """
+
+    def __init__(self, hexes: np.ndarray, n: int):
+        self.hexes = as_immutable(as_hexes(hexes, n))
+        self.n = n
+
+    def __setstate__(self, state: Mapping[str, object]) -> None:
+        self.__dict__.update(state)
+        self.hexes = as_immutable(self.hexes)  # arrays that come out of a pickle are writable
+
+    @cached_property
+    def node_corners(self) -> Rows:
+        """Corners of hexes at each node: items are 8 * hex + corner."""
+        return Rows(*incidence.node_corners(self.hexes, self.n))
+
+    @cached_property
+    def used(self) -> np.ndarray:
+        """True for each node that a hex uses, (n,) bool."""
+        used = np.zeros(self.n, dtype=bool)
+        used[self.hexes.ravel()] = True
+        return used
+
+    @cached_property
+    def _faces(self) -> tuple[np.ndarray, int]:
+        rows = self.node_corners
+        return incidence.face_neighbours(self.hexes, rows.start, rows.items)
+
+    @property
+    def face_neighbours(self) -> np.ndarray:
+        """The hex behind each face of `hexmend.mesh.hexahedron.FACES`, -1 on the boundary, (m, 6) int32."""
+        return self._faces[0]
+
+    @property
+    def crowded_faces(self) -> int:
+        """Faces that more than two hexes share, counted once a hex; a sound mesh has none. They count as boundary."""
+        return self._faces[1]
+
+    @cached_property
+    def boundary_faces(self) -> np.ndarray:
+        """Nodes of each boundary face, counter-clockwise from outside, (k, 4) int32."""
+        h, f = np.nonzero(self.face_neighbours < 0)
+        return self.hexes[h[:, None], FACES[f]]
+
+    @cached_property
+    def boundary(self) -> np.ndarray:
+        """True for each node of a boundary face, (n,) bool."""
+        boundary = np.zeros(self.n, dtype=bool)
+        boundary[self.boundary_faces.ravel()] = True
+        return boundary
+
+    @cached_property
+    def layers(self) -> np.ndarray:
+        """How many hexes lie between each hex and the boundary, counted through faces, (m,) int32.
+
+        0 for a hex with a boundary face. Hexes from which no way leads to the boundary are in one last layer.
+        """
+        return incidence.layers(self.face_neighbours)
+
+    def ring_of(self, hexes: Iterable[int], rings: int) -> np.ndarray:
+        """True for some hexes and those around them, (m,) bool.
+
+        Parameters
+        ----------
+        hexes : iterable of int
+        rings : int
+            How often those that share a node with the ones before are taken in.
+
+        Raises
+        ------
+        MeshError
+            For a hex that does not exist.
+        """
+        chosen = members(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.hexes))
+        rows = self.node_corners
+        return incidence.around(self.hexes, rows.start, rows.items, chosen.astype(np.int32), rings)
+
+    @cached_property
+    def parts(self) -> int:
+        """Number of parts that hang together by nodes."""
+        return incidence.parts(self.hexes, self.used)
+
+    @cached_property
+    def rings(self) -> Rows:
+        """Edge neighbours of each node, ascending."""
+        rows = self.node_corners
+        with too_many("neighbours of nodes"):
+            return Rows(*incidence.node_rings(self.hexes, rows.start, rows.items, MOST_ITEMS))
+
+    @cached_property
+    def _edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        rows = self.node_corners
+        with too_many("edges"):
+            return structure.edges(self.hexes, rows.start, rows.items, self.face_neighbours, MOST_ITEMS)
+
+    @property
+    def edges(self) -> np.ndarray:
+        """Every edge once, lower node first, ascending, (e, 2) int32."""
+        return self._edges[0]
+
+    @property
+    def edge_valence(self) -> np.ndarray:
+        """Number of hexes around each edge of `edges`, (e,) int32."""
+        return self._edges[1]
+
+    @property
+    def edge_on_boundary(self) -> np.ndarray:
+        """True for each edge of `edges` that is an edge of a boundary face, (e,) bool."""
+        return self._edges[2]
+
+    @cached_property
+    def irregular_edges(self) -> np.ndarray:
+        """Interior edges that not four hexes are around, as numbers of `edges`, (k,) int64.
+
+        They form the singularity graph of the mesh. After Gao, Deng and Chen, "Hexahedral mesh re-parameterization from
+        aligned base-complex" (2015), an edge is regular where four hexes are around it, on the boundary two; the graph
+        drawn of a mesh is usually that of its inside, and so the two are kept apart here.
+        """
+        return np.flatnonzero((self.edge_valence != 4) & ~self.edge_on_boundary)
+
+    @cached_property
+    def irregular_boundary_edges(self) -> np.ndarray:
+        """Boundary edges that not two hexes are around, as numbers of `edges`, (k,) int64.
+
+        By connectivity alone: the edges of a box are among them, with one hex each, and so is a concave one, with
+        three. `hexmend.mesh.structure` leaves out those at which the boundary is sharp.
+        """
+        return np.flatnonzero((self.edge_valence != 2) & self.edge_on_boundary)
+
+    @cached_property
+    def irregular_nodes(self) -> np.ndarray:
+        """Interior nodes at which irregular interior edges end or fork: not none and not two meet, (k,) int64."""
+        nodes, meeting = np.unique(self.edges[self.irregular_edges], return_counts=True)
+        return nodes[(meeting != 2) & ~self.boundary[nodes]].astype(np.int64)
+
+    def colouring(self, chosen: np.ndarray) -> Rows:
+        """The chosen nodes in groups, one a colour, so that no hex holds two nodes of one colour.
+
+        Nodes of a group can move at the same time without knowing of each other.
+
+        Parameters
+        ----------
+        chosen : (n,) bool
+
+        Raises
+        ------
+        MeshError
+            For an array of another length or type.
+        """
+        rows, chosen = self.node_corners, as_bools(chosen, "chosen", self.n)
+        colour = incidence.greedy_colours(rows.start, rows.items, chosen)
+        count = int(colour.max(initial=-1)) + 1
+        return Rows(*incidence.grouped(colour, count))
+
+    def wavefronts(self, sequence: np.ndarray) -> Rows:
+        """The nodes of a sequence in groups, so that no hex holds two nodes of one group, and that group after group
+        those that share a hex are in the order of the sequence.
+
+        Visiting the nodes of each group at the same time does what visiting the sequence one by one does.
+
+        Parameters
+        ----------
+        sequence : (k,) int32
+            Each node at most once.
+
+        Raises
+        ------
+        MeshError
+            For a node that does not exist.
+        """
+        rows, nodes = self.node_corners, members(sequence, "sequence", self.n)
+        return Rows(*visiting.wavefronts(rows.start, rows.items, np.ascontiguousarray(nodes, np.int32)))
+
+    def levels(self, start: np.ndarray) -> np.ndarray:
+        """How many edges lie between each node and the nearest of some, breadth first, (n,) int32.
+
+        0 for these themselves. Nodes from which no way leads to them are in one last level.
+
+        Parameters
+        ----------
+        start : (n,) bool
+
+        Raises
+        ------
+        MeshError
+            For an array of another length or type.
+        """
+        rings = self.rings
+        return visiting.levels(rings.start, rings.items, as_bools(start, "start", self.n))

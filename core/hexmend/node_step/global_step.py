@@ -1,0 +1,73 @@
+"""A node's step by a global method: its part of the step that all nodes take at once, Algorithm 3.3."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.mesh.mesh import Mesh
+from hexmend.node_step.patch import Patch, reach_of
+from hexmend.node_step.record import NodeStep, Trial, Verdict
+from hexmend.optimise.descent import descend
+from hexmend.optimise.line_search import BackLineSearch
+from hexmend.quality import measure
+from hexmend.smoothers.global_.base import GlobalDescent
+
+#: Places at which the curve is drawn: each costs the energy of the whole mesh.
+PLACES = 25
+
+
+@dataclass(frozen=True)
+class _Recorded(BackLineSearch):
+    """The line search, remembering its trials."""
+
+    trials: list[Trial] = field(default_factory=list)
+
+    def __call__(self, along: Callable[[float], float], value: float, slope: float) -> tuple[float, int]:
+        """As `BackLineSearch`."""
+
+        def remembered(alpha: float) -> float:
+            energy = along(alpha)
+            self.trials.append(Trial(alpha, energy, value + self.c1 * alpha * slope))
+            return energy
+
+        return super().__call__(remembered, value, slope)
+
+
+def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
+    """What the method's next step does to a node."""
+    energy = MeshEnergy(mesh, smoother.power)
+    search = _Recorded(smoother.first_step, smoother.shrink, smoother.c1, smoother.max_cuts)
+    x, before = energy.scaled(mesh.points), mesh.points[node].copy()
+    delta = smoother.policy(energy).at(measure(mesh.points, mesh.hexes), energy.unit)
+    patch = Patch(mesh, mesh.points, node, smoother.power, delta, energy.unit)
+    known = {
+        "method": smoother.name, "node": node, "hexes": patch.hexes, "before": before, "unit": energy.unit,
+        "power": smoother.power, "delta": delta, "gradient": patch.gradient, "hessian": patch.hessian, "whole": True,
+    }  # fmt: skip
+    taken = descend(energy, x, delta, smoother.direction(), search)
+    if taken is None:
+        return NodeStep(**known, after=before, energy=np.inf, energy_after=np.inf, verdict=Verdict.INFINITE)
+    row = int(np.searchsorted(energy.nodes, node))
+    if not taken.slope < 0:
+        return NodeStep(**known, after=before, energy=taken.value, energy_after=taken.value, verdict=Verdict.FLAT)
+    curve = np.empty((PLACES, 2))
+    curve[:, 0] = np.linspace(0, reach_of(smoother.first_step, taken.alpha), PLACES)
+    curve[:, 1] = [energy.value(energy.moved(x, taken.found.p, float(alpha)), delta) for alpha in curve[:, 0]]
+    return NodeStep(
+        **known,
+        after=energy.placed(taken.x)[node] if taken.alpha > 0 else before,
+        verdict=Verdict.MOVED if taken.alpha > 0 else Verdict.NO_DESCENT,
+        energy=taken.value,
+        energy_after=search.trials[-1].energy if taken.alpha > 0 else taken.value,
+        direction=taken.found.p[row] * energy.unit,
+        slope=taken.slope,
+        alpha=taken.alpha,
+        shift=taken.found.shift,
+        trials=tuple(search.trials),
+        curve=curve,
+        notes=taken.notes(delta),
+    )

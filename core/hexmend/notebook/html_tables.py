@@ -1,0 +1,112 @@
+"""HTML of meshes and results: tables, pictures in the page itself, and lines of convergence."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from html import escape
+
+from hexmend.energy.norm import SQUARES
+from hexmend.figures import Figure
+from hexmend.iteration import Result
+from hexmend.iteration.figures import HISTORY, objective_changes
+from hexmend.mesh.mesh import Mesh
+from hexmend.notebook.sparkline import sparkline
+from hexmend.quality.summary import FIGURES, Summary, summarise
+
+_ROW = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start"
+_IMAGE = "width: 480px; max-width: 100%; border-radius: 4px"
+_WORSE = "text-align: right; color: #b3261e; font-weight: 600"
+_LEFT, _SAID = "text-align: left", "max-width: 60em; margin: 0.3em 0"
+_QUIET = "opacity: 0.7; font-size: 90%"
+
+#: Figures of a run that are drawn over its iterations.
+_LINES = ("q_min", "q_mean", "inverted", "objective")
+
+
+def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
+    """A mesh with its figures.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    picture : bytes, optional
+        A PNG.
+    problem : str
+        Why there is no picture.
+    """
+    summary = summarise(mesh)
+    rows = [f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, summary)}</tr>' for one in FIGURES.values()]
+    return _page(_title(mesh), picture, problem, f"<table>{''.join(rows)}</table>")
+
+
+def of_result(result: Result, picture: bytes | None = None, problem: str = "") -> str:
+    """A run with the figures before and after, what is worse in red, and how they came about."""
+    head = "<tr><th></th><th>before</th><th>after</th><th>by iteration</th></tr>"
+    rows = [
+        f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, result.before)}'
+        f"{_cell(one, result.after, one.key in result.worse)}<td>{_line(one, result)}</td></tr>"
+        for one in FIGURES.values()
+    ]
+    table = f"<table>{head}{''.join(rows)}{_own_objective(result)}</table>"
+    return _page(_title(result.mesh), picture, problem, table, f'<p style="{_SAID}">{escape(result.message)}</p>')
+
+
+def _title(mesh: Mesh) -> str:
+    return escape(mesh.name or "A mesh without a name")
+
+
+def _page(title: str, picture: bytes | None, problem: str, inside: str, said: str = "") -> str:
+    image = ""
+    if picture is not None:
+        data = b64encode(picture).decode("ascii")
+        image = f'<img alt="{title}, coloured by q(H)" style="{_IMAGE}" src="data:image/png;base64,{data}"/>'
+    note = f'<p style="{_QUIET}">{escape(problem)}</p>' if problem else ""
+    return f'<div><strong>{title}</strong>{said}<div style="{_ROW}">{image}<div>{inside}</div></div>{note}</div>'
+
+
+def _head(figure: Figure) -> str:
+    return f'<span title="{escape(figure.help)}">{escape(figure.label)}</span>'
+
+
+def _cell(figure: Figure, summary: Summary, worse: bool = False) -> str:
+    value = getattr(summary, figure.key)
+    text = escape(figure.text(value)) if value is not None else "∞"
+    return f'<td style="{_WORSE}">{text}</td>' if worse else f"<td>{text}</td>"
+
+
+def _own_objective(result: Result) -> str:
+    """A row of the objective that the method minimises, where it is not that of the summaries: as the history has it.
+
+    Each value is followed by its formula where it is another before and after.
+    """
+    before, after = result.history[0], result.history[result.kept]
+    if _has_one_objective(result):
+        return ""
+    figure = HISTORY["objective"]
+    formulas = [str(row["objective_formula"]) for row in (before, after)]
+    same = formulas[0] == formulas[1]
+    label = f"{figure.label} {formulas[0]}" if same else f"{figure.label} of the method"
+    cells = ""
+    for row, formula in zip((before, after), formulas, strict=True):
+        text = "∞" if row["objective"] is None else figure.text(row["objective"])
+        cells += f"<td>{escape(text if same else f'{text} ({formula})')}</td>"
+    head = f'<th style="{_LEFT}"><span title="{escape(figure.help)}">{escape(label)}</span></th>'
+    return f"<tr>{head}{cells}<td>{_sparkline('objective', result)}</td></tr>"
+
+
+def _has_one_objective(result: Result) -> bool:
+    """Whether all iterations recorded the objective that summaries have."""
+    return all(row["objective_formula"] == SQUARES.formula for row in result.history)
+
+
+def _line(figure: Figure, result: Result) -> str:
+    if figure.key not in _LINES or (figure.key == "objective" and not _has_one_objective(result)):
+        return ""
+    return _sparkline(figure.key, result)
+
+
+def _sparkline(key: str, result: Result) -> str:
+    values: Sequence[float | int | None] = [row[key] for row in result.history]
+    breaks = objective_changes(result.history) if key == "objective" else ()
+    return sparkline(values, f"{HISTORY[key].label} by iteration", result.kept, breaks)

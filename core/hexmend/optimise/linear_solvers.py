@@ -1,0 +1,69 @@
+"""Linear solvers for H p = -g with a symmetric H."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from hexmend.energy import Hessian
+from hexmend.optimise.blas_threads import one_blas_thread
+from hexmend.optimise.minres import minres
+
+Vector = np.ndarray
+
+
+class LinearSolver(Protocol):
+    """Solves H x = b."""
+
+    def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
+        """Solution (3 k,), as good as the solver got it, and the number of iterations."""
+
+
+@dataclass(frozen=True)
+class Minres:
+    """Minimum residuals without a preconditioner, as in the thesis (4.1.2); takes indefinite matrices.
+
+    Parameters
+    ----------
+    tolerance : float
+        Of the residual, relative to the right-hand side.
+    iterations : int
+        Limit, after which the solution so far is taken as it is.
+    precision : type
+        Of the matrix.
+    """
+
+    tolerance: float = 1e-6
+    iterations: int = 1000
+    precision: type = np.float64
+
+    def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
+        matrix = hessian.assembled(self.precision)
+        with one_blas_thread():
+            return minres(matrix.matvec, right, self.tolerance, self.iterations)
+
+
+@dataclass(frozen=True)
+class ConjugateGradients:
+    """Conjugate gradients, preconditioned by symmetric Gauss-Seidel, that end at a direction of negative curvature
+    (Steihaug 1983).
+
+    Parameters
+    ----------
+    tolerance : float
+        Of the residual, relative to the right-hand side, both in the norm of the preconditioner.
+    iterations : int
+        As for `Minres`.
+    precision : type
+        Of matrix and vectors: single precision is twice as fast, and enough for a direction.
+    """
+
+    tolerance: float = 1e-6
+    iterations: int = 1000
+    precision: type = np.float32
+
+    def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
+        solved = hessian.assembled(self.precision).solve(right, self.tolerance, self.iterations)
+        return solved.x, solved.iterations

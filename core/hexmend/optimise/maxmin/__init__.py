@@ -1,0 +1,1 @@
+"""Maximise the least scaled Jacobian of a mesh by sequential linear programming."""

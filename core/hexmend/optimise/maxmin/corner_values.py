@@ -1,0 +1,76 @@
+"""Scaled Jacobians of corners one by one, and their derivatives."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES
+
+#: Hexes whose corners are worked out at a time.
+_HEXES = 50_000
+
+
+def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """The scaled Jacobian of each corner of hexes, (k, 8) in [-1, 1]; -1 where an edge has no length.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (k, 8) int
+
+    Examples
+    --------
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
+    >>> scaled_jacobians(UNIT_CUBE, np.arange(8)[None])
+    array([[1., 1., 1., 1., 1., 1., 1., 1.]])
+    """
+    values = np.empty((len(hexes), 8))
+    for first in range(0, len(hexes), _HEXES):
+        part = slice(first, first + _HEXES)
+        values[part] = of_corners(points, hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4)).reshape(-1, 8)
+    return values
+
+
+def of_corners(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """The scaled Jacobian of corners (k, 4): the node at the apex, and the ends of its edges; (k,)."""
+    return _parts(points, corners)[0]
+
+
+def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Scaled Jacobians of corners (k, 4) with their derivatives by the four nodes.
+
+    Returns
+    -------
+    values : (k,)
+    derivatives : (k, 4, 3)
+        With s = (u, v x w)/(|u| |v| |w|), ds/du = (v x w)/(|u| |v| |w|) - s u/|u|^2, and so on round; of the apex minus
+        their sum. 0 where an edge has no length.
+    """
+    values, edges, lengths, across = _parts(points, corners)
+    size = lengths.prod(axis=1)[:, None, None]
+    sound = size > 0
+    by_edge = across / np.where(sound, size, 1.0)
+    by_edge -= values[:, None, None] * edges / np.where(sound, np.square(lengths)[:, :, None], 1.0)
+    by_edge *= sound
+    return values, np.concatenate([-by_edge.sum(axis=1, keepdims=True), by_edge], axis=1)
+
+
+def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Length of the shortest edge of some hexes at each node, (n,); +inf at nodes of none of them."""
+    size = np.full(len(points), np.inf)
+    ends = hexes[:, EDGES].reshape(-1, 2)
+    lengths = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
+    for side in ends.T:
+        np.minimum.at(size, side, lengths)
+    return size
+
+
+def _parts(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Values (k,), edges (k, 3, 3) by rows, their lengths (k, 3), and for each the product of the others (k, 3, 3)."""
+    x = points[corners]
+    edges = x[:, 1:] - x[:, :1]
+    lengths = np.linalg.norm(edges, axis=2)
+    across = np.cross(np.roll(edges, -1, axis=1), np.roll(edges, -2, axis=1))
+    volume = np.einsum("ki,ki->k", edges[:, 0], across[:, 0])
+    size = lengths.prod(axis=1)
+    return np.where(size > 0, volume / np.where(size > 0, size, 1.0), -1.0), edges, lengths, across

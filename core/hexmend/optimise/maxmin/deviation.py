@@ -1,0 +1,77 @@
+"""Where a sliding boundary and its surface are apart, followed as nodes move."""
+
+from __future__ import annotations
+
+import copy
+
+import numpy as np
+
+from hexmend.boundary import Sliding
+from hexmend.optimise.maxmin.linear_program import Models, bounds_of
+
+
+class Apart:
+    """How far the surface's edges, faces and nodes are from a boundary that has moved.
+
+    As nodes move, only those are looked at anew whose closest place has moved; that of the others is still there, so
+    that they are no further than it is.
+
+    Parameters
+    ----------
+    sliding : Sliding
+    points : (n, 3) float64
+
+    Attributes
+    ----------
+    far : (s,)
+        The distances: see `Sliding.behind`.
+    """
+
+    def __init__(self, sliding: Sliding, points: np.ndarray):
+        self.sliding, self.points = sliding, points
+        far, self._nodes, self._weights = sliding.behind_at_first
+        self.far, self._away = far.copy(), np.zeros((far.size, 3))
+        self._look(np.arange(far.size))
+
+    def moved(self, points: np.ndarray, nodes: np.ndarray) -> Apart:
+        """The same with nodes (k,) elsewhere, all others being where they were."""
+        other = copy.copy(self)
+        other.points = points
+        other.far, other._away = self.far.copy(), self._away.copy()
+        touched = np.zeros(len(points), dtype=bool)
+        touched[nodes] = True
+        other._look(np.flatnonzero(touched[self._nodes].any(axis=1)))
+        return other
+
+    def leaves(self, before: Apart, nodes: np.ndarray, room: float) -> bool:
+        """Whether boundary and surface are further apart than a room, and than they were before nodes (k,) moved."""
+        if (self.far > np.maximum(before.far, room)).any():
+            return True
+        off = self.sliding.off(self.points, self.sliding.middles_at(nodes), room)
+        if not off.which.size:
+            return False
+        was = self.sliding.off(before.points, off.which, room)
+        if was.which.size < off.which.size:
+            return True
+        return bool((off.far > was.far).any())
+
+    def bounds(self, moves: np.ndarray, room: float) -> Models:
+        """What keeps boundary and surface no further apart than a room; moves (n,) is how far each node may go."""
+        sliding = self.sliding
+        which = sliding.middles_at(np.flatnonzero(moves))
+        off = sliding.off(self.points, which, room - moves[sliding.middles[which]].max(axis=1, initial=0.0))
+        models = bounds_of(off.nodes, room - off.far, -off.weights[:, :, None] * off.away[:, None])
+        reach = moves[self._nodes].max(axis=1, initial=0.0)
+        near = np.flatnonzero((reach > 0) & (self.far > 0) & (self.far + reach > room))
+        slopes = self._weights[near, :, None] * self._away[near, None]
+        return models.and_those(bounds_of(self._nodes[near], room - self.far[near], slopes))
+
+    def _look(self, which: np.ndarray) -> None:
+        """Find what is closest to some places of the surface; of the boundary as it was at first that is known."""
+        at_first, nodes, weights = self.sliding.behind_at_first
+        off = self.sliding.behind(self.points, which, room=-1.0)
+        self._nodes, self._weights = self._nodes.copy(), self._weights.copy()
+        self.far[which], self._away[which] = at_first[which], 0.0
+        self._nodes[which], self._weights[which] = nodes[which], weights[which]
+        self.far[off.which], self._away[off.which] = off.far, off.away
+        self._nodes[off.which], self._weights[off.which] = off.nodes, off.weights

@@ -1,0 +1,161 @@
+"""Search directions for all free nodes at once: Algorithms A.2, A.3, A.4."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from hexmend.arrays import norm
+from hexmend.energy import Hessian
+from hexmend.energy.assembled_hessian import Assembled, full
+from hexmend.optimise.blas_threads import one_blas_thread
+from hexmend.optimise.linear_solvers import LinearSolver
+
+
+@dataclass(frozen=True)
+class Found:
+    """A search direction.
+
+    Parameters
+    ----------
+    p : (k, 3) float64
+    solver_iterations : int
+        Of the linear solver; 0 where there is none.
+    shift : float
+        What was added to the diagonal of the Hessian: to each entry, or, by `TruncatedNewton`, in multiples of it.
+    """
+
+    p: np.ndarray
+    solver_iterations: int = 0
+    shift: float = 0.0
+
+
+class Direction(Protocol):
+    """Finds a search direction for sum eta^p."""
+
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+        """Search direction at a point of this value, gradient (k, 3) and Hessian."""
+
+
+def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+    """Algorithm A.2: p_k = -grad f of (3.3), f being the p-th root of the sum."""
+    p = hessian.energy.power.p
+    return Found(-(value ** (1 / p - 1) / p) * gradient)  # (C.2)
+
+
+@dataclass(frozen=True)
+class Newton:
+    """Algorithm A.3: solve H p_k = -grad f."""
+
+    solver: LinearSolver
+
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+        p, count = self.solver(hessian, -gradient.ravel())
+        return Found(p.reshape(-1, 3), count, hessian.shift)
+
+
+#: What is left of the first gradient where a solution is as good as rounding lets it be.
+ENOUGH = 1e-9
+#: How often the damping is raised in a step, by what factor, from what on; by what factor it falls where it was enough.
+RAISES, RISE, FIRST, FALL = 4, 4.0, 0.05, 4.0
+
+
+class TruncatedNewton:
+    """Newton's direction, only as good as the quadratic model deserves (Dembo and Steihaug 1983).
+
+    The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
+    1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
+    would fall below `ENOUGH` of the first. Where the Hessian is not positive definite its diagonal is raised until it
+    is (Levenberg 1944): the matrix stands, and a solution costs less than the way that would be lost.
+
+    One object serves one sequence of steps: it remembers the last.
+
+    Parameters
+    ----------
+    iterations : int
+        Most iterations of conjugate gradients.
+    loosest, tightest : float
+        Bounds of the tolerance, in (0, 1).
+    """
+
+    def __init__(self, iterations: int = 200, loosest: float = 0.2, tightest: float = 1e-3):
+        self.iterations, self.loosest, self.tightest = iterations, loosest, tightest
+        self._first = self._last = np.inf
+        self._damping = 0.0
+        self._matrix: Assembled | None = None
+
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+        matrix = self._matrix = hessian.assembled(room=self._matrix)
+        right, tolerance = -gradient.ravel(), self._tolerance(gradient)
+        solved = matrix.solve(right, tolerance, self.iterations, self._damping)
+        count, damping = solved.iterations, self._damping
+        for _ in range(RAISES):
+            if not solved.negative_curvature:
+                break
+            damping = max(RISE * damping, FIRST)
+            solved = matrix.solve(right, tolerance, self.iterations, damping)
+            count += solved.iterations
+        self._damping = damping if damping > self._damping else damping / FALL
+        if self._damping < FIRST:
+            self._damping = 0.0
+        return Found(solved.x.reshape(-1, 3), count, damping)
+
+    def _tolerance(self, gradient: np.ndarray) -> float:
+        length = norm(gradient)
+        if self._first == np.inf:
+            self._first = self._last = length
+        if length == 0:
+            return self.loosest
+        goal = max(0.9 * (length / self._last) ** 2, ENOUGH * self._first / length)
+        self._last = length
+        return float(np.clip(goal, self.tightest, self.loosest))
+
+
+@dataclass(frozen=True)
+class ModifiedNewton:
+    """Algorithm A.4: the same after the least eigenvalue is raised to a thousandth of the greatest."""
+
+    solver: LinearSolver
+
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+        least, greatest = extreme_eigenvalues(hessian)
+        if least < 0.001 * greatest:
+            hessian = hessian.shifted(0.001 * greatest - least)
+        return Newton(self.solver)(value, gradient, hessian)
+
+
+def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
+    """Least and greatest eigenvalue by Lanczos's method, good to a thousandth of their distance.
+
+    The least is found as the greatest of lambda_max I - H, where it stands apart; where that does not converge in 50
+    iterations it is taken to be zero (A.2).
+    """
+    from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
+
+    start = np.ones(hessian.shape[0])  # ARPACK's own would be random
+    matrix = hessian.assembled()
+    size = float(np.abs(matrix.own_blocks).max(initial=0.0))
+    if size == 0:
+        return 0.0, 0.0
+    exponent = int(np.frexp(size)[1])  # ARPACK takes very small numbers for 0
+
+    def top(operator: LinearOperator) -> float | None:
+        try:
+            with one_blas_thread():
+                return float(
+                    eigsh(operator, k=1, which="LA", maxiter=50, tol=1e-3, v0=start, return_eigenvectors=False)[0]
+                )
+        except ArpackNoConvergence:
+            return None
+
+    def product(v: np.ndarray) -> np.ndarray:
+        return np.ldexp(matrix @ v, -exponent)
+
+    greatest = top(LinearOperator(hessian.shape, matvec=product, dtype=np.float64))
+    if greatest is None:
+        return 0.0, float(np.linalg.eigvalsh(full(matrix.own_blocks)).max())
+    distance = top(LinearOperator(hessian.shape, matvec=lambda v: greatest * v - product(v), dtype=np.float64))
+    least = 0.0 if distance is None else greatest - distance
+    return float(np.ldexp(least, exponent)), float(np.ldexp(greatest, exponent))

@@ -1,0 +1,79 @@
+"""Metrics of a mesh by their names: what `Mesh.quality` and `Mesh.worst` give."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.errors import ParameterError
+from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import Parameter
+from hexmend.quality.element import worst
+from hexmend.quality.measure import ElementQuality, measure
+from hexmend.quality.metric import METRICS, Metric
+
+_COUNT = Parameter("count", int, 10, 0, None, None, "", "")
+
+
+def values(mesh: Mesh, metric: str = "q") -> np.ndarray:
+    """The values of a metric, one for each hex.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    metric : str
+        A name of `METRICS`; an underscore counts as a dash.
+
+    Returns
+    -------
+    (m,) float64
+
+    Raises
+    ------
+    ParameterError
+        For a metric that does not exist.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> float(values(make("cube", size=8), "scaled_jacobian").min())
+    1.0
+    """
+    return _of(mesh, metric)[1]
+
+
+def worst_hexes(mesh: Mesh, count: int = 10, metric: str = "q") -> np.ndarray:
+    """The numbers of the worst hexes by a metric, the worst first.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    count : int
+        How many; all where the mesh has fewer.
+    metric : str
+        A name of `METRICS` of which a higher or a lower value is better; an underscore counts as a dash.
+
+    Returns
+    -------
+    (at most count,) int64
+
+    Raises
+    ------
+    ParameterError
+        For a metric that does not exist or has no better end, and for a count that is no whole number from 0 on.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> worst_hexes(make("bridge-sharp", size=500), 3).size
+    3
+    """
+    declared, found, figures = _of(mesh, metric)
+    if not declared.better:
+        raise ParameterError(f"of {declared.name} neither a high nor a low value is better: there are no worst hexes")
+    return worst(found, figures, _COUNT.check(count), declared.better)
+
+
+def _of(mesh: Mesh, metric: str) -> tuple[Metric, np.ndarray, ElementQuality]:
+    declared = METRICS[str(metric).replace("_", "-")]
+    figures = measure(mesh.points, mesh.hexes)
+    return declared, declared.of(mesh.points, mesh.hexes, figures), figures

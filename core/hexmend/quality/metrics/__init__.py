@@ -1,0 +1,1 @@
+"""Quality metrics, one a file; each registers itself in METRICS."""

@@ -1,0 +1,55 @@
+"""How the values of every metric spread over a mesh."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality.measure import ElementQuality, measure
+from hexmend.quality.metric import METRICS, Metric
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Values of one metric.
+
+    `min`, `mean` and `max` are those of the finite values, None where there are none; `infinite` counts the hexes whose
+    value is not finite, as the edge ratio of one with an edge of no length; `unacceptable` those, infinite or not, that
+    are worse than the metric's acceptable range.
+    """
+
+    min: float | None
+    mean: float | None
+    max: float | None
+    infinite: int
+    unacceptable: int
+
+    @classmethod
+    def over(cls, metric: Metric, values: np.ndarray) -> Spread:
+        """Of a metric's values, (m,)."""
+        finite = values[np.isfinite(values)]
+        low, mean, high = (
+            (float(finite.min()), float(finite.mean()), float(finite.max())) if finite.size else (None, None, None)
+        )
+        unacceptable = int(np.count_nonzero(metric.unacceptable(values)))
+        return cls(low, mean, high, values.size - finite.size, unacceptable)
+
+    def to_dict(self) -> dict[str, float | int | None]:
+        """Figures by name."""
+        return dataclasses.asdict(self)
+
+
+def spreads(mesh: Mesh, figures: ElementQuality | None = None) -> dict[str, Spread]:
+    """Every metric's spread by its name; pass `figures` where they are measured already.
+
+    Examples
+    --------
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
+    >>> spreads(Mesh(UNIT_CUBE, [range(8)]))["max-angle"]
+    Spread(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
+    """
+    figures = measure(mesh.points, mesh.hexes) if figures is None else figures
+    return {name: Spread.over(metric, metric.of(mesh.points, mesh.hexes, figures)) for name, metric in METRICS.items()}

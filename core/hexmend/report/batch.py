@@ -1,0 +1,165 @@
+"""The report of a study of many meshes: one table of all tasks, and what to read of it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from hexmend.errors import HexmendError
+from hexmend.figures import count, quality, significant
+from hexmend.io.storage.atomic import replacing
+from hexmend.report.documents import write_csv, write_text
+from hexmend.report.latex import latex
+from hexmend.report.markdown import escaped, markdown
+from hexmend.report.tables import Table
+
+#: The rest of the failures is in the CSV.
+_FAILURES = 200
+
+Rows = Sequence[Mapping[str, Any]]
+
+
+def write_many(folder: Path, study: Mapping[str, Any], machine: Mapping[str, Any]) -> list[Path]:
+    """Write `study.csv`, all rows; `study.md` and `study.tex`, what each method came to, and each mesh.
+
+    Parameters
+    ----------
+    folder : Path
+    study : mapping
+        `hexmend.study.batch.runner.Studied.record`.
+    machine : mapping
+        Where it was asked for, as `hexmend.study.bench.sections.machine` tells it.
+    """
+    rows = study["rows"]
+    tables = [cases_table(study), meshes_table(rows)]
+    paths = [folder / f"study{suffix}" for suffix in (".csv", ".md", ".tex")]
+    write_csv(paths[0], rows)
+    said = [f"# {escaped(study['title'])}", f"{len(rows):,} of {study['tasks']:,} tasks are done. {_words(machine)}"]
+    if study["interrupted"]:
+        said.append("The study was interrupted: the same command goes on with it.")
+    failures = failures_table(rows)
+    write_text(paths[1], "\n\n".join([*said, *map(markdown, [*tables, *([failures] if failures else [])])]))
+    write_text(paths[2], "\n".join(map(latex, tables)))
+    return paths
+
+
+def write_parquet(path: Path, rows: Rows, types: Mapping[str, type]) -> None:
+    """Write the rows as Parquet, with these columns and types.
+
+    Raises
+    ------
+    HexmendError
+        Where pyarrow is not installed.
+    """
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError:
+        raise HexmendError(f"{path.name} needs pyarrow: run  pip install 'hexmend[study]'") from None
+    known = {str: pa.string(), int: pa.int64(), float: pa.float64()}
+    schema = pa.schema([(name, known[type_]) for name, type_ in types.items()])
+    with replacing(path) as temporary:
+        parquet.write_table(pa.Table.from_pylist([dict(row) for row in rows], schema), temporary)
+
+
+def cases_table(study: Mapping[str, Any]) -> Table:
+    """What each case came to over all meshes: a line a case."""
+    head = (
+        "",
+        "results",
+        "valid",
+        "untangled",
+        "worse",
+        "q min: median gain",
+        "least",
+        "q mean: median gain",
+        "least",
+        "sc. Jacobian: median gain",
+        "least",
+        "s: median",
+        "s in all",
+        "peak MB",
+    )
+    lines = [[case, *_line([row for row in study["rows"] if row["case"] == case])] for case in study["cases"]]
+    notes = (
+        "Results: of how many tasks. Valid: results without an inverted hex. Untangled: of the results of meshes "
+        "that had inverted hexes. Worse: results with more inverted hexes, a lower q min or a lower least scaled "
+        "Jacobian than the mesh as given. A gain is after minus before.",
+    )
+    return Table(study["title"], head, lines, notes)
+
+
+def meshes_table(rows: Rows) -> Table:
+    """What became of each mesh, and by which case it is best: fewest inverted hexes, then the highest q min."""
+    head = ("", "hexes", "inverted", "q min", "valid", "best by", "inverted then", "q min then", "sc. Jacobian then")
+    lines, names = [], _names(rows)
+    for mesh in dict.fromkeys(row["mesh"] for row in rows):
+        mine = [row for row in rows if row["mesh"] == mesh]
+        done = [row for row in mine if row["status"] == "done"]
+        known = next((row for row in mine if row["hexes"] is not None), None)
+        cells = ["–"] * 3
+        if known is not None:
+            cells = [count(known["hexes"]), count(known["inverted_before"]), quality(known["q_min_before"])]
+        best = min(done, key=lambda row: (row["inverted_after"], -row["q_min_after"]), default=None)
+        then = ["–"] * 4
+        if best is not None:
+            then = [best["case"], count(best["inverted_after"]), quality(best["q_min_after"])]
+            then.append(quality(best["scaled_jacobian_min_after"]))
+        valid = sum(not row["inverted_after"] for row in done)
+        lines.append([names[mesh], *cells, f"{valid} of {len(mine)}", *then])
+    return Table("The meshes", head, lines)
+
+
+def failures(rows: Rows) -> list[tuple[str, str, str, str]]:
+    """Mesh, cases, status and reason of the tasks without a result, those of a mesh together that have one reason."""
+    groups: dict[tuple[str, str, str], list[str]] = {}
+    for row in rows:
+        if row["status"] != "done":
+            groups.setdefault((row["mesh"], row["status"], row["reason"]), []).append(row["case"])
+    cases, files = len({row["case"] for row in rows}), _names(rows)
+    return [
+        (files[mesh], f"all {cases}" if len(names) == cases > 1 else "; ".join(names), status, reason)
+        for (mesh, status, reason), names in groups.items()
+    ]
+
+
+def failures_table(rows: Rows) -> Table | None:
+    """Tasks without a result and why; None where there are none."""
+    failed = failures(rows)
+    if not failed:
+        return None
+    left = len(failed) - _FAILURES
+    notes = [f"And {left:,} more: see the column reason of study.csv."] if left > 0 else []
+    return Table("Without a result", ("", "case", "status", "reason"), failed[:_FAILURES], notes)
+
+
+def _names(rows: Rows) -> dict[str, str]:
+    """What each mesh is called: its file's name, or the whole path where another's is the same."""
+    meshes = dict.fromkeys(row["mesh"] for row in rows)
+    counts = Counter(Path(mesh).name for mesh in meshes)
+    return {mesh: name if counts[name := Path(mesh).name] == 1 else mesh for mesh in meshes}
+
+
+def _line(rows: Rows) -> list[str]:
+    done = [row for row in rows if row["status"] == "done"]
+    tangled = [row for row in done if row["inverted_before"]]
+    seconds = [row["seconds"] for row in done]
+    peaks = [row["peak_mb"] for row in rows if row["peak_mb"] is not None]
+    cells = [
+        f"{len(done)} of {len(rows)}",
+        str(sum(not row["inverted_after"] for row in done)),
+        f"{sum(not row['inverted_after'] for row in tangled)} of {len(tangled)}",
+        str(sum(bool(row["worse"]) for row in done)),
+    ]
+    for key in ("q_min", "q_mean", "scaled_jacobian_min"):
+        gains = [row[f"{key}_after"] - row[f"{key}_before"] for row in done]
+        cells += [f"{median(gains):+.4f}", f"{min(gains):+.4f}"] if gains else ["–", "–"]
+    cells += [significant(median(seconds), 3), significant(sum(seconds), 3)] if seconds else ["–", "–"]
+    return [*cells, f"{max(peaks):,.0f}" if peaks else "–"]
+
+
+def _words(machine: Mapping[str, Any]) -> str:
+    return f"Asked for on: {'; '.join(f'{key} {escaped(str(value))}' for key, value in machine.items())}."

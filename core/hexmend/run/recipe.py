@@ -1,0 +1,201 @@
+"""Recipes: methods one after another, each with its values and its limits, as data that people read and write.
+
+As a file a recipe is TOML::
+
+    format = 2
+    title = "GETMe, then mend"
+
+    [[stage]]
+    method = "getme"
+    parameters = { relaxation = 0.75 }
+    stop = { max_iterations = 100 }
+
+    [[stage]]
+    method = "mend"
+
+What is not named has its default; what Hexmend writes names everything, so that a file means the same when defaults
+change. Only data is read: nothing in a file is ever run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
+
+from hexmend.errors import ParameterError
+from hexmend.iteration import Stop
+from hexmend.parameters import from_values, hint
+from hexmend.smoothers import METHODS, Smoother
+from hexmend.smoothers.sliding_smoother import UNLIMITED
+from hexmend.toml_text import parsed
+
+#: The number of the format that is written; lower ones can be read.
+FORMAT = 2
+
+_HEAD = "# A recipe: hexmend smooth MESH -o OUT --recipe THIS-FILE\n"
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A method and when it ends."""
+
+    smoother: Smoother
+    stop: Stop = field(default_factory=Stop)
+
+    def values(self) -> dict[str, Any]:
+        """The stage as data: `method`, `parameters` and `stop`, every value of them."""
+        return {"method": self.smoother.name, "parameters": self.smoother.values(), "stop": self.stop.values()}
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """Stages that a run goes through, each from what the one before it reached.
+
+    Parameters
+    ----------
+    title : str
+    stages : tuple of Stage
+        At least one.
+
+    Raises
+    ------
+    ParameterError
+        Without a stage.
+
+    Examples
+    --------
+    >>> recipe = Recipe.of("getme", "mend")
+    >>> recipe.title
+    'GETMe, simultaneous; then Mend'
+    >>> from_toml(to_toml(recipe)) == recipe
+    True
+    """
+
+    #: What stands for the method in reports.
+    name: ClassVar[str] = "recipe"
+
+    title: str
+    stages: tuple[Stage, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "stages", tuple(self.stages))
+        if not self.stages:
+            raise ParameterError("a recipe has no stage: expected at least one")
+
+    @classmethod
+    def of(cls, *parts: Stage | Smoother | str, title: str = "") -> Recipe:
+        """A recipe of stages; a method, or the name of one, is a stage with the usual limits.
+
+        Without a title, it is that of its methods.
+        """
+        stages = tuple(map(_stage, parts))
+        return cls(title or "; then ".join(stage.smoother.title for stage in stages), stages)
+
+    def limited(self, **limits: Any) -> Recipe:
+        """The same with these limits of `Stop` for every stage, in place of its own."""
+        return replace(self, stages=tuple(replace(stage, stop=replace(stage.stop, **limits)) for stage in self.stages))
+
+    def values(self) -> dict[str, Any]:
+        """The recipe as data."""
+        return {"title": self.title, "stages": [stage.values() for stage in self.stages]}
+
+
+def _stage(part: Stage | Smoother | str) -> Stage:
+    if isinstance(part, Stage):
+        return part
+    return Stage(METHODS[part]() if isinstance(part, str) else part)
+
+
+def to_toml(recipe: Recipe) -> str:
+    """The recipe as TOML text that names every value."""
+    import tomli_w
+
+    stages = [stage.values() for stage in recipe.stages]
+    return _HEAD + tomli_w.dumps({"format": FORMAT, "title": recipe.title, "stage": stages})
+
+
+def from_toml(text: str) -> Recipe:
+    """The recipe that TOML text describes.
+
+    Raises
+    ------
+    ParameterError
+        Naming line and column where it is no TOML, else the stage, the key and what was expected there.
+    """
+    data = in_this_format(parsed(text, "a recipe"))
+    check_keys("the recipe", data, ("format", "title", "stage"))
+    title, stages = data.get("title", ""), data.get("stage", [])
+    if not isinstance(title, str):
+        raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
+    if not isinstance(stages, list) or not all(isinstance(stage, dict) for stage in stages) or not stages:
+        raise ParameterError('the recipe has no stage: expected [[stage]] and a line such as  method = "mend"')
+    return Recipe.of(*(read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
+
+
+def in_this_format(data: dict[str, Any]) -> dict[str, Any]:
+    """A recipe as data of the format that is written.
+
+    Raises
+    ------
+    ParameterError
+        Where it does not say of which format it is, or is of a newer one.
+    """
+    number = data.get("format")
+    if number is None:
+        raise ParameterError(f"the recipe has no format: expected  format = {FORMAT}  as its first line")
+    if type(number) is not int or number < 1:
+        raise ParameterError(f"format = {number!r} is no format of a recipe: expected {FORMAT}")
+    if number > FORMAT:
+        raise ParameterError(f"format = {number} is newer than this version of Hexmend, which reads up to {FORMAT}")
+    return data if number > 1 else without_zero_for_no_limit(data)
+
+
+def without_zero_for_no_limit(data: Any) -> Any:
+    """Data of a file from the time when a surface tolerance of 0 meant that there is no limit, as it is read now.
+
+    >>> without_zero_for_no_limit({"stage": [{"parameters": {"surface_tolerance": 0.0, "p": 2.0}}]})
+    {'stage': [{'parameters': {'surface_tolerance': 'unlimited', 'p': 2.0}}]}
+    """
+    if isinstance(data, list):
+        return [without_zero_for_no_limit(one) for one in data]
+    if not isinstance(data, dict):
+        return data
+    now = {key: without_zero_for_no_limit(one) for key, one in data.items()}
+    if "surface_tolerance" in now:
+        given = now["surface_tolerance"]
+        several = [UNLIMITED if _is_zero(one) else one for one in (given if isinstance(given, list) else [given])]
+        now["surface_tolerance"] = several if isinstance(given, list) else several[0]
+    return now
+
+
+def _is_zero(value: Any) -> bool:
+    return type(value) in (int, float) and value == 0
+
+
+def read_stage(number: int, data: Mapping[str, Any]) -> Stage:
+    """The stage that data as of `Stage.values` describe; `ParameterError` names its number where they are none."""
+    try:
+        check_keys("the stage", data, ("method", "parameters", "stop"))
+        if "method" not in data:
+            raise ParameterError('it has no method: expected a line such as  method = "mend"')
+        cls = METHODS[str(data["method"])]
+        smoother = from_values(cls, table_in(data, "parameters"), owner=cls.name)
+        return Stage(smoother, from_values(Stop, table_in(data, "stop"), owner="stop"))
+    except ParameterError as error:
+        raise ParameterError(f"stage {number}: {error}") from None
+
+
+def table_in(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    """The table of this name, empty where there is none. Raises `ParameterError` where it is something else."""
+    table = data.get(key, {})
+    if not isinstance(table, dict):
+        raise ParameterError(f"{key} = {table!r} is no table: expected  {key} = {{ name = value, ... }}")
+    return table
+
+
+def check_keys(owner: str, data: Mapping[str, Any], known: Iterable[str]) -> None:
+    """Raise `ParameterError` for the first key of `data` that is not known, with what may have been meant."""
+    for key in data:
+        if key not in known:
+            raise ParameterError(f"{owner} has no key {key!r}: {hint(key, known)}")

@@ -1,0 +1,248 @@
+"""The only loop: a smoother's steps become iterations with clocks, figures, stop conditions and an outcome."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from hexmend.boundary import SurfaceChange, surface_change
+from hexmend.boundary.features import DEGREES
+from hexmend.iteration import Iteration, Outcome, Result, Stop
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import Summary, measure, regressions, summarise, worse_in_words
+from hexmend.run.messages import changes, iterations, kept
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.stage_run import Leg
+from hexmend.smoothers import METHODS, Smoother
+
+
+class Run(Iterator[Iteration]):
+    """A smoother or a recipe at work on a mesh: an iterator of iterations that knows its record and its outcome.
+
+    The stages of a recipe follow one another in one numbering, one clock and one history, each from what the stage
+    before it reached; one that has nothing to do is passed over.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    smoother : Smoother or Recipe
+    stop : Stop, optional
+        The defaults for a smoother; for a recipe, in place of the limits of every stage.
+
+    Attributes
+    ----------
+    mesh, smoother
+        As given.
+    start : Iteration
+        Number 0: the mesh as given.
+    last : Iteration
+        The newest.
+    reached : Iteration
+        The one that is the run's result: the best of the stage at hand by the rank of the method at work, of equals
+        the last; the last in any case under `Stop.keep_last`.
+    history : list of dict
+        `Iteration.row` of every iteration so far, number 0 first.
+    outcome : Outcome or None
+        None while the run goes on; then that of the last stage.
+    decisions : list of str
+        What was decided on the way, in sentences.
+    """
+
+    def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None = None):
+        self.mesh = mesh
+        self.smoother = smoother
+        self._stages = _stages(smoother, stop)
+        notes = {"stage": 1, "method": self._stages[0].smoother.name}
+        figures = measure(mesh.points, mesh.hexes)
+        self.start = Iteration(0, mesh.points, figures, 0.0, 0.0, notes, self._stages[0].smoother.power)
+        self.history = [self.start.row()]
+        self.outcome: Outcome | None = None
+        self.decisions: list[str] = []
+        self._legs = [Leg(mesh, self._stages[0], 1, self.start, self.start)]
+        self._settle()
+
+    def __next__(self) -> Iteration:
+        while self.outcome is None:
+            if self._leg.outcome is not None:
+                self._begin_the_next_stage()
+                continue
+            iteration = self._leg.advance()
+            if iteration is not None:
+                self.history.append(iteration.row())
+                if self._leg.decision:
+                    self.decisions.append(self._leg.decision)
+            self._settle()
+            if iteration is not None:
+                return iteration
+        raise StopIteration
+
+    def go_on_with(self, smoother: Smoother | str, stop: Stop | None = None) -> None:
+        """Do the rest of the stage at hand by another method, with other values or under other limits.
+
+        It goes on from the newest iteration, where the nodes are. A stage that has just ended goes on too, if its new
+        limits let it. What has been decided says so; the record names each method.
+
+        Parameters
+        ----------
+        smoother : Smoother or str
+        stop : Stop, optional
+            Limits of the stage as a whole, counted from where it began; its own so far if None.
+
+        Raises
+        ------
+        ValueError
+            Where the run has ended.
+        """
+        if self.outcome is not None:
+            raise ValueError("the run has ended, so that nothing is left to change: begin another from its result")
+        old = self._leg
+        new = Stage(METHODS[smoother]() if isinstance(smoother, str) else smoother, stop or old.stage.stop)
+        if new == old.stage:
+            return
+        self.decisions.append(f"After iteration {self.last.number}: {changes(old.stage, new)}.")
+        if new.smoother == old.smoother and old.outcome is None:
+            old.limit(new.stop)
+        else:
+            leg = Leg(self.mesh, new, old.number, old.at, self.last, old)
+            if old.outcome is None:
+                old.end(Outcome.STOPPED)
+            self._legs.append(leg)
+        self._settle()
+
+    def close(self) -> None:
+        """End the run where it is; what was reached stands."""
+        if self.last.number > self.history[-1]["iteration"]:  # Ctrl-C came as the iteration was being recorded
+            self.history.append(self.last.row())
+        if self.outcome is None:
+            if self._leg.outcome is None:
+                self._leg.end(Outcome.STOPPED)
+            self.outcome = Outcome.STOPPED
+
+    @property
+    def last(self) -> Iteration:
+        """See the class."""
+        return self._leg.last
+
+    @property
+    def reached(self) -> Iteration:
+        """See the class."""
+        return self._leg.reached
+
+    @property
+    def stage(self) -> Stage:
+        """The method at work and its limits."""
+        return self._leg.stage
+
+    @property
+    def stage_number(self) -> int:
+        """Number of the stage at hand, from 1."""
+        return self._leg.number
+
+    @property
+    def stage_count(self) -> int:
+        """Number of stages."""
+        return len(self._stages)
+
+    @property
+    def limit(self) -> int:
+        """The most iterations that it can come to as things stand."""
+        leg = self._leg
+        here = self.last.number if leg.outcome is not None else leg.since.number + leg.stage.stop.max_iterations
+        return here + sum(stage.stop.max_iterations for stage in self._to_come)
+
+    @property
+    def setup_seconds(self) -> float:
+        """What the methods' preparations took so far."""
+        return sum(leg.setup_seconds for leg in self._legs)
+
+    @property
+    def recipe(self) -> Recipe:
+        """What was run and what is still to come, as a recipe that does it again."""
+        legs = [leg.as_stage(cut=later.number == leg.number) for leg, later in pairwise(self._legs)]
+        done = [stage for stage in legs if stage is not None]
+        title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
+        return Recipe.of(*done, self._leg.as_stage(), *self._to_come, title=title)
+
+    @property
+    def message(self) -> str:
+        """What has been reached, why the run ended, and in what the mesh is worse than it was, in sentences."""
+        return self._message(*self._summaries())
+
+    def _message(self, before: Summary, after: Summary) -> str:
+        at, inverted = self.last, self.reached.figures.n_inverted
+        said = self.outcome.value if self.outcome is not None else "Running."
+        left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
+        move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
+        decided = self.decisions
+        if not self._kept_last and decided and decided[-1] == self._leg.decision:
+            decided = decided[:-1]  # it says how the last one is
+        words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
+        if not self._kept_last:
+            words.append(kept(self.reached.number))
+        instead = "" if inverted else self.stage.smoother.instead(regressions(before, after))
+        return " ".join(filter(None, [*words, worse_in_words(before, after), instead]))
+
+    @property
+    def _kept_last(self) -> bool:
+        return self.reached is self.last
+
+    def result(self) -> Result:
+        """The record of the run as far as it went."""
+        before, after = self._summaries()
+        several = isinstance(self.smoother, Recipe) or len(self._legs) > 1
+        mesh = self.mesh.with_points(self.reached.points)
+        return Result(
+            mesh=mesh,
+            before=before,
+            after=after,
+            method=Recipe.name if several else self.smoother.name,
+            parameters={} if several else self.stage.smoother.values(),
+            outcome=self.outcome or Outcome.STOPPED,
+            message=self._message(before, after),
+            iterations=self.last.number,
+            kept=self.reached.number,
+            seconds=self.last.seconds,
+            setup_seconds=self.setup_seconds,
+            history=tuple(self.history),
+            stages=tuple(leg.result() for leg in self._legs),
+            surface=self._surface_change(mesh),
+            limits=self._leg.limits if self._kept_last else None,
+        )
+
+    def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
+        """Of the boundary as given to that of a mesh, where a method let it slide."""
+        angles = [leg.smoother.values().get("feature_angle", DEGREES) for leg in self._legs if leg.smoother.slides]
+        return surface_change(self.mesh, mesh, angles[0]) if angles else None
+
+    def _summaries(self) -> tuple[Summary, Summary]:
+        """Of the mesh as given and of what was reached."""
+        mesh = self.mesh.with_points(self.reached.points)
+        return summarise(self.mesh, self.start.figures), summarise(mesh, self.reached.figures)
+
+    @property
+    def _leg(self) -> Leg:
+        return self._legs[-1]
+
+    @property
+    def _to_come(self) -> Sequence[Stage]:
+        return self._stages[self._leg.number :]
+
+    def _begin_the_next_stage(self) -> None:
+        done, last, reached = self._leg, self.last, self.reached
+        kept = f" Kept of it is iteration {reached.number}." if reached is not last else ""
+        count = iterations(last.number - done.since.number)
+        self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
+        self._legs.append(Leg(self.mesh, self._to_come[0], done.number + 1, reached, last))
+        self._settle()
+
+    def _settle(self) -> None:
+        """End where the leg at hand has ended and nothing comes after it."""
+        over = self._leg.outcome
+        if over is Outcome.NOTHING_FREE or (over is not None and not self._to_come):
+            self.outcome = over
+
+
+def _stages(smoother: Smoother | Recipe, stop: Stop | None) -> Sequence[Stage]:
+    if isinstance(smoother, Recipe):
+        return (smoother if stop is None else smoother.limited(**stop.values())).stages
+    return (Stage(smoother, stop or Stop()),)

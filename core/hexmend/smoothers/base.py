@@ -1,0 +1,141 @@
+"""What a smoother is, and the registry of them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Generator
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeAlias, TypeVar
+
+import numpy as np
+
+from hexmend.energy.norm import SQUARES, Power
+from hexmend.iteration import Outcome, Step
+from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import Parametrised, declared
+from hexmend.quality import ElementQuality
+from hexmend.registry import Registry, load_others
+
+#: What a smoother's `steps` gives.
+Steps: TypeAlias = Generator[Step, None, Outcome | None]
+
+
+#: The least fall of q(H) that four decimals tell: near its optimum an optimiser goes up and down by less.
+_TOLD = 0.5e-4
+
+
+@dataclass(frozen=True)
+class Smoother(Parametrised, ABC):
+    """A method that moves nodes of a mesh: the free ones, and, if it is told to, those of the boundary along it.
+
+    A smoother is a frozen dataclass of declared parameters with one method, `steps`. It owns no clock, no limit, no
+    record and no window: `hexmend.run` does.
+    """
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    help: ClassVar[str]
+    source: ClassVar[str]
+    #: Whether it goes to a minimum of the energy.
+    optimises: ClassVar[bool] = False
+    #: Bytes a hex that its run holds at most beside the open mesh, topology included: as `hexmend bench --only memory`
+    #: measures it, and a fifth more. See `hexmend.run.memory`.
+    bytes_per_hex: ClassVar[int] = 1000
+
+    def __post_init__(self) -> None:
+        _check_texts(type(self), "name", "title")
+        super().__post_init__()
+
+    @property
+    def power(self) -> Power:
+        """p and offset of the objective that its runs end at the minimum of.
+
+        It is recorded of every step that names no other (`Step.power`). A method that minimises nothing has the default
+        values.
+        """
+        return SQUARES
+
+    @property
+    def slides(self) -> bool:
+        """Whether nodes of the boundary slide on the surface."""
+        return False
+
+    def movable(self, mesh: Mesh) -> np.ndarray:
+        """True for each node that the method may move, (n,) bool: the free ones, and those that slide."""
+        return mesh.free
+
+    @abstractmethod
+    def steps(self, mesh: Mesh) -> Steps:
+        """Yield the initial points once what the method prepares is ready, then the points after each step.
+
+        The generator goes on until nobody asks for more, or returns the outcome where the method has no further step.
+        A run copies what is yielded, unless it is immutable already. Rows of nodes that the method may not move stay as
+        they are to the last bit.
+        """
+
+    def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
+        """What an iterate is kept for, the lower the better; of equals the last is kept.
+
+        Inverted hexes come first. Then the least q(H) counts; of an optimiser only whether it is lower than at the
+        start, in the digits of tables, as its iterates get better by the objective, not by the least q(H).
+
+        Parameters
+        ----------
+        start, now : ElementQuality
+            As the stage began, and of the iterate.
+        """
+        least = float(now.q.min())
+        return now.n_inverted, least < start.q.min() - _TOLD if self.optimises else -least
+
+    def instead(self, worse: tuple[str, ...]) -> str:
+        """What to ask the method for where figures, of `hexmend.quality.JUDGED`, have become worse; "" for nothing."""
+        return ""
+
+    @classmethod
+    def to_json(cls) -> dict[str, Any]:
+        """The method's entry in `hexmend methods --json`."""
+        parameters = [declaration.to_json() for declaration in declared(cls)]
+        return {"name": cls.name, "title": cls.title, "help": cls.help, "source": cls.source, "parameters": parameters}
+
+
+S = TypeVar("S", bound=type[Smoother])
+
+#: The entry-point group through which other distributions add theirs: entries name a module or a smoother's class.
+GROUP = "hexmend.smoothers"
+
+
+def add_third_parties() -> None:
+    """Load the smoothers of other distributions."""
+    load_others(GROUP, "method", _take)
+
+
+def _take(name: str, found: object) -> None:
+    if isinstance(found, type) and found not in METHODS.values():  # a module announces its smoothers itself
+        method(found)
+
+
+METHODS: Registry[type[Smoother]] = Registry("method", add_third_parties)
+
+
+def _check_texts(cls: type, *names: str) -> None:
+    """Raise `TypeError` where a class does not give a text under each of some names."""
+    for name in names:
+        if not isinstance(getattr(cls, name, None), str):
+            raise TypeError(f"{cls.__name__} has no {name}: expected a text in the class")
+
+
+def method(cls: S) -> S:
+    """Class decorator: register a smoother under its name.
+
+    Raises
+    ------
+    TypeError
+        Where the class does not say what every method says of itself.
+    ValueError
+        Where another method has its name.
+    """
+    if not issubclass(cls, Smoother):
+        raise TypeError(f"{cls.__name__} is no hexmend.Smoother")
+    _check_texts(cls, "name", "title", "help", "source")
+    METHODS.add(cls.name, cls)
+    return cls

@@ -1,0 +1,1 @@
+"""GETMe, the geometric element transformation method."""

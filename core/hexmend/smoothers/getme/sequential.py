@@ -1,0 +1,82 @@
+"""Sequential GETMe: the second stage."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from hexmend.boundary import Sliding
+from hexmend.iteration import Outcome, Step
+from hexmend.kernels import sliding as on_surface
+from hexmend.kernels import worst_first as kernels
+from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import parameter
+from hexmend.quality import ElementQuality, measure
+from hexmend.smoothers.base import Steps, method
+from hexmend.smoothers.getme.simultaneous import standing
+from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
+
+#: A sweep that raises q_min by less than this has not raised it.
+RISE = 1e-4
+
+#: How often the relaxation is halved before the method ends.
+HALVINGS = 6
+
+
+@method
+@dataclass(frozen=True)
+class SequentialGETMe(SlidingSmoother):
+    """The worst hex takes its step alone, then whichever is worst by then, as many steps a sweep as there are hexes."""
+
+    name = "getme-sequential"
+    title = "GETMe, sequential"
+    help = "Raises q_min: step after step the worst hex is made more regular. Best after simultaneous GETMe."
+    source = "Wilson 3.1.2; Vartziotis and Wipper 2011"
+    bytes_per_hex = 400
+
+    scaling: float = parameter(1.0, low=0.01, high=10, help="s: how far a corner goes along its triangle's normal.")
+    relaxation: float = parameter(
+        0.1, low=0.001, high=1, help="rho: share of a step that is taken; halved after a sweep without a rise of q_min."
+    )
+    penalty: float = parameter(
+        0.001, low=0, high=1, unit="q(H)", help="By how much better a hex that moved counts for the rest of the sweep."
+    )
+    setback: float = parameter(
+        0.01, low=1e-6, high=1, unit="q(H)", help="The same for a hex whose step was taken back."
+    )
+
+    def steps(self, mesh: Mesh) -> Steps:
+        sliding = self.sliding(mesh)
+        mesh = mesh if sliding is None else sliding.mesh
+        sweeps = Sweeps(sliding, mesh.n_nodes)
+        points, figures = mesh.points, measure(mesh.points, mesh.hexes)
+        relaxation = self.relaxation
+        yield Step(points)
+        while relaxation >= self.relaxation / 2**HALVINGS:
+            points, taken_back = sweeps(points, partial(self._sweep, mesh, sliding, figures, relaxation))
+            before, figures = figures, measure(points, mesh.hexes)
+            # Algorithm A.1 does not apply: a sweep may end where it began, and a finer one still raise q_min.
+            yield Step(points, {"relaxation": relaxation, "taken_back": taken_back}, more=True, figures=figures)
+            if not np.any((standing(figures) - standing(before))[:2] > RISE):
+                relaxation /= 2
+        return Outcome.NO_IMPROVEMENT
+
+    def _sweep(
+        self,
+        mesh: Mesh,
+        sliding: Sliding | None,
+        figures: ElementQuality,
+        relaxation: float,
+        moved: np.ndarray,
+        stays: np.ndarray,
+    ) -> int:
+        """Move the points, those apart that have to stay; returns how many steps were taken back."""
+        attached, free = mesh.topology.node_corners, mesh.free & ~stays
+        sweep_of = (
+            moved, mesh.hexes, attached.start, attached.items, free,
+            np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32), figures.q.copy(), ~figures.inverted,
+            self.scaling, relaxation, self.penalty, self.setback,
+        )  # fmt: skip
+        return kernels.sweep(*sweep_of) if sliding is None else on_surface.worst_first(*sweep_of, *sliding.ground)

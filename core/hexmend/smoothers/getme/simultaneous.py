@@ -1,0 +1,98 @@
+"""Simultaneous GETMe."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.boundary import Sliding
+from hexmend.iteration import Outcome, Step
+from hexmend.kernels import getme as kernels
+from hexmend.kernels.element_step import element_steps
+from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import parameter
+from hexmend.quality import ElementQuality, measure
+from hexmend.smoothers.base import Steps, method
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+
+#: A rise of q_min or q_mean that is less than this is none.
+RISE = 1e-6
+
+
+@method
+@dataclass(frozen=True)
+class GETMe(SlidingSmoother):
+    """Every hex grows more regular by itself; each node goes to a mean of the places that its hexes give it."""
+
+    name = "getme"
+    title = "GETMe, simultaneous"
+    help = "Each hex takes a step towards a cube, and nodes go to the mean of their places. Fast; often untangles."
+    source = "Wilson 3.1.2; Vartziotis and Wipper 2011"
+    bytes_per_hex = 600
+
+    scaling: float = parameter(1.0, low=0.01, high=10, help="s: how far a corner goes along its triangle's normal.")
+    relaxation: float = parameter(0.75, low=0.01, high=1, help="rho: share of a hex's step that is taken.")
+    weights: str = parameter(
+        "quality",
+        choices=("quality", "paper", "equal"),
+        help="A hex's weight in the means of its nodes: 1/sqrt(q), (1 - q)^(exponent/2) as in the paper, or 1.",
+    )
+    exponent: float = parameter(1.0, low=0, high=10, help="Exponent of the paper's weights.")
+    patience: int = parameter(
+        10, low=1, high=1000, help="Ends after this many iterations in which neither q_min nor q_mean has risen."
+    )
+
+    def steps(self, mesh: Mesh) -> Steps:
+        sliding = self.sliding(mesh)
+        mesh = mesh if sliding is None else sliding.mesh
+        attached = mesh.topology.node_corners
+        nodes = np.flatnonzero(mesh.free).astype(np.int32)
+        places = np.empty((mesh.n_hexes, 8, 3))
+        points, figures = mesh.points, measure(mesh.points, mesh.hexes)
+        best = standing(figures)
+        idle = 0
+        yield Step(points)
+        while idle < self.patience:
+            element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
+            moved = points.copy()
+            kernels.weighted_means(places, self.weigh(figures.q), attached.start, attached.items, nodes, moved)
+            if sliding is not None:
+                moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
+            points, figures, relaxed = _without_harm(mesh, points, figures, moved, sliding)
+            now = standing(figures)
+            idle = 0 if np.any(now > best + RISE) else idle + 1
+            best = np.maximum(best, now)
+            yield Step(points, {"relaxed_nodes": relaxed}, figures=figures)
+        return Outcome.NO_IMPROVEMENT
+
+    def weigh(self, q: np.ndarray) -> np.ndarray:
+        """Weight of every hex of these q(H), (m,); the worse, the heavier, and never infinite or zero."""
+        if self.weights == "quality":
+            return 1 / np.sqrt(np.maximum(q, 0.01))
+        if self.weights == "paper":
+            return np.maximum(1 - q, 1e-12) ** (self.exponent / 2)
+        return np.ones(len(q))
+
+
+def standing(figures: ElementQuality) -> np.ndarray:
+    """What a heuristic wants to raise: less inverted hexes, q_min, q_mean; (3,)."""
+    return np.array([-figures.n_inverted, figures.q.min(), figures.q.mean()])
+
+
+def _without_harm(
+    mesh: Mesh, points: np.ndarray, figures: ElementQuality, moved: np.ndarray, sliding: Sliding | None
+) -> tuple[np.ndarray, ElementQuality, int]:
+    """The moved points, relaxed where a hex that was sound would be inverted; their figures; how many were relaxed."""
+    after = measure(moved, mesh.hexes)
+    harmed = np.flatnonzero(after.inverted & ~figures.inverted).astype(np.int32)
+    if not harmed.size and (sliding is None or not sliding.refused(points, moved).size):
+        return moved, after, 0
+    attached = mesh.topology.node_corners
+    relaxed = kernels.relax(points, mesh.hexes, attached.start, attached.items, ~figures.inverted, harmed, moved)
+    if sliding is None:
+        return moved, measure(moved, mesh.hexes), relaxed
+    moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
+    # A relaxed step that is put back may harm again: then it is not taken at all.
+    moved = sliding.held(points, moved, lambda x: mesh.hexes[measure(x, mesh.hexes).inverted & ~figures.inverted])
+    return moved, measure(moved, mesh.hexes), relaxed

@@ -1,0 +1,1 @@
+"""Global methods: all free nodes move at once."""

@@ -1,0 +1,59 @@
+"""What the global methods share: Algorithm 3.3, all free nodes at once."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+
+from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, SlidingEnergy
+from hexmend.iteration import Outcome, Step
+from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.descent import descend
+from hexmend.optimise.line_search import BackLineSearch
+from hexmend.optimise.search_direction import Direction
+from hexmend.parameters import parameter
+from hexmend.quality import measure
+from hexmend.smoothers.base import Steps
+from hexmend.smoothers.base_optimiser import Optimiser
+
+
+@dataclass(frozen=True)
+class GlobalDescent(Optimiser):
+    """A search direction for all free nodes, a line search along it, and so on; a method names the direction."""
+
+    delta_unit: str = parameter(
+        "edge",
+        choices=("edge", "mesh"),
+        help="Of what delta is in cubes: the mesh's mean edge length, or its own unit of length (Table 4.3).",
+    )
+    first_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
+    shrink: float = parameter(0.7, low=0.01, high=0.99, help="Factor λ by which the line search cuts a step (A.5).")
+    c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
+    max_cuts: int = parameter(100, low=1, high=500, help="Cuts of a step after which the method gives up.")
+
+    @abstractmethod
+    def direction(self) -> Direction:
+        """The search direction: Algorithm A.2, A.3 or A.4."""
+
+    def policy(self, energy: MeshEnergy) -> DeltaPolicy:
+        """What delta is, in the energy's unit of length."""
+        return POLICIES[self.delta_policy](self.delta / (1.0 if self.delta_unit == "edge" else energy.unit**3))
+
+    def steps(self, mesh: Mesh) -> Steps:
+        sliding = self.sliding(mesh)
+        energy = MeshEnergy(mesh, self.power) if sliding is None else SlidingEnergy(sliding, self.power)
+        search = BackLineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
+        find, policy = self.direction(), self.policy(energy)
+        points = energy.mesh.points
+        x = energy.scaled(points)
+        yield Step(points)
+        while True:
+            delta = policy.at(measure(points, mesh.hexes), energy.unit)  # zero in the feasible region, 3.2.4
+            taken = descend(energy, x, delta, find, search)
+            if taken is None:  # inverted, and delta is zero
+                return Outcome.NO_DESCENT
+            if taken.alpha == 0 and taken.slope < 0:
+                return Outcome.NO_DESCENT
+            x = taken.x
+            points = energy.placed(x)
+            yield Step(points, taken.notes(delta))

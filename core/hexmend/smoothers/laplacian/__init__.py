@@ -1,0 +1,1 @@
+"""Laplacian smoothing and smart Laplacian smoothing."""

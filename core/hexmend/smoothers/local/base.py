@@ -1,0 +1,37 @@
+"""What the local optimisers share: the energy of a patch, and the line search on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.energy import POLICIES
+from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import parameter
+from hexmend.quality import measure
+from hexmend.smoothers.base_optimiser import Optimiser
+
+#: How many mean edge lengths the units of delta are: a patch of eight hexes is two wide.
+EDGES = {"edge": 1.0, "extent": 2.0}
+
+
+@dataclass(frozen=True)
+class LocalOptimiser(Optimiser):
+    """Line-searched steps for the energy of one patch after another, each scaled to unit mean edge length."""
+
+    delta_unit: str = parameter(
+        "edge",
+        choices=tuple(EDGES),
+        help="Of what delta is in cubes: the patch's mean edge length, or its extent, which is two edges (Table 4.4).",
+    )
+    first_step: float = parameter(1.0, low=1e-6, high=1e3, help="First trial step α of the line search (A.5).")
+    shrink: float = parameter(0.7, low=0.01, high=0.99, help="Factor λ by which the line search cuts a step (A.5).")
+    c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
+    max_cuts: int = parameter(100, low=1, high=200, help="Cuts of a step after which the node is left where it is.")
+
+    def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
+        """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""
+        return POLICIES[self.delta_policy](self.delta * EDGES[self.delta_unit] ** 3).at(
+            measure(points, mesh.hexes), mesh.mean_edge_length or 1.0
+        )

@@ -1,0 +1,63 @@
+"""What the local methods of one node at a time share: Algorithm 3.2."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import ClassVar
+
+import numpy as np
+
+from hexmend.boundary import Sliding
+from hexmend.iteration import Step
+from hexmend.kernels import local
+from hexmend.kernels import sliding as on_surface
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import Rows
+from hexmend.parameters import parameter
+from hexmend.smoothers.base import Steps
+from hexmend.smoothers.local.base import LocalOptimiser
+from hexmend.smoothers.sliding_smoother import Sweeps
+from hexmend.smoothers.visit_order import ORDERS, Visits
+
+
+@dataclass(frozen=True)
+class LocalDescent(LocalOptimiser):
+    """One line-searched step per free node, sweep after sweep, on the node's patch scaled to unit mean edge length."""
+
+    #: Search direction, one of `hexmend.kernels.local`.
+    direction: ClassVar[int]
+    bytes_per_hex = 400
+
+    order: str = parameter(
+        "colour",
+        choices=tuple(ORDERS),
+        help="In what order a sweep visits the nodes, 5.2.6: inward is level by level from the fixed ones.",
+    )
+
+    def steps(self, mesh: Mesh) -> Steps:
+        sliding = self.sliding(mesh)
+        mesh = mesh if sliding is None else sliding.mesh
+        corners, visits = mesh.topology.node_corners, Visits(mesh, self.order)
+        derivatives = int(np.diff(corners.start)[mesh.free].sum())  # each visit asks the hexes at its node
+        points, sweep, sweeps = mesh.points, 0, Sweeps(sliding, mesh.n_nodes)
+        visits.groups(points, sweep)
+        yield Step(points)
+        while True:
+            delta, groups = self.delta_at(mesh, points), visits.groups(points, sweep)
+            points, energies = sweeps(points, partial(self._sweep, mesh, sliding, groups, delta))
+            yield Step(points, {"delta": delta, "energies": energies, "derivatives": derivatives})
+            sweep += 1
+
+    def _sweep(
+        self, mesh: Mesh, sliding: Sliding | None, groups: Rows, delta: float, points: np.ndarray, stays: np.ndarray
+    ) -> int:
+        """Move the points, those apart that have to stay; returns how often a hex was asked for its energy."""
+        corners, visited = mesh.topology.node_corners, groups.without(stays)
+        sweep_of = (
+            points, mesh.hexes, corners.start, corners.items, visited.start, visited.items, self.direction,
+            delta, self.power, self.first_step, self.shrink, self.c1, self.max_cuts,
+        )  # fmt: skip
+        if sliding is None:
+            return local.sweep(*sweep_of)
+        return on_surface.local(*sweep_of, sliding.tangents(points), *sliding.ground)

@@ -1,0 +1,56 @@
+"""Sweeps of local Newton steps (A.4) around the hexes that hold back the step of all nodes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.energy.hex_energy import corners_left_out
+from hexmend.kernels import local
+from hexmend.mesh.validation import as_bools, points_like
+
+
+def local_sweeps(
+    energy: MeshEnergy, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, sweeps: int
+) -> np.ndarray:
+    """Make sweeps of local Newton steps over the inner nodes of some hexes and of their neighbours.
+
+    Nodes at hexes of which corners are left out stay: a local energy would count these corners.
+
+    Parameters
+    ----------
+    energy : MeshEnergy
+    x : (n, 3) float64
+        Where the nodes are, in mean edge lengths.
+    around : (m,) bool
+        The hexes.
+    left_out : (m,) uint8
+        A bit for each corner that is left out of the energy.
+    delta : float
+    sweeps : int
+
+    Returns
+    -------
+    (n, 3) float64
+        Where the nodes are then.
+
+    Raises
+    ------
+    MeshError
+        For an array of another shape or type.
+    """
+    mesh = energy.mesh
+    x = points_like(x, mesh.points.shape)
+    around, left_out = as_bools(around, "around", mesh.n_hexes), corners_left_out(left_out, mesh.n_hexes)
+    near = np.zeros(mesh.n_nodes, dtype=bool)
+    near[mesh.hexes[around]] = True
+    near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
+    near[mesh.hexes[left_out != 0]] = False
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
+    swept = x.copy()
+    for _ in range(sweeps):
+        local.sweep(
+            swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
+            local.MODIFIED_NEWTON, delta, energy.power, 1.0, 0.7, 1e-4, 60,
+        )  # fmt: skip
+    return swept

@@ -1,0 +1,80 @@
+"""Answers that are kept: a small file each, by the task's key, written as a whole or not at all."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from hexmend.io.storage.atomic import replacing
+from hexmend.study.batch.columns import Status, is_answer
+from hexmend.study.batch.task import Task
+
+#: Bytes of a file; the message of a run is the only part that varies.
+_MOST = 1_000_000
+
+#: Failures that another limit may turn into a result, and what limits them.
+_LIMITED = {Status.TIME: "max_seconds", Status.MEMORY: "max_memory_mb"}
+
+
+class Store:
+    """Answers in a folder.
+
+    Parameters
+    ----------
+    folder : Path
+        It is there.
+    """
+
+    def __init__(self, folder: Path):
+        self._folder = folder
+
+    def kept(self, task: Task) -> dict[str, Any] | None:
+        """The answer that is kept and still holds, else None: the task is to be done.
+
+        Not so of what was lost, of what failed by another limit or by what was free, and where the mesh that was
+        written is not there. A file that holds no answer, whatever it holds, is none.
+        """
+        path = self._path(task)
+        try:
+            if path.stat().st_size > _MOST:
+                return None
+            stored = json.loads(path.read_bytes())
+        except (OSError, ValueError, RecursionError):
+            return None
+        if not isinstance(stored, dict) or stored.get("key") != task.key or not is_answer(stored.get("answer")):
+            return None
+        row = stored["answer"]
+        if row["status"] == Status.LOST or not _same_limit(task, row["status"], stored.get("limits")):
+            return None
+        if row["status"] == Status.DONE and task.output and not Path(task.output).is_file():
+            return None
+        return row
+
+    def keep(self, task: Task, row: Mapping[str, Any]) -> None:
+        """Keep an answer, in place of the one that was there."""
+        limits = {"max_seconds": task.max_seconds, "max_memory_mb": task.max_memory_mb}
+        stored = {
+            "key": task.key,
+            "hexmend": task.version,
+            "mesh": task.mesh,
+            "mesh_hash": task.mesh_hash,
+            "surface_hash": task.surface_hash,
+            "case": task.case,
+            "limits": limits,
+            "answer": dict(row),
+        }
+        with replacing(self._path(task)) as temporary:
+            temporary.write_text(json.dumps(stored, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+    def _path(self, task: Task) -> Path:
+        return self._folder / f"{task.key}.json"
+
+
+def _same_limit(task: Task, status: str, limits: object) -> bool:
+    which = _LIMITED.get(Status(status))
+    if which is None:
+        return True
+    limit = getattr(task, which)  # 0 stands for what was free then
+    return isinstance(limits, dict) and limits.get(which) == limit != 0

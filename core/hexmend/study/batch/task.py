@@ -1,0 +1,80 @@
+"""A task of a study: one case on one mesh, and the key by which its result is known."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hexmend.errors import FileError
+from hexmend.io.files import check_readable
+from hexmend.io.formats.vtk.pvtu import pieces
+
+
+@dataclass(frozen=True)
+class Task:
+    """One case on one mesh, as data that go to another process, or to another machine.
+
+    Parameters
+    ----------
+    mesh : str
+        Absolute path.
+    mesh_hash : str
+        SHA-256 of its content, `content_hash`.
+    case : mapping
+        `Case.values`.
+    version : str
+        Of Hexmend.
+    max_seconds : float
+        0 for no limit.
+    max_memory_mb : int
+        0 for a share of the machine's.
+    surface, surface_hash : str
+        The same of the surface that the boundary slides on; "" where there is none.
+    output : str
+        Absolute path of the mesh to be written; "" for none.
+    """
+
+    mesh: str
+    mesh_hash: str
+    case: Mapping[str, Any]
+    version: str
+    max_seconds: float = 0.0
+    max_memory_mb: int = 0
+    surface: str = ""
+    surface_hash: str = ""
+    output: str = ""
+
+    @property
+    def key(self) -> str:
+        """32 hexadecimal digits that tell tasks apart by what decides their results: not where files are."""
+        suffix = Path(self.mesh).suffix.lower()  # which decides how the content is read
+        decides = [self.version, self.mesh_hash, suffix, self.surface_hash, self.case]
+        return hashlib.sha256(json.dumps(decides, sort_keys=True).encode()).hexdigest()[:32]
+
+
+def content_hash(path: Path) -> str:
+    """SHA-256 of a file's content, in hexadecimal digits; of a PVTU file with that of its pieces.
+
+    Raises
+    ------
+    FileError
+        Where it cannot be read.
+    """
+    check_readable(path, "a mesh file")
+    try:
+        digest = _digest(path)
+        if path.suffix.lower() == ".pvtu":
+            every = [digest, *(_digest(piece) for piece in pieces(path) if piece.is_file())]
+            digest = hashlib.sha256("".join(every).encode()).hexdigest()
+    except OSError as error:
+        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
+    return digest
+
+
+def _digest(path: Path) -> str:
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

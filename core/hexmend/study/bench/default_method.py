@@ -1,0 +1,137 @@
+"""Measuring the default method: seconds to the optimum, and whether anything tangled is left behind."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections import Counter
+from contextlib import suppress
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from hexmend.errors import FileError, MeshError
+from hexmend.gallery import make
+from hexmend.io import read, readable_suffixes
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import summarise
+from hexmend.run import Stop, smooth
+from hexmend.study.bench.section import Section, by_size
+
+#: Gallery meshes by name, size and scramble.
+_MESHES = [("five-side", 7350, 0.0), ("bridge-sharp", 32000, 0.0), ("bridge-sharp", 32000, 0.6), ("plane", 31760, 0.0)]
+
+#: Names, sizes, amplitudes and seeds of the tangled meshes: 4 x 5 x 10.
+_TANGLED = [("cube", 1000), ("five-side", 1360), ("bridge-sharp", 1372), ("plane", 2500)]
+_AMPLITUDES = [0.5, 1.0, 2.0, 3.5, 5.0]
+_SEEDS = range(10)
+
+
+def _optima() -> dict[str, Any]:
+    gallery = [make(name, size=size, scramble=scramble) for name, size, scramble in _MESHES]
+    return {"meshes": [_row(mesh) for mesh in itertools.chain(gallery, real())]}
+
+
+def real() -> list[Mesh]:
+    """The meshes of the folder that the variable HEXMEND_MESHES names, if it does, and that can be read."""
+    folder = os.environ.get("HEXMEND_MESHES")
+    found = []
+    for path in sorted(Path(folder).iterdir()) if folder else []:
+        if path.suffix in readable_suffixes():
+            with suppress(FileError, MeshError):
+                found.append(read(path))
+    return found
+
+
+def _row(mesh: Mesh) -> dict[str, Any]:
+    result = smooth(mesh, "mend", Stop(max_iterations=1000))
+    return {
+        "mesh": mesh.name,
+        "hexes": mesh.n_hexes,
+        "inverted": result.before.inverted,
+        "locked": result.before.locked_inverted,
+        "left": result.after.inverted,
+        "q_min": result.after.q_min,
+        "iterations": result.iterations,
+        "seconds": result.seconds,
+        "setup_seconds": result.setup_seconds,
+    }
+
+
+def _optima_lines(figures: dict[str, Any]) -> list[str]:
+    return [
+        f"{row['mesh']:<28} {row['hexes']:>9,} hexes   inverted {row['inverted']:>7,} to {row['left']:<3}"
+        f" locked {row['locked']:<3}q min {row['q_min']:.4f}  {row['iterations']:>3} iterations {row['seconds']:8.3f} s"
+        for row in figures["meshes"]
+    ]
+
+
+def _tangled() -> dict[str, Any]:
+    seconds, ends = [], Counter()
+    others = []
+    for (name, size), amplitude, seed in itertools.product(_TANGLED, _AMPLITUDES, _SEEDS):
+        mesh = make(name, size=size, scramble=amplitude, seed=seed)
+        before = summarise(mesh)
+        result = smooth(mesh, "mend", Stop(max_iterations=400))
+        seconds.append(result.seconds)
+        ends[result.outcome.key] += 1
+        if result.after.inverted > before.locked_inverted:
+            others.append({"mesh": mesh.name, "amplitude": amplitude, "seed": seed, "left": result.after.inverted})
+    return {
+        "meshes": len(seconds),
+        "at_lower_bound": len(seconds) - len(others),
+        "others": others,
+        "ends": dict(ends),
+        "median_seconds": median(seconds),
+        "most_seconds": max(seconds),
+    }
+
+
+def _tangled_lines(figures: dict[str, Any]) -> list[str]:
+    ends = ", ".join(f"{count} {end}" for end, count in figures["ends"].items())
+    lines = [
+        f"{figures['at_lower_bound']} of {figures['meshes']} end with no inverted hex but those that fixed nodes lock",
+        f"ended: {ends}; median {figures['median_seconds']:.3f} s, at most {figures['most_seconds']:.3f} s",
+    ]
+    for one in figures["others"]:
+        lines.append(f"{one['mesh']}, amplitude {one['amplitude']}, seed {one['seed']}: {one['left']} left")
+    return lines
+
+
+_PROBE = """
+import json, sys
+from hexmend.errors import FileError, MeshError
+from hexmend.gallery import make
+from hexmend.run import Stop, iterate
+from hexmend.study.bench.section import peak_mb
+mesh = make("five-side", size=int(sys.argv[1]), scramble=0.3)
+run = iterate(mesh, "mend", Stop(max_iterations=1000))
+inner = sum(it.notes.get("solver_iterations", 0) for it in run)
+result = run.result()
+row = {
+    "hexes": mesh.n_hexes, "inverted": result.before.inverted, "left": result.after.inverted,
+    "iterations": result.iterations, "solver_iterations": inner, "seconds": result.seconds,
+    "peak_mb": peak_mb(),
+}
+print(json.dumps(row))
+"""
+
+
+def _sizes() -> dict[str, Any]:
+    return {"sizes": by_size(_PROBE)}
+
+
+def _size_lines(figures: dict[str, Any]) -> list[str]:
+    return [
+        f"{row['hexes']:>9,} hexes   inverted {row['inverted']:>6,} to {row['left']}"
+        f"   {row['iterations']:>3} iterations ({row['solver_iterations']:>3} of the solver)   {row['seconds']:8.2f} s"
+        f"   {row['seconds'] / row['hexes'] * 1e6:5.1f} us a hex   peak {row['peak_mb']:6.0f} MB"
+        for row in figures["sizes"]
+    ]
+
+
+SIZES = Section("sizes", "mend on five-side scrambled by 0.3, against size (whole process)", _sizes, _size_lines)
+OPTIMA = Section("optima", "mend, from the mesh to its optimum", _optima, _optima_lines)
+TANGLED = Section(
+    "tangled", "mend on meshes scrambled by up to 5 edge lengths, 750 to 2,500 hexes", _tangled, _tangled_lines
+)

@@ -1,0 +1,152 @@
+"""Measuring: the kernels against plain loops over one hex after another, and what a Newton system is solved with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from statistics import median, quantiles
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from hexmend.energy import Couplings, MeshEnergy, Power
+from hexmend.gallery import make
+from hexmend.gallery.gallery_mesh import scrambled
+from hexmend.kernels import elements, local, objective, plain, set_threads, threads
+from hexmend.run import Stop, smooth
+from hexmend.study.bench.section import Section
+
+#: How often each is timed.
+_TIMES = 15
+
+
+def _seconds(*calls: Callable[[], Any]) -> list[list[float]]:
+    """What each of some calls took each time: they are timed in turn, so that a machine that slows down slows all."""
+    took: list[list[float]] = [[] for _ in calls]
+    for _ in range(1 + _TIMES):
+        for call, seconds in zip(calls, took, strict=True):
+            began = perf_counter()
+            call()
+            seconds.append(perf_counter() - began)
+    return [seconds[1:] for seconds in took]
+
+
+def _kernels() -> dict[str, Any]:
+    mesh = make("bridge-sharp")
+    energy = MeshEnergy(mesh)
+    x, hexes, m = energy.scaled(mesh.points), mesh.hexes, mesh.n_hexes
+    hessian, none = energy.hessian(x), energy.left_out
+    gradient, shares, figures = energy.gradient(x), np.empty((m, 8, 3)), np.empty((4, m))
+    matrix, right = hessian.assembled(), -gradient.ravel()
+    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
+
+    def sweep(by: Callable[..., None]) -> None:
+        by(
+            x.copy(), hexes, corners.start, corners.items, colours.start, colours.items,
+            local.STEEPEST_DESCENT, 0.0, Power(), 1.0, 0.7, 1e-4, 60,
+        )  # fmt: skip
+
+    # Of a kernel: itself and the plain loop, and how often the call repeats it.
+    rows: list[tuple[str, Callable[[], Any], Callable[[], Any] | None, float]] = [
+        ("quality", lambda: elements.measure(x, hexes, *figures), None, 1),
+        *(
+            (name, lambda call=call: call(objective), lambda call=call: call(plain), 1)
+            for name, call in (
+                ("energy", lambda by: by.energies(x, hexes, 0.0, 1.0, none, figures[0])),
+                ("gradient", lambda by: by.gradient(x, hexes, 0.0, Power(), none, shares)),
+                (
+                    "hessian product, by formulas",
+                    lambda by: by.hessian_product(x, hexes, energy.slots, gradient, 0.0, Power(), none, shares),
+                ),
+            )
+        ),
+        ("hessian product, assembled", lambda: matrix @ right, None, 1),
+        ("hessian, assembling", hessian.assembled, None, 1),
+        ("conjugate gradients, an iteration", lambda: matrix.solve(right, 0.0, 20), None, 20),
+        ("local sweep, steepest descent", lambda: sweep(local.sweep), lambda: sweep(plain.sweep), 1),
+    ]
+    all_threads, answer = threads(), {}
+    try:
+        for name, call, reference, times in rows:
+            set_threads(1)
+            alone, *plainly = _seconds(call, *filter(None, [reference]))
+            set_threads(all_threads)
+            (shared,) = _seconds(call)
+            ratios = [plain * times / own for own, plain in zip(alone, *plainly, strict=True)] if plainly else []
+            low, middle, high = quantiles(ratios, n=4) if ratios else (None, None, None)
+            answer[name] = {
+                "ns_per_tetrahedron": median(alone) / times / (8 * m) * 1e9,
+                "ns_per_tetrahedron_all_threads": median(shared) / times / (8 * m) * 1e9,
+                "ns_per_tetrahedron_plain": median(plainly[0]) / (8 * m) * 1e9 if plainly else None,
+                "ratio": middle,
+                "ratio_quartiles": [low, high] if ratios else None,
+            }
+    finally:
+        set_threads(all_threads)
+    return {"hexes": m, "kernels": answer}
+
+
+def _kernel_lines(figures: dict[str, Any]) -> list[str]:
+    lines = [f"{'ns a corner tetrahedron':<36}{'plain loop':>11}{'1 thread':>10}{'all':>8}{'ratio':>8}  quartiles"]
+    for name, row in figures["kernels"].items():
+        plain = f"{row['ns_per_tetrahedron_plain']:11.1f}" if row["ns_per_tetrahedron_plain"] else " " * 11
+        ratio = "{:7.1f}x  {:.1f} to {:.1f}".format(row["ratio"], *row["ratio_quartiles"]) if row["ratio"] else ""
+        lines.append(
+            f"{name:<36}{plain}{row['ns_per_tetrahedron']:10.1f}{row['ns_per_tetrahedron_all_threads']:8.1f}{ratio}"
+        )
+    return lines
+
+
+#: What the preconditioners are compared on: mesh, sizes, residuals.
+_SIZES = (10_000, 100_000, 1_000_000)
+#: Mean edge lengths by which nodes are moved from their optimum.
+_MOVED = 0.03
+_RESIDUALS = (1e-3, 1e-6)
+
+
+def _preconditioners() -> dict[str, Any]:
+    rows = []
+    for size in _SIZES:
+        # Near the optimum, where the Hessian is definite: elsewhere the solver ends at the first negative curvature.
+        optimum = smooth(make("five-side", size=size), "mend", Stop(max_iterations=1000)).mesh
+        mesh = scrambled(optimum, _MOVED, seed=0)
+        energy = MeshEnergy(mesh)
+        x = energy.scaled(mesh.points)
+        right = -energy.gradient(x).ravel()
+        for parts in (None, 1):
+            energy.couplings = Couplings(mesh, parts)
+            made = energy.couplings.bounds.size // 2
+            name = "Gauss-Seidel, whole" if made == 1 else f"Gauss-Seidel, {made} parts"
+            matrix = energy.hessian(x).assembled()
+            for residual in _RESIDUALS:
+                began = perf_counter()
+                solved = matrix.solve(right, residual, 2000)
+                rows.append(
+                    {
+                        "hexes": mesh.n_hexes,
+                        "preconditioner": name,
+                        "residual": residual,
+                        "iterations": solved.iterations,
+                        "negative_curvature": bool(solved.negative_curvature),
+                        "seconds": perf_counter() - began,
+                    }
+                )
+    return {"systems": rows}
+
+
+def _preconditioner_lines(figures: dict[str, Any]) -> list[str]:
+    return [
+        f"{row['hexes']:>9,} hexes   {row['preconditioner']:<24} to {row['residual']:g}: "
+        f"{row['iterations']:>4} iterations {row['seconds']:8.3f} s"
+        + ("   ended at negative curvature" if row["negative_curvature"] else "")
+        for row in figures["systems"]
+    ]
+
+
+KERNELS = Section("kernels", "Kernels on bridge-sharp, 32,000 hexes (median of 15)", _kernels, _kernel_lines)
+PRECONDITIONERS = Section(
+    "preconditioners",
+    "Newton's system on five-side, moved by up to 0.03 edge lengths from its optimum",
+    _preconditioners,
+    _preconditioner_lines,
+)

@@ -1,0 +1,100 @@
+"""Measuring how much memory a run takes beside the open mesh, and comparing it with what its method declares."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hexmend.gallery import make
+from hexmend.run.memory import FIXED
+from hexmend.smoothers import METHODS
+from hexmend.study.bench.section import Section
+
+#: Hexes of the scrambled blocks that methods are run on.
+_SIZES = 50_000, 200_000
+
+#: Iterations: the first ones take what later ones take; only mend goes through stages.
+_ITERATIONS = 3
+_ITERATIONS_OF = {"mend": 40}
+
+#: What a linear solver holds does not grow with its iterations.
+_FEW = {"solver_iterations": 20}
+_VALUES_OF = {"global-nr": _FEW, "global-mnr": _FEW}
+
+# The mesh comes as arrays, so that nothing of how it was made or read is left in the process.
+_PROBE = """
+import json, sys
+import numpy as np
+from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import declared
+from hexmend.quality import measure
+from hexmend.run import Stop, smooth
+from hexmend.run.memory import needed
+from hexmend.smoothers import METHODS
+from hexmend.study.bench.section import peak_mb, resident_mb
+path, name, values, iterations = sys.argv[1:]
+with np.load(path) as arrays:
+    mesh = Mesh(arrays["points"], arrays["hexes"])
+measure(mesh.points, mesh.hexes)
+smoother = METHODS[name](**json.loads(values))
+before = resident_mb()
+smooth(mesh, smoother, Stop(max_iterations=int(iterations), tolerance=0))
+print(json.dumps({"hexes": mesh.n_hexes, "mb": peak_mb() - before, "needed_mb": needed(smoother, mesh) / 2**20}))
+"""
+
+
+def taken(name: str, size: int, iterations: int, **values: Any) -> dict[str, Any]:
+    """What a method takes on a scrambled block, in a process of its own.
+
+    Parameters
+    ----------
+    name : str
+    size : int
+        Hexes that are asked for.
+    iterations : int
+    values : Any
+        Of the method's parameters.
+
+    Returns
+    -------
+    dict
+        `hexes`; `mb`, the most that was held beyond the open mesh, in MiB; `needed_mb`, what was foretold.
+    """
+    with tempfile.TemporaryDirectory(prefix="hexmend-") as folder:
+        mesh, path = make("cube", size=size, scramble=0.6), Path(folder) / "mesh.npz"
+        np.savez(path, points=mesh.points, hexes=mesh.hexes)
+        words = [str(path), name, json.dumps(values), str(iterations)]
+        done = subprocess.run([sys.executable, "-c", _PROBE, *words], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def _memory() -> dict[str, Any]:
+    figures: dict[str, Any] = {}
+    if not Path("/proc/self/status").exists():
+        return figures
+    for name, cls in METHODS.items():
+        iterations, values = _ITERATIONS_OF.get(name, _ITERATIONS), _VALUES_OF.get(name, {})
+        rows = [taken(name, size, iterations, **values) for size in _SIZES]
+        figures[name] = {"bytes_per_hex": cls.bytes_per_hex, "sizes": rows}
+    return figures
+
+
+def _lines(figures: dict[str, Any]) -> list[str]:
+    if not figures:
+        return ["not measured: this system does not say what a process holds"]
+    lines = [f"foretold: the bytes a hex that a method declares, and {FIXED >> 20} MiB"]
+    for name, row in figures.items():
+        sizes = "   ".join(
+            f"{one['hexes']:>7,} hexes {one['mb']:5.0f} MiB ({one['needed_mb']:5.0f} foretold)" for one in row["sizes"]
+        )
+        lines.append(f"{name:<18} {row['bytes_per_hex']:>5,} bytes a hex   {sizes}")
+    return lines
+
+
+MEMORY = Section("memory", "Memory of a run beside the open mesh, a scrambled block (whole process)", _memory, _lines)

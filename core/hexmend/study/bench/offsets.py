@@ -1,0 +1,104 @@
+"""The "-1" of (B.20): what the optimum is with it, and without, where the thesis measured and on meshes of others."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from hexmend.errors import HexmendError
+from hexmend.io import read
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import Summary, summarise
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS
+from hexmend.study.bench.section import Section
+from hexmend.study.thesis.experiments import INITIAL, load
+
+#: Whose figures the thesis gives for the optimum: where it converged, the best that it has.
+_OPTIMISERS = "global-nr", "local-nr", "local-sd"
+
+#: Figures that are compared.
+_FIGURES = "scaled_jacobian_min", "q_min", "q_mean", "q_norm"
+
+#: The offsets: of (B.20), and of chapter 4.
+_OFFSETS = 1.0, 0.0
+
+
+def _measure() -> dict[str, Any]:
+    rows = [_row(name, mesh, published) for name, mesh, published in (*_thesis(), *_others())]
+    return {"runs": rows}
+
+
+def _thesis() -> Iterator[tuple[str, Mesh, dict[str, float] | None]]:
+    """The thesis's meshes at their full size, with its figures for the optimum."""
+    seen = set()
+    for experiment in load().experiments:
+        best = [experiment.published[name] for name in _OPTIMISERS if experiment.published.get(name, {}).get("q_mean")]
+        if experiment.start == INITIAL and best and (experiment.mesh, experiment.size) not in seen:
+            seen.add((experiment.mesh, experiment.size))
+            optimum = max(best, key=lambda figures: figures.get("q_norm", figures["q_mean"]))
+            yield experiment.thesis_mesh, experiment.build(quick=False), dict(optimum)
+
+
+def _others() -> Iterator[tuple[str, Mesh, None]]:
+    """The meshes in the folder that HEXMEND_MESHES names."""
+    folder = os.environ.get("HEXMEND_MESHES")
+    for path in sorted(Path(folder).iterdir()) if folder else ():
+        try:
+            mesh = read(path) if path.suffix != ".md" else None
+        except HexmendError:  # of another kind, or of cells that are no hexes
+            continue
+        if mesh is not None:
+            yield path.name, mesh, None
+
+
+def _row(name: str, mesh: Mesh, published: dict[str, float] | None) -> dict[str, Any]:
+    ends = [smooth(mesh, METHODS["mend"](offset=offset), Stop(max_iterations=1000)) for offset in _OFFSETS]
+    return {
+        "mesh": name,
+        "hexes": mesh.n_hexes,
+        "before": _told(summarise(mesh)),
+        "after": [_told(end.after) for end in ends],
+        "seconds": [end.seconds for end in ends],
+        "thesis": published,
+    }
+
+
+def _told(figures: Summary) -> dict[str, float]:
+    return {key: getattr(figures, key) for key in ("inverted", *_FIGURES)}
+
+
+def _lines(figures: dict[str, Any]) -> list[str]:
+    lines = [
+        "| mesh | hexes | inverted | scaled Jacobian min | q min | q mean | q norm | s |",
+        "|:---|---:|---:|---:|---:|---:|---:|---:|",
+    ]
+    for row in figures["runs"]:
+        one, zero = row["after"]
+        cells = [row["mesh"], f"{row['hexes']:,}", f"{one['inverted']:,} · {zero['inverted']:,}"]
+        for key in _FIGURES:
+            thesis = (row["thesis"] or {}).get(key)
+            cells.append(f"{_pair(one[key], zero[key])}" + (f" ({thesis:.4f})" if thesis else ""))
+        cells.append("{:.2f} · {:.2f}".format(*row["seconds"]))
+        lines.append(f"| {' | '.join(cells)} |")
+    higher = {
+        key: [sum(row["after"][k][key] > row["after"][1 - k][key] + 1e-4 for row in figures["runs"]) for k in (0, 1)]
+        for key in _FIGURES
+    }
+    told = "; ".join(f"{key.replace('_', ' ')} {one} and {zero}" for key, (one, zero) in higher.items())
+    return [*lines, "", f"Of {len(figures['runs'])} meshes so many are higher with offset 1 and with 0: {told}."]
+
+
+def _pair(one: float, zero: float) -> str:
+    """Both values, the higher in bold."""
+    texts = f"{one:.4f}", f"{zero:.4f}"
+    if abs(one - zero) <= 1e-4:
+        return " · ".join(texts)
+    return f"**{texts[0]}** · {texts[1]}" if one > zero else f"{texts[0]} · **{texts[1]}**"
+
+
+OFFSETS = Section(
+    "offsets", 'The optimum with the "-1" of (B.20) · without it (in brackets the thesis\'s)', _measure, _lines
+)

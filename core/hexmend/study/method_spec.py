@@ -1,0 +1,90 @@
+"""Methods as a user names them, with settings in words."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from hexmend.errors import ParameterError
+from hexmend.parameters import declared, from_strings
+from hexmend.run.recipe import Recipe
+from hexmend.run.recipe_files import read_recipe
+from hexmend.smoothers import METHODS, Smoother
+
+
+def split(text: str) -> list[str]:
+    """Names between commas; where a recipe's path has commas itself and is there, it is one name.
+
+    >>> split("laplacian, mend")
+    ['laplacian', 'mend']
+    """
+    names: list[str] = []
+    parts = text.split(",")
+    while parts:
+        paths = {end: ",".join(parts[:end]).strip() for end in range(len(parts), 1, -1)}
+        end = next((end for end, path in paths.items() if path.endswith(".toml") and Path(path).is_file()), 1)
+        names.append(",".join(parts[:end]).strip())
+        del parts[:end]
+    return names
+
+
+def chosen(
+    names: Sequence[str], settings: Mapping[str, str], limits: Mapping[str, Any] | None = None
+) -> list[Smoother | Recipe]:
+    """Methods by name, each once, with settings in words; a name that ends in `.toml` is the file of a recipe.
+
+    Parameters
+    ----------
+    names : sequence of str
+    settings : mapping of str to str
+        `key` is for every one of the methods that declares it, `method.key` for that one alone, and goes before;
+        recipes have values of their own.
+    limits : mapping, optional
+        Limits of `Stop` for the stages of recipes, in place of their own.
+
+    Raises
+    ------
+    ParameterError
+        For an unknown method, a value out of bounds, a key that none of the methods declares, or recipes that one would
+        take for each other.
+    FileError
+        For a recipe that cannot be read.
+
+    Examples
+    --------
+    >>> [one.values().get("p") for one in chosen(["laplacian", "local-sd", "local-nr"], {"p": "4", "local-nr.p": "6"})]
+    [None, 4.0, 6.0]
+    """
+    recipes = {name: read_recipe(name).limited(**(limits or {})) for name in names if name.endswith(".toml")}
+    _check_titles(recipes)
+    keys = {name: [one.name for one in declared(METHODS[name])] for name in names if name not in recipes}
+    words: dict[str, dict[str, str]] = {name: {} for name in keys}
+    for setting in sorted(settings, key=lambda setting: "." in setting):
+        owner, dot, key = setting.rpartition(".")
+        key = key.replace("-", "_")
+        if dot and owner not in keys:
+            raise ParameterError(f"{setting!r}: {owner!r} is not among the methods compared: {', '.join(keys)}")
+        takers = [owner] if dot else [name for name in keys if key in keys[name]]
+        if not takers:
+            near = difflib.get_close_matches(key, {one for several in keys.values() for one in several}, n=1)
+            hint = f": did you mean {near[0]}?" if near else ""
+            raise ParameterError(f"none of the methods {', '.join(keys)} has a parameter {key!r}{hint}")
+        for name in takers:
+            words[name][key] = settings[setting]
+    return [
+        recipes[name] if name in recipes else from_strings(METHODS[name], words[name], owner=name)
+        for name in dict.fromkeys(names)
+    ]
+
+
+def _check_titles(recipes: Mapping[str, Recipe]) -> None:
+    """Tables name recipes by their titles: each must have one of its own."""
+    taken: dict[str, str] = dict.fromkeys(METHODS, "a method") | {"initial": "the mesh as given"}
+    for name, recipe in recipes.items():
+        if recipe.title in taken:
+            raise ParameterError(
+                f"{name} has the title {recipe.title!r} as {taken[recipe.title]} has: give it one of its own"
+            )
+        taken[recipe.title] = name

@@ -1,0 +1,1 @@
+"""The experiments of section 5.2 of the thesis, its outlook."""

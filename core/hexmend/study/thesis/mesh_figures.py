@@ -1,0 +1,145 @@
+"""Figures of Chapter 4 that show meshes: what they show, and who draws them.
+
+The core draws no meshes. Who does joins through the entry-point group `hexmend.figures`, with a function like `Draw`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any
+
+from hexmend.errors import HexmendError
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import Summary, summarise
+from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiments import INITIAL
+
+
+@dataclass(frozen=True)
+class MeshFigure:
+    """A figure of the thesis.
+
+    Parameters
+    ----------
+    number : str
+    stem : str
+        Of its file, after the number.
+    caption : str
+        As the thesis has it.
+    mesh : str
+        The gallery's.
+    column : str
+        The state of the mesh: initial, or as a method leaves it.
+    shows : str
+        "geometry": the boundary and its sharp edges. "mesh": the boundary and all edges. "domain": what lies in the
+        middle of it. "section": whole elements behind a plane through that, by their quality.
+    view : tuple of 3 floats
+        The direction to look from.
+    up : str
+        The axis that is up: x, y or z.
+    """
+
+    number: str
+    stem: str
+    caption: str
+    mesh: str
+    column: str
+    shows: str
+    view: tuple[float, float, float]
+    up: str = "z"
+
+
+#: Draws a figure of a mesh as PNG, PDF or SVG, by the path's suffix.
+Draw = Callable[[MeshFigure, Mesh, Path], object]
+
+#: From where the plane's cross section is seen, in all three figures.
+_SECTION = (-0.35, -1.0, 0.25)
+
+#: Those of Chapter 4, in order.
+MESH_FIGURES = (
+    MeshFigure("4.1", "bridge-sharp", "BridgeSharp geometry", "bridge-sharp", INITIAL, "geometry", (0.7, 0.45, 1), "y"),
+    MeshFigure("4.2", "bridge-sharp-mesh", "BridgeSharp mesh", "bridge-sharp", INITIAL, "mesh", (0, 0, 1), "y"),
+    MeshFigure("4.3", "five-side", "FiveSide geometry", "five-side", INITIAL, "geometry", (0.2, -1, 0.5)),
+    MeshFigure("4.5", "plane", "Domain around an aeroplane", "plane", INITIAL, "domain", (-0.8, -1, 0.6)),
+    MeshFigure("4.6", "plane-initial", "Original Plane mesh", "plane", INITIAL, "section", _SECTION),
+    MeshFigure(
+        "4.7", "plane-getme", "Plane mesh smoothed using the GETMe Simultaneous smoother", "plane", "getme", "section",
+        _SECTION,
+    ),
+    MeshFigure(
+        "4.8", "plane-optimised", "Plane mesh smoothed using optimisation smoothers", "plane", "local-sd", "section",
+        _SECTION,
+    ),
+)  # fmt: skip
+
+
+def draw_figures(
+    folder: Path, measured: Sequence[Measured], formats: Sequence[str] = ("png",)
+) -> tuple[list[dict[str, Any]], str]:
+    """Draw the figures of what was measured.
+
+    Parameters
+    ----------
+    folder : Path
+    measured : sequence of Measured
+    formats : sequence of str
+        Suffixes without the dot, of one file each.
+
+    Returns
+    -------
+    figures : list of dict
+        Number, caption and file, which is the last of its formats, of each that was drawn, as JSON can hold them.
+    missing : str
+        Which could not be drawn, and what to do; empty where there are none.
+    """
+    found = [(figure, state) for figure in MESH_FIGURES if (state := _state(figure, measured)) is not None]
+    draw, drawn, problem = _drawer(), [], "run  pip install 'hexmend[app]'"
+    for figure, (mesh, summary) in found:
+        if draw is None:
+            break
+        files = [f"figure-{figure.number}-{figure.stem}.{suffix}" for suffix in formats]
+        try:
+            for file in files:
+                draw(figure, mesh, folder / file)
+        except HexmendError as error:  # the tables are worth having
+            problem = str(error)
+            break
+        drawn.append({"number": figure.number, "caption": _caption(figure, summary), "file": files[-1]})
+    missing = [figure.number for figure, _ in found[len(drawn) :]]
+    names = f"{'figure' if len(missing) == 1 else 'figures'} {', '.join(missing)}"
+    return drawn, f"Without {names}, of meshes: {problem}" if missing else ""
+
+
+def _state(figure: MeshFigure, measured: Sequence[Measured]) -> tuple[Mesh, Summary] | None:
+    """What a figure shows: the mesh of the thesis's size, or what was measured on the largest that there is."""
+    found = [one for one in measured if one.experiment.mesh == figure.mesh]
+    if figure.shows != "section":
+        mesh = found[0].experiment.build(quick=False) if found else None
+        return None if mesh is None else (mesh, summarise(mesh))
+    states = []
+    for one in found:
+        row = one.rows.get(figure.column) if one.experiment.start == INITIAL else None
+        if figure.column == INITIAL:
+            states.append((one.mesh, one.initial))
+        elif row is not None and row.mesh is not None:
+            states.append((row.mesh, row.after))
+    return max(states, key=lambda state: state[1].hexes, default=None)
+
+
+def _drawer() -> Draw | None:
+    for entry in entry_points(group="hexmend.figures"):
+        try:
+            return entry.load()
+        except ImportError:  # the viewer's libraries are not installed
+            continue
+    return None
+
+
+def _caption(figure: MeshFigure, summary: Summary) -> str:
+    inverted = f"{summary.inverted:,}" if summary.inverted else "none"
+    state = f", q min {summary.q_min:.4f}, {inverted} inverted" if figure.shows == "section" else ""
+    by = "" if figure.column in (INITIAL, "getme") else f" ({figure.column})"
+    return f"{figure.caption}{by}: ours, {summary.hexes:,} hexes{state}"
