@@ -2,7 +2,7 @@
 
 import sys
 
-from hexmend.cli.command.interrupts import exit_on_signals
+from hexmend.cli.process.interrupts import exit_on_signals
 
 exit_on_signals()
 

@@ -30,9 +30,9 @@ class Report:
     def run(self, args: argparse.Namespace) -> int:
         from dataclasses import replace
 
-        from hexmend.cli.command.interrupts import EndsCleanly, FinishesWriting
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
+        from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
         from hexmend.figures import printable
         from hexmend.io.storage.atomic import check_writable
         from hexmend.io.storage.suffixes import suffix_for

@@ -24,7 +24,7 @@ class Soak:
         parser.add_argument("--json", metavar="FILE", help="write the figures of every round")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.interrupts import EndsAfterIteration, FinishesWriting
+        from hexmend.cli.process.interrupts import EndsAfterIteration, FinishesWriting
         from hexmend.errors import HexmendError
         from hexmend.report import write_json
         from hexmend.study.bench.section import resident_mb

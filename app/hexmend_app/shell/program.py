@@ -18,7 +18,7 @@ from PySide6.QtCore import QCoreApplication, QTimer
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
-from hexmend.cli.command.interrupts import ENDING
+from hexmend.cli.process.interrupts import ENDING
 from hexmend_app.resources import demo_mesh, resource
 from hexmend_app.state import settings
 from hexmend_app.state.garbage import Garbage

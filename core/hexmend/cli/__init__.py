@@ -8,7 +8,7 @@ import sys as _sys
 
 if _os.path.basename("".join(_sys.argv[:1])).lower() in ("hexmend", "hexmend.exe"):
     try:
-        from hexmend.cli.command.interrupts import exit_on_signals as _exit_on_signals
+        from hexmend.cli.process.interrupts import exit_on_signals as _exit_on_signals
 
         _exit_on_signals()
     except KeyboardInterrupt:  # while that is loaded

@@ -28,12 +28,12 @@ class Compare:
         parser.add_argument("--write-meshes", action="store_true", help="write each method's mesh into the folder too")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.interrupts import FinishesWriting
         from hexmend.cli.command.limits import given_limits, limits
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import with_boundary
         from hexmend.cli.command.progress import Progress
         from hexmend.cli.command.rich_tables import print_table
+        from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.io import read, write, writer_for
         from hexmend.report import comparison_rows, made_folder, table_of, write_documents
         from hexmend.smoothers import METHODS

@@ -17,15 +17,13 @@ import sys
 from contextlib import suppress
 
 from hexmend import __version__
-from hexmend.cli.command.interrupts import EndsCleanly, exit_interrupted, exit_on_signals
+from hexmend.cli.process.interrupts import EndsCleanly, exit_interrupted, exit_on_signals
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from hexmend.cli.command import Command
-
-_NOT_COMMANDS = {"main", "command"}
 
 #: The command that a bare mesh, or nothing, stands for.
 _DEFAULT = "view"
@@ -112,7 +110,7 @@ def _own_commands() -> dict[str, Callable[[], Command]]:
 
     loaders: dict[str, Callable[[], Command]] = {}
     for module in pkgutil.iter_modules(cli.__path__):
-        if module.name not in _NOT_COMMANDS:
+        if not module.ispkg and module.name != "main":
             loaders[module.name] = lambda name=module.name: importlib.import_module(f"hexmend.cli.{name}").command
     return loaders
 

@@ -39,10 +39,10 @@ class Smooth:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.files import check_targets, say_diagnosis, say_left_out, say_notes
-        from hexmend.cli.command.interrupts import FinishesWriting
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
+        from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.io import read, writer_for
         from hexmend.mesh.fixing import with_region_free, with_sets_fixed
         from hexmend.quality.selection import hexes_of

@@ -83,9 +83,9 @@ class Study:
         return self._thesis(args)
 
     def _thesis(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.interrupts import FinishesWriting
         from hexmend.cli.command.memory import check_memory
         from hexmend.cli.command.progress import Progress
+        from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.parameters import from_strings
         from hexmend.report import made_folder, write_experiment, write_outlook, write_study
         from hexmend.report.thesis import VERDICTS

@@ -6,7 +6,7 @@ import signal
 import pytest
 
 from hexmend import gallery
-from hexmend.cli.command.interrupts import EndsAfterIteration
+from hexmend.cli.process.interrupts import EndsAfterIteration
 from hexmend.run import Run, Stop
 from hexmend.smoothers import METHODS
 from hexmend_app.report import case

@@ -6,8 +6,8 @@ import pytest
 from hexmend.boundary import Kind, boundary_of
 from hexmend.quality import measure
 from hexmend_app.state.classer import PIN, WHISKER, Classer, classed, node_kinds
+from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
-from tests.core.surface.solids import ball, slid
 from tests.patience import PATIENCE
 
 MESH = grid(4)

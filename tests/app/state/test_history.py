@@ -9,8 +9,8 @@ from hexmend.run import Stop, iterate
 from hexmend.smoothers import METHODS
 from hexmend_app.state.document import State
 from hexmend_app.state.history import History, Moment
+from tests.core.boundary.solids import slid
 from tests.core.grids import grid, scrambled
-from tests.core.surface.solids import slid
 
 MESH = scrambled(grid(5), 0.4)
 SLANTED = slid(grid(4), 0.3, seed=3)

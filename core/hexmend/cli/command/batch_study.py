@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def study_meshes(args: argparse.Namespace) -> int:
     """Do the study; return the exit status: 3 where a task has no result."""
     from hexmend import __version__
-    from hexmend.cli.command.interrupts import EndsCleanly, FinishesWriting
     from hexmend.cli.command.study_progress import Counting
+    from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
     from hexmend.errors import ParameterError
     from hexmend.report import made_folder
     from hexmend.study.batch.plan import read_plan

@@ -9,8 +9,8 @@ from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from hexmend.cli.command.interrupts import EndsAfterIteration
-from hexmend.cli.command.terminal import redraws_lines
+from hexmend.cli.process.interrupts import EndsAfterIteration
+from hexmend.cli.process.terminal import redraws_lines
 from hexmend.signal_guard import uninterrupted
 
 if TYPE_CHECKING:

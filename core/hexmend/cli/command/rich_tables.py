@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hexmend.cli.command.terminal import shows_colours
+from hexmend.cli.process.terminal import shows_colours
 from hexmend.figures import Worse
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 from hexmend.cli.command.progress import EVERY, drawn_line
-from hexmend.cli.command.terminal import redraws_lines
+from hexmend.cli.process.terminal import redraws_lines
 
 if TYPE_CHECKING:
     from hexmend.study.batch.runner import Count

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from hexmend.cli.command.terminal import shows_colours
+from hexmend.cli.process.terminal import shows_colours
 from hexmend.figures import Worse, printable
 
 if TYPE_CHECKING:

@@ -18,8 +18,8 @@ from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.shell.palette import CommandPalette
 from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
+from tests.core.boundary.solids import slid
 from tests.core.grids import grid
-from tests.core.surface.solids import slid
 from tests.patience import PATIENCE
 
 

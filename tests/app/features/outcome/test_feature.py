@@ -11,9 +11,9 @@ from hexmend.iteration import Stop
 from hexmend_app.state.run import Phase
 from tests.app.driving import choose, click, key, open_and_wait, phase
 from tests.app.driving import press as press_button
+from tests.core.boundary.solids import slid, wavy
 from tests.core.grids import grid, scrambled
-from tests.core.surface.solids import slid, wavy
-from tests.core.test_mend import with_locked_corner
+from tests.core.smoothers.mend.test_mend import with_locked_corner
 from tests.patience import PATIENCE
 
 
@@ -209,7 +209,7 @@ def test_how_far_the_boundary_has_slid_is_said(window, qtbot, tmp_path):
 
 @pytest.mark.slow
 def test_pins_that_hold_elements_are_taken_out_in_one_step(window, qtbot, tmp_path):
-    from tests.core.test_advice import pinned_tangle
+    from tests.core.advice.test_advice import pinned_tangle
 
     mesh = pinned_tangle()
     io.write(tmp_path / "pinned.vtu", mesh.replace(pinned=None))

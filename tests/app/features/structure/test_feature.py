@@ -20,9 +20,9 @@ from hexmend_app.state.document import State
 from hexmend_app.state.look import Look, Structure
 from tests.app.driving import choose, click, open_and_wait, tick, turn
 from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
+from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
-from tests.core.surface.solids import ball, slid
-from tests.core.test_structure import tetrahedron
+from tests.core.mesh.test_structure import tetrahedron
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow

@@ -16,7 +16,7 @@ from hexmend_app.state.look import Structure
 from tests.app.driving import turn
 from tests.app.features.structure.layers import press, texts
 from tests.core.grids import grid
-from tests.core.test_structure import tetrahedron
+from tests.core.mesh.test_structure import tetrahedron
 
 
 @pytest.fixture

@@ -30,7 +30,7 @@ from hexmend_app.state.classer import WHISKER
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.look import Look, Structure
 from tests.core.grids import grid
-from tests.core.test_structure import tetrahedron
+from tests.core.mesh.test_structure import tetrahedron
 
 
 def five_blocks(segments, layers):

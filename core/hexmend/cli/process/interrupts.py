@@ -1,0 +1,249 @@
+"""What the program does when a signal asks it to end: Ctrl-C, TERM, or a terminal that closes.
+
+A handler never prints, because it may have interrupted a print. It sets a flag, writes with `os.write`, or raises
+`KeyboardInterrupt`; after an import, a callback or a function that is `uninterrupted`, in which it would be lost.
+
+Before a command runs there is nothing to lose, and the process exits at once (`exit_on_signals`). A command runs in
+`EndsCleanly`, a loop in `EndsAfterIteration`, and what is computed is written in `FinishesWriting`.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+
+from hexmend.cli.process.signal_timer import comes_from_timer, send_later, send_now
+from hexmend.cli.process.terminal import is_dumb
+from hexmend.signal_guard import ON_RETURN, is_interruptible, uninterrupted
+
+TYPE_CHECKING = False  # `typing` would cost as much as `--version` does
+if TYPE_CHECKING:
+    from types import FrameType, TracebackType
+    from typing import Any, NoReturn, Self
+
+#: Ctrl-C, a polite request to end, and a terminal that has gone.
+ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+
+#: The signal of the timer; None on Windows, where `signal_timer` takes its place.
+_ALARM = getattr(signal, "SIGALRM", None)
+
+#: Seconds until an exception is tried again that would have been lost.
+_RETRY = 0.02
+
+#: Whether this process is the program `hexmend`, and not one that calls its `main`.
+_is_program = False
+
+#: The signal that the timer stands for; 0 without one.
+_delayed = 0
+
+#: Whether that waits for a place to raise an exception, rather than for the end of a grace.
+_retries = False
+
+
+class Ended(KeyboardInterrupt):
+    """A signal other than Ctrl-C has asked the program to end.
+
+    Parameters
+    ----------
+    number : int
+        Of the signal.
+    """
+
+    def __init__(self, number: int):
+        super().__init__(number)
+        self.number = number
+
+
+def exit_on_signals() -> None:
+    """Let signals end this process with one line and their exit status; the program calls it before all else."""
+    global _is_program
+    if not _is_program:
+        _is_program = True
+        for number in ENDING:
+            if signal.getsignal(number) != signal.SIG_IGN:  # as under nohup
+                signal.signal(number, exit_interrupted)
+
+
+def exit_interrupted(number: int, frame: FrameType | None = None) -> NoReturn:
+    """End the process at once; Python's own end would take time, in which a further signal changes the exit status.
+
+    Parameters
+    ----------
+    number : int
+        Of the signal.
+    frame : frame, optional
+    """
+    write_line("hexmend: interrupted")
+    os._exit(128 + number)
+
+
+def write_line(text: str) -> None:
+    """Write a line to standard error, as a handler may: without Python's buffers."""
+    erase = "\r\x1b[2K" if os.isatty(2) and not is_dumb() else ""  # a line of progress may stand there
+    try:  # noqa: SIM105 (contextlib would be loaded before the program can be interrupted)
+        os.write(2, f"{erase}{text}\n".encode())
+    except OSError:  # nobody reads it
+        pass
+
+
+class EndsCleanly:
+    """Inside the block a signal is an exception; a further one waits until temporary files are removed on the way out.
+
+    Parameters
+    ----------
+    completes : bool
+        Nothing is left to interrupt when the block ends well: the program ignores signals from then on.
+
+    Attributes
+    ----------
+    number : int
+        The first signal that came; 0 without one.
+    """
+
+    #: Seconds that a signal may be kept waiting.
+    grace = 2.0
+
+    def __init__(self, completes: bool = False):
+        self.completes = completes
+        self.number = 0
+
+    @property
+    def asked(self) -> bool:
+        """Return True once a signal has asked the program to end."""
+        return self.number != 0
+
+    @property
+    def status(self) -> int:
+        """The exit status of a command that was interrupted: 128 and the signal's number."""
+        return 128 + (self.number or signal.SIGINT)
+
+    def __enter__(self) -> Self:
+        self._before: dict[int, Any] = {}
+        self._count, self._delays = 0, False
+        self._unraisable, sys.unraisablehook = sys.unraisablehook, self._on_unraisable
+        try:
+            if _ALARM is not None:
+                self._before[_ALARM] = signal.signal(_ALARM, self._on_alarm)
+            for number in ENDING:
+                if signal.getsignal(number) not in (signal.SIG_IGN, None):
+                    self._before[number] = signal.signal(number, self._on_signal)
+        except ValueError:  # not the main thread: signals are not ours
+            pass
+        return self
+
+    @uninterrupted  # handlers that are restored by halves would stay
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        alarm = self._before.pop(_ALARM, None)
+        ignored = kind is None and self.completes and _is_program
+        for number, handler in self._before.items():  # first, because a signal that comes here sets the timer
+            signal.signal(number, signal.SIG_IGN if ignored else handler)
+        waiting = _delayed if self._delays else 0
+        if self._delays:
+            self._delay(0, 0.0)
+        if alarm is not None:
+            signal.signal(_ALARM, alarm)
+        sys.unraisablehook = self._unraisable
+        if waiting and kind is None and not self.completes:
+            signal.raise_signal(waiting)  # to the block around this one
+
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        if comes_from_timer():
+            self._on_alarm(number, frame)
+            return
+        self._count += 1
+        self.number = self.number or number
+        self._answer(self._count, number, frame)
+
+    def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
+        """Do what the signal of this count asks for."""
+        if count == 1:
+            self._raise(number, frame)
+        else:
+            self._wait(number)
+
+    def _raise(self, number: int, frame: FrameType | None) -> None:
+        """Raise an exception, later where it would be lost now."""
+        if not is_interruptible(frame):
+            self._delay(number, _RETRY, retries=True)
+            return
+        if self._delays:
+            self._delay(0, 0.0)
+        raise KeyboardInterrupt if number == signal.SIGINT else Ended(number)
+
+    def _wait(self, number: int) -> None:
+        """Raise an exception if the block has not ended after the grace."""
+        if not (self._delays and _delayed):
+            self._delay(number, self.grace)
+
+    def _delay(self, number: int, seconds: float, retries: bool = False) -> None:
+        global _delayed, _retries
+        _delayed, _retries, self._delays = number, retries, number != 0
+        if _ALARM is not None:
+            signal.setitimer(signal.ITIMER_REAL, seconds)
+        else:
+            send_later(number, seconds)
+
+    def _on_alarm(self, alarm: int, frame: FrameType | None) -> None:
+        global _delayed
+        number, _delayed = _delayed, 0
+        if number and self._delays:
+            self._raise(number, frame)
+        elif number:  # it came to the block around this one
+            self._on_signal(number, frame)
+
+    def _on_unraisable(self, unraisable: Any) -> None:
+        """Raise again what was raised in a callback that cannot raise."""
+        if isinstance(unraisable.exc_value, KeyboardInterrupt):
+            self._delay(getattr(unraisable.exc_value, "number", signal.SIGINT), _RETRY, retries=True)
+        else:
+            self._unraisable(unraisable)
+
+
+class EndsAfterIteration(EndsCleanly):
+    """Inside the block the first signal only asks: whoever loops looks at `asked`. The second is an exception.
+
+    Nothing is thrown into the middle of an iteration, so that what was reached is whole.
+
+    Parameters
+    ----------
+    what : str
+        What the loop goes round in.
+    """
+
+    def __init__(self, what: str = "iteration"):
+        super().__init__()
+        self._what = what
+
+    def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
+        if count == 1:
+            write_line(f"Ending with this {self._what}; a second Ctrl-C ends at once.")
+        else:
+            super()._answer(count - 1, number, frame)
+
+
+class FinishesWriting(EndsCleanly):
+    """Inside the block the result is written: the first signal changes nothing, the second limits the time for it."""
+
+    grace = 8.0
+
+    def __init__(self):
+        super().__init__(completes=True)
+
+    def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
+        if count == 1:
+            write_line(f"Writing the result; a second Ctrl-C leaves it {self.grace:g} s.")
+        else:
+            self._wait(number)
+
+
+def _raise_waiting() -> None:
+    """Raise the exception that has waited for the end of a function."""
+    if _delayed and _retries:
+        if _ALARM is not None:
+            signal.raise_signal(_ALARM)
+        else:
+            send_now(_delayed)
+
+
+ON_RETURN.append(_raise_waiting)

@@ -1,0 +1,253 @@
+"""Advice: why a run ended, what is left, and suggestions that are worth following."""
+
+import numpy as np
+import pytest
+
+from hexmend.advice import advise
+from hexmend.advice.situation import Situation
+from hexmend.gallery import make
+from hexmend.iteration import Stop
+from hexmend.quality import measure, objective
+from hexmend.run import iterate, smooth
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.smoothers import METHODS
+from tests.core.boundary.solids import ball, slid
+from tests.core.grids import grid
+from tests.core.smoothers.mend.test_mend import with_locked_corner
+
+MESHES = {
+    "cube, scrambled": ("cube", {"size": 125, "scramble": 0.5}),
+    "cube, tangled": ("cube", {"size": 216, "scramble": 2.0}),
+    "bridge": ("bridge-sharp", {"size": 864}),
+    "bridge, tangled": ("bridge-sharp", {"size": 250, "scramble": 0.4}),
+    "five-side": ("five-side", {"size": 300}),
+    "five-side, tangled": ("five-side", {"size": 500, "scramble": 1.5}),
+    "plane": ("plane", {"size": 300}),
+    "plane, tangled": ("plane", {"size": 300, "scramble": 0.4}),
+}
+LOOSE, SHORT = Stop(tolerance=1e-2), Stop(max_iterations=12)
+RUNS = {
+    **{name: (name, Stop()) for name in METHODS if not name.startswith("global")},
+    **{f"{name}, cut short": (name, SHORT) for name in METHODS if name != "global-nr"},
+    **{f"{name}, soon content": (name, LOOSE) for name in ("local-sd", "local-mnr", "global-sd")},
+    "laplacian, last kept": ("laplacian", Stop(keep_last=True)),
+    "mend, raised": (METHODS["mend"](highest_p=16), Stop()),
+    "mend, p = 4": (METHODS["mend"](p=4), Stop()),
+    "local-sd, p = 4": (METHODS["local-sd"](p=4), SHORT),
+    "local-sd, no delta": (METHODS["local-sd"](delta=0.0), SHORT),
+    "global-sd, no delta": (METHODS["global-sd"](delta=0.0), SHORT),
+    "mend, then lifted": (Recipe.of("mend", "getme-sequential"), None),
+}
+
+
+def better(gain, before, after):
+    """Whether a figure of `Summary` is better."""
+    if gain in ("q_min", "q_norm"):
+        return getattr(after, gain) > getattr(before, gain)
+    then, now = getattr(before, gain), getattr(after, gain)
+    return now is not None and (then is None or now < then)
+
+
+def followed(mesh, result, suggestion):
+    """What comes of a suggestion."""
+    begin = mesh if suggestion.undo else result.mesh
+    if suggestion.unpin.size:
+        pinned = begin.pinned.copy()
+        pinned[suggestion.unpin] = False
+        begin = begin.replace(pinned=pinned)
+    return smooth(begin, suggestion.smoother, suggestion.stop)
+
+
+def energy(mesh, smoother):
+    """The objective that a method minimises."""
+    return objective(measure(mesh.points, mesh.hexes), *smoother.power)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("which", MESHES)
+def test_following_a_suggestion_helps(which):
+    name, parameters = MESHES[which]
+    assert follow_all(make(name, **parameters)), "nothing was suggested at all"
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_following_a_suggestion_helps_on_a_mesh_that_differs_in_its_last_bits(seed):
+    name, parameters = MESHES["five-side, tangled"]
+    mesh = make(name, **parameters)
+    noise = np.random.default_rng(seed).uniform(-1, 1, mesh.points.shape)
+    near = mesh.with_points(mesh.points * (1 + 1e-15 * noise))
+    few = {what: RUNS[what] for what in ("local-sd, soon content", "local-sd, cut short", "mend", "getme")}
+    assert follow_all(near, few)  # which of them are offered depends on the last bits
+
+
+def test_following_a_suggestion_helps_beside_what_is_locked():
+    follow_all(with_locked_corner(make("five-side", size=300)))
+    assert follow_all(with_locked_corner(make("five-side", size=150, scramble=0.8))), "nothing was suggested at all"
+
+
+def follow_all(mesh, runs=RUNS):
+    """Follow every suggestion after every run on a mesh; returns the titles of what was suggested."""
+    seen = set()
+    for what, (smoother, stop) in runs.items():
+        result = smooth(mesh, smoother, stop)
+        for suggestion in advise(result).suggestions:
+            then = followed(mesh, result, suggestion)
+            after = then.after
+            said = f"{what}: {suggestion.title}: {result.after} became {after}"
+            if suggestion.gain == "energy":
+                assert energy(then.mesh, suggestion.smoother) < energy(result.mesh, suggestion.smoother), said
+            else:
+                assert better(suggestion.gain, result.after, after), said
+            assert after.inverted <= result.after.inverted, said
+            seen.add(suggestion.title)
+    return seen
+
+
+def test_every_kind_of_suggestion_is_made_somewhere():
+    bridge, tangled = make("bridge-sharp", size=864), make("bridge-sharp", size=864, scramble=0.4)
+    lifted = smooth(bridge, Recipe.of("mend", "getme-sequential")).mesh
+    runs = [
+        smooth(tangled, "local-sd", SHORT),
+        smooth(bridge, "laplacian", Stop(keep_last=True)),
+        smooth(bridge, "local-sd", SHORT),
+        smooth(bridge, "global-sd", LOOSE),
+        smooth(bridge, "mend"),
+        smooth(lifted, "mend"),
+        smooth(tangled, METHODS["global-sd"](delta=0.0)),
+        smooth(pinned_tangle(), "mend"),
+    ]
+    titles = {suggestion.title for result in runs for suggestion in advise(result).suggestions}
+    assert titles == {
+        "Mend", "Smart Laplacian from before the run", "Go on", "Tighter tolerance", "GETMe, sequential", "Mend, p up to 16",
+        "Guarded Mend from before the run", "δ = 0.01", "Unpin, then Mend",
+    }  # fmt: skip
+
+
+def pinned_tangle():
+    """A grid of which an inner node lies far out and is pinned there."""
+    mesh = grid(4)
+    (node,) = np.flatnonzero((mesh.points == [1, 1, 1]).all(axis=1))
+    points, pinned = mesh.points.copy(), np.zeros(mesh.n_nodes, dtype=bool)
+    points[node] += 4
+    pinned[node] = True
+    return mesh.with_points(points).replace(pinned=pinned)
+
+
+def test_a_pin_that_holds_hexes_inverted_is_named_and_unpinning_helps():
+    mesh = pinned_tangle()
+    result = smooth(mesh, "mend")
+    first = advise(result).suggestions[0]
+    assert first.unpin.tolist() == np.flatnonzero(mesh.pinned).tolist()
+    assert "Unpin the node" in first.text
+    assert result.after.inverted > 0
+    assert followed(mesh, result, first).after.inverted == 0
+
+
+def test_the_guard_keeps_what_would_fall():
+    bridge = make("bridge-sharp", size=500)
+    mesh = smooth(bridge, Recipe.of("mend", "getme-sequential")).mesh
+    result = smooth(mesh, "mend")
+    (guard,) = (one for one in advise(result).suggestions if one.undo)
+    assert result.after.q_min < result.before.q_min <= followed(mesh, result, guard).after.q_min
+
+
+def test_locked_hexes_are_named_and_nothing_vain_is_suggested():
+    mesh = with_locked_corner(make("five-side", size=300))
+    advice = advise(smooth(mesh, "mend"))
+    assert advice.locked.tolist() == [mesh.topology.node_corners.items[0] // 8]
+    assert advice.loose.size == 0
+    assert "1 of 315 hexes is inverted. It is locked: fixed nodes alone hold it in inversion" in advice.left
+    assert "sliding alone does not free it. Correct the boundary" in advice.left
+    assert "try mend with boundary = slide" in advice.left
+    assert "Let it slide" not in advice.left
+    assert advice.suggestions == ()
+
+
+def test_of_a_recipe_the_last_stage_is_explained():
+    stages = [Stage(METHODS["getme"](), SHORT), Stage(METHODS["local-sd"](), SHORT)]
+    advice = advise(smooth(make("bridge-sharp", size=500), Recipe("two", tuple(stages))))
+    assert advice.why.startswith("The last stage, Local steepest descent: Stopped at the limit of 12 iterations")
+
+
+def test_a_perfect_mesh_wants_nothing():
+    advice = advise(smooth(make("cube", size=64, scramble=0.3), "mend"))
+    assert advice.suggestions == ()
+    assert advice.left.endswith("It can hardly be better.")
+
+
+def test_a_mesh_with_nothing_free_is_explained():
+    advice = advise(smooth(grid(1), "mend"))
+    assert advice.why == "Nothing to do: every node is fixed."
+    assert advice.suggestions == ()
+
+
+@pytest.mark.parametrize(("stop", "said"), [
+    (Stop(max_iterations=3, tolerance=0), "Stopped at the limit of 3 iterations before it converged. The last one still"),
+    (Stop(max_seconds=1e-9, tolerance=0), "Stopped at the limit of 1e-09 s, after 1 iteration, before it converged."),
+    (Stop(tolerance=0.01), "no node moved further than 0.01 mean edge lengths."),
+])  # fmt: skip
+def test_why_it_ended_is_said_with_its_limits(stop, said):
+    assert said in advise(smooth(make("bridge-sharp", size=500), "local-sd", stop)).why
+
+
+def test_a_run_that_was_stopped_says_so_and_what_is_inverted():
+    run = iterate(make("bridge-sharp", size=500, scramble=1.0), "laplacian")
+    next(run)
+    run.close()
+    advice = advise(run.result())
+    assert advice.why.startswith("Stopped by you after 1 iteration.")
+    assert advice.left.startswith(f"{advice.loose.size} of 500 hexes are inverted. 369 were at the start.")
+    assert [one.title for one in advice.suggestions] == ["Mend"]
+
+
+@pytest.mark.parametrize("method", ["mend", "laplacian", "local-sd"])
+def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(method):
+    run = iterate(make("plane", size=200), method)
+    run.close()
+    advice = advise(run.result())
+    assert advice.why == "Stopped by you before its first iteration: no node has moved. Run begins again."
+    assert advice.nothing == ""
+    finished = advise(smooth(make("cube", size=27), "mend"))
+    assert (finished.suggestions, finished.nothing) == ((), "Nothing is known that would better this mesh.")
+
+
+@pytest.mark.slow
+def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
+    result = smooth(slid(ball(3), 0.6, seed=0), "mend")
+    advice = advise(result)
+    now = Situation(result)
+    assert 0 < now.freed < advice.locked.size
+    assert (
+        f"{now.freed} can be freed by sliding alone, {advice.locked.size - now.freed} cannot. Let it slide"
+        in advice.left
+    )
+    chosen = next(one for one in advice.suggestions if one.title == "Mend, boundary slides")
+    assert f"{now.freed} of the {advice.locked.size} locked hexes can be freed" in chosen.text
+    after = smooth(result.mesh, chosen.smoother, chosen.stop)
+    assert after.after.inverted < result.after.inverted
+    assert not any(one.title == chosen.title for one in advise(after).suggestions)
+
+
+def test_a_mend_cut_short_on_a_detour_is_begun_again():
+    mesh = slid(ball(3), 0.6, seed=0)
+    result = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), Stop(max_iterations=7))
+    advice = advise(result)
+    assert result.kept < result.iterations
+    assert "sliding has not freed these so far." in advice.left
+    longer = next(one for one in advice.suggestions if one.title == "The same from before the run, longer")
+    assert longer.undo
+    assert longer.smoother == METHODS["mend"](goal="scaled-jacobian", boundary="slide")
+    assert longer.stop == Stop(max_iterations=100)
+    after = smooth(mesh, longer.smoother, longer.stop)
+    assert after.after.inverted < result.after.inverted
+    stopped = iterate(mesh, longer.smoother)
+    next(stopped)
+    stopped.close()
+    assert not any(one.title == longer.title for one in advise(stopped.result()).suggestions)
+
+
+def test_a_locked_hex_that_sliding_has_not_freed_is_not_told_to_slide():
+    result = smooth(with_locked_corner(grid(1)), METHODS["local-nr"](boundary="slide"))
+    left = advise(result).left
+    assert "sliding has not freed these" in left
+    assert "Correct the boundary" in left

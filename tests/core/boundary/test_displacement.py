@@ -1,0 +1,65 @@
+"""What has moved, and since when."""
+
+import numpy as np
+import pytest
+
+from hexmend.boundary.displacement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Moment, Movement
+from hexmend.quality import measure
+from tests.core.boundary.solids import slid
+from tests.core.grids import grid, scrambled
+
+MESH = grid(5)
+
+
+def moved(points, before=None):
+    then = MESH.points if before is None else before
+    was = Moment(then, measure(then, MESH.hexes), "then")
+    return Movement(MESH, was, points, measure(points, MESH.hexes))
+
+
+def test_displacement_of_an_element_is_that_of_its_nodes_in_mean_edge_lengths():
+    points = scrambled(MESH, 0.7).points
+    movement = moved(points)
+    lengths = np.linalg.norm(points - MESH.points, axis=1)[MESH.hexes] / MESH.mean_edge_length
+    np.testing.assert_allclose(movement.values("moved-most"), lengths.max(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(movement.values("moved-mean"), lengths.mean(axis=1), rtol=1e-12)
+    assert movement.counts.largest == pytest.approx(lengths.max())
+
+
+def test_elements_are_newly_inverted_still_inverted_or_mended():
+    good, bad = MESH.points, scrambled(MESH, 1.2).points
+    inverted = measure(bad, MESH.hexes).inverted
+    assert 0 < inverted.sum() < inverted.size
+    assert np.array_equal(moved(bad).kinds == NEWLY_INVERTED, inverted)
+    assert np.array_equal(moved(good, bad).kinds == MENDED, inverted)
+    assert np.array_equal(moved(bad, bad).kinds == STILL_INVERTED, inverted)
+    assert moved(bad).counts.newly_inverted == moved(good, bad).counts.mended == inverted.sum()
+    assert moved(bad).counts.worse == moved(good, bad).counts.better > 0
+
+
+def test_where_nothing_has_moved_all_is_zero():
+    movement = moved(MESH.points.copy())
+    for name in MOVEMENTS:
+        assert not movement.values(name).any()
+    assert not any(vars(movement.counts).values())
+
+
+def test_what_slides_within_a_face_stays_on_the_surface():
+    movement = moved(slid(MESH, 0.3, seed=1).points)
+    assert movement.distances[MESH.topology.boundary].max() > 0.2
+    assert movement.values("surface-distance").max() < 1e-12
+    assert 0 < movement.counts.slid == movement.counts.moved - 64
+    assert moved(scrambled(MESH, 0.3).points).counts.slid == 0
+
+
+def test_distance_from_the_surface_is_that_of_boundary_nodes_alone():
+    points = MESH.points.copy()
+    on_face = (points[:, 0] == 0) & ((points[:, 1:] > 0) & (points[:, 1:] < 5)).all(axis=1)
+    points[np.flatnonzero(on_face)[0]] += (-0.25, 0.1, 0)  # across the face, and along it
+    points[np.flatnonzero(MESH.free)[-1]] += 0.3
+    movement = moved(points)
+    values = movement.values("surface-distance")
+    beside = (MESH.hexes == np.flatnonzero(on_face)[0]).any(axis=1)
+    np.testing.assert_allclose(values[beside], 0.25, rtol=1e-12)
+    assert not values[~beside].any()
+    assert movement.until(points, movement.figures).before.skin(MESH) is movement.before.skin(MESH)

@@ -1,0 +1,35 @@
+"""Which nodes of a boundary slide, and what the methods are handed of it."""
+
+import numpy as np
+
+from hexmend.boundary import Kind, Sliding
+from hexmend.gallery import make
+from tests.core.boundary.solids import ball
+
+
+def test_rings_of_sliding_nodes_are_on_their_own_curves_and_patches():
+    mesh = make("bridge-sharp", size=500)
+    sliding = Sliding(mesh)
+    kind, part, rings = sliding.boundary.kind, sliding.boundary.part, sliding.rings
+    for node in range(mesh.n_nodes):
+        whole, ring = mesh.topology.rings[node], rings[node]
+        assert set(ring) <= set(whole)
+        if kind[node] < Kind.CURVE:
+            np.testing.assert_array_equal(ring, whole)
+        elif kind[node] == Kind.CURVE:
+            assert len(ring) == 2
+            assert all(part[other] == part[node] or kind[other] == Kind.CORNER for other in ring)
+        else:
+            assert len(ring) >= 3
+            assert all(kind[other] != Kind.INSIDE for other in ring)
+
+
+def test_a_mesh_keeps_the_surface_that_it_is_told_to():
+    mesh = ball(3)
+    moved = mesh.keeping_surface().with_points(1.1 * mesh.points)
+    np.testing.assert_array_equal(moved.surface, mesh.points)
+    np.testing.assert_array_equal(moved.keeping_surface().with_points(mesh.points).surface, mesh.points)
+    np.testing.assert_array_equal(mesh.with_points(1.1 * mesh.points).surface, 1.1 * mesh.points)
+    np.testing.assert_array_equal(Sliding(moved).mesh.points, moved.points)
+    places = Sliding(moved).put_back(moved.points[Sliding(moved).nodes])
+    np.testing.assert_allclose(np.linalg.norm(places, axis=1), 1, atol=0.2)

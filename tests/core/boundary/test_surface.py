@@ -1,0 +1,240 @@
+"""Closest points against what makes a point the closest, and surfaces on which nodes slide."""
+
+import itertools
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend import kernels
+from hexmend.boundary import Kind, Surface, Trees, boundary_of, classify
+from hexmend.errors import MeshError
+from tests.core.boundary.solids import ball, cylinder, project, wavy
+from tests.core.grids import grid
+
+
+def brute(corners, x):
+    """The point of a triangle or segment (2 or 3 corners) that is closest to x: the best of all its sides' own."""
+    best = min(corners, key=lambda corner: np.linalg.norm(corner - x))
+    for size in range(2, len(corners) + 1):
+        for a, *others in itertools.combinations(corners, size):
+            spanned = np.transpose(others) - a[:, None]
+            weights = np.linalg.lstsq(spanned, x - a, rcond=None)[0]
+            place = a + spanned @ weights
+            inside = weights.min() >= 0 and weights.sum() <= 1
+            if inside and np.linalg.norm(place - x) < np.linalg.norm(best - x):
+                best = place
+    return best
+
+
+def random_pieces(seed, n, k, degenerate):
+    """Pieces of a cloud in two groups: triangles and segments, on demand with triangles that are lines or points."""
+    random = np.random.default_rng(seed)
+    points = random.normal(size=(n, 3)) * [1, 1, random.choice([1, 1e-3, 0])]
+    pieces = random.integers(0, n, (k, 3)).astype(np.int32)
+    pieces[random.random(k) < 0.3, 2] = -1
+    pieces = np.where(pieces < 0, pieces[:, [1]], pieces)
+    if not degenerate:
+        pieces = pieces[(pieces[:, 0] != pieces[:, 1]) & (pieces[:, 0] != pieces[:, 2])]
+    pieces = np.concatenate([pieces, [[0, 1, 2]], [[0, 1, 1]]]).astype(np.int32)
+    group = np.concatenate([random.integers(0, 2, len(pieces) - 2), [0, 1]])
+    return points, pieces, group, random
+
+
+@given(st.integers(0, 2**31), st.integers(4, 12), st.integers(0, 30), st.booleans())
+def test_closest_points_are_those_of_brute_force(seed, n, k, degenerate):
+    points, pieces, group, random = random_pieces(seed, n, k, degenerate)
+    trees = Trees(points, pieces, group)
+    x, of = 2 * random.normal(size=(6, 3)), random.integers(0, 2, 6)
+    found = trees.closest(x, of)
+    for i in range(6):
+        distance = min(np.linalg.norm(brute(points[np.unique(piece)], x[i]) - x[i]) for piece in pieces[group == of[i]])
+        assert np.linalg.norm(found.places[i] - x[i]) == pytest.approx(distance, rel=1e-12, abs=1e-12)
+        piece = pieces[trees.order[found.pieces[i]]]
+        assert group[trees.order[found.pieces[i]]] == of[i]
+        np.testing.assert_allclose(found.weights[i] @ points[piece], found.places[i], atol=1e-12)
+        assert found.weights[i].min() >= 0
+        assert found.weights[i].sum() == pytest.approx(1, abs=1e-14)
+
+
+@given(st.integers(0, 2**31), st.floats(0, 2))
+def test_trees_whose_points_have_moved_find_what_new_ones_do_and_enough_is_enough(seed, enough):
+    random = np.random.default_rng(seed)
+    points, moved = random.normal(size=(2, 40, 3))
+    pieces, group = random.integers(0, 40, (60, 3)).astype(np.int32), np.sort(random.integers(0, 3, 60) % 3)
+    group[:3] = 0, 1, 2
+    x, of = random.normal(size=(50, 3)), random.integers(0, 3, 50)
+    new, refitted = Trees(moved, pieces, group).closest(x, of), Trees(points, pieces, group).with_points(moved)
+    far, found = (np.linalg.norm(one.places - x, axis=1) for one in (new, refitted.closest(x, of)))
+    np.testing.assert_allclose(found, far, rtol=1e-12, atol=1e-12)
+    rough = np.linalg.norm(refitted.closest(x, of, enough).places - x, axis=1)
+    assert (rough <= np.maximum(far, enough) + 1e-12).all()
+    np.testing.assert_allclose(rough[far > enough], far[far > enough], rtol=1e-12)
+
+
+@given(st.integers(0, 2**31), st.integers(-60, 60))
+def test_the_closest_point_sees_the_whole_triangle_at_a_right_angle_or_more(seed, exponent):
+    """(x - p) . (v - p) <= 0 for every v of a convex set is what makes p its closest point, in any unit."""
+    random, unit = np.random.default_rng(seed), 10.0**exponent
+    points = unit * random.normal(size=(3, 3))
+    x = unit * 3 * random.normal(size=(40, 3))
+    found = Trees(points, np.array([[0, 1, 2]], np.int32), np.zeros(1, int)).closest(x, np.zeros(40, int))
+    away, ways = x - found.places, points[None] - found.places[:, None]
+    assert np.einsum("ij,ikj->ik", away, ways).max() <= 1e-12 * unit**2 * 10
+
+
+def sliding(mesh, kinds=(Kind.CURVE, Kind.PATCH)):
+    boundary = boundary_of(mesh)
+    return boundary, Surface(mesh.points, boundary), np.flatnonzero(np.isin(boundary.kind, kinds))
+
+
+@pytest.mark.parametrize("mesh", [grid(4, 3, 2), ball(6), cylinder(), wavy(grid(4), 0.3)], ids=lambda mesh: mesh.name)
+def test_nodes_that_have_not_moved_stay_to_the_last_bit(mesh):
+    _, surface, nodes = sliding(mesh)
+    places, directions = project(surface, mesh.points[nodes], nodes)
+    np.testing.assert_array_equal(places, mesh.points[nodes])
+    np.testing.assert_allclose(np.linalg.norm(directions, axis=1), 1, rtol=1e-14)
+
+
+@given(st.integers(0, 999), st.floats(0, 3))
+def test_nodes_of_a_box_stay_in_their_planes_and_on_their_edges(seed, far):
+    mesh = grid(4, 3, 5)
+    boundary, surface, nodes = sliding(mesh)
+    x = mesh.points[nodes]
+    moved = x + far * np.random.default_rng(seed).normal(size=x.shape)
+    places, directions = project(surface, moved, nodes)
+    upper = np.array([4, 3, 5])
+    held = (x == 0) | (x == upper)
+    np.testing.assert_array_equal(places[held], x[held])
+    np.testing.assert_allclose(places[~held], np.clip(moved, 0, upper)[~held], atol=1e-12)
+    on_patch = boundary.kind[nodes] == Kind.PATCH
+    outward = np.where(x == 0, -1.0, np.where(x == upper, 1.0, 0.0))[on_patch]
+    np.testing.assert_allclose(directions[on_patch], outward, atol=1e-14)
+    np.testing.assert_allclose(np.abs(directions[~on_patch]), ~held[~on_patch], atol=1e-14)
+
+
+@given(st.integers(0, 999))
+def test_nodes_of_a_turned_box_stay_in_their_planes(seed):
+    random = np.random.default_rng(seed)
+    turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
+    turn *= np.linalg.det(turn)
+    box = grid(3)
+    mesh = box.with_points(box.points @ turn)
+    _, surface, nodes = sliding(mesh)
+    places, _ = project(surface, mesh.points[nodes] + random.normal(size=(len(nodes), 3)), nodes)
+    held = (box.points[nodes] == 0) | (box.points[nodes] == 3)
+    np.testing.assert_allclose((places @ turn.T)[held], box.points[nodes][held], atol=1e-13)
+
+
+@given(st.integers(0, 999))
+def test_putting_back_twice_is_putting_back_once(seed):
+    mesh = cylinder()
+    _, surface, nodes = sliding(mesh)
+    x = mesh.points[nodes] + 0.2 * np.random.default_rng(seed).normal(size=(len(nodes), 3))
+    once, _ = project(surface, x, nodes)
+    np.testing.assert_allclose(project(surface, once, nodes)[0], once, atol=1e-14)
+
+
+def test_a_node_goes_to_its_own_patch_though_another_is_nearer():
+    mesh = grid(4, 4, 1)
+    _boundary, surface, nodes = sliding(mesh, (Kind.PATCH,))
+    lower = nodes[mesh.points[nodes, 2] == 0]
+    places, normals = project(surface, mesh.points[lower] + [0, 0, 0.9], lower)
+    assert not places[:, 2].any()
+    assert (normals[:, 2] == -1).all()
+
+
+def test_nodes_of_a_loop_slide_around_it():
+    mesh = cylinder(64, 4)
+    _, surface, nodes = sliding(mesh, (Kind.CURVE,))
+    upper = nodes[mesh.points[nodes, 2] == 1]
+    x = mesh.points[upper]
+    ahead = np.column_stack([-x[:, 1], x[:, 0], np.zeros(len(x))])
+    places, tangents = project(surface, x + 0.3 * ahead + [0, 0, 0.2], upper)
+    np.testing.assert_array_equal(places[:, 2], 1)
+    radius = np.linalg.norm(places[:, :2], axis=1)
+    assert (radius <= 1 + 1e-14).all()
+    assert (radius >= np.cos(np.pi / 64) - 1e-14).all()
+    around = np.column_stack([-places[:, 1], places[:, 0], 0 * radius]) / radius[:, None]
+    assert np.abs(np.einsum("ij,ij->i", tangents, around)).min() > 1 - 1e-5
+    _, plain = project(surface, x + 0.3 * ahead, upper, smooth=False)
+    assert np.abs(np.einsum("ij,ij->i", plain, around)).min() < 1 - 1e-5
+
+
+def test_normals_of_a_ball_come_nearer_to_its_radii_by_refinement_and_by_interpolation():
+    def error(n, smooth):
+        _, surface, nodes = sliding(ball(n))
+        random = np.random.default_rng(0)
+        nodes = random.choice(nodes, 2000)
+        x = random.normal(size=(2000, 3))
+        places, normals = project(surface, x, nodes, smooth)
+        assert (np.linalg.norm(places, axis=1) <= 1 + 1e-14).all()
+        return np.linalg.norm(normals - places / np.linalg.norm(places, axis=1, keepdims=True), axis=1).max()
+
+    assert error(16, True) < 0.4 * error(8, True)
+    assert error(16, True) < 0.3 * error(16, False)
+
+
+def test_any_number_of_threads_gives_the_same():
+    mesh = wavy(grid(6), 0.2)
+    _, surface, nodes = sliding(mesh)
+    nodes = np.tile(nodes, 20)
+    x = mesh.points[nodes] + np.random.default_rng(0).normal(size=(len(nodes), 3))
+
+    def found(count):
+        kernels.set_threads(count)
+        return surface.trees.closest(x, surface.group_of(nodes))
+
+    with ThreadPoolExecutor(1) as own:
+        one, three = own.map(found, (1, 3))
+    for field in ("places", "pieces", "weights"):
+        np.testing.assert_array_equal(getattr(one, field), getattr(three, field))
+
+
+def test_nodes_that_do_not_slide_and_places_that_are_none_are_refused():
+    mesh = grid(3)
+    boundary, surface, nodes = sliding(mesh)
+    (corner, *_), (inside, *_) = (np.flatnonzero(boundary.kind == kind) for kind in (Kind.CORNER, Kind.INSIDE))
+    with pytest.raises(MeshError, match=rf"node {corner} \(counted from 0\) is of kind CORNER"):
+        project(surface, mesh.points[[nodes[0], corner]], np.array([nodes[0], corner]))
+    with pytest.raises(MeshError, match="of kind INSIDE"):
+        project(surface, mesh.points[[inside]], np.array([inside]))
+    with pytest.raises(MeshError, match=r"closest to the point \[nan"):
+        project(surface, np.full((1, 3), np.nan), nodes[:1])
+    assert len(project(surface, np.empty((0, 3)), nodes[:0])[0]) == 0
+
+
+def as_triangles(mesh):
+    """The boundary's quads as two triangles each, numbered by themselves, as a file of a surface holds them."""
+    nodes, faces = np.unique(mesh.topology.boundary_faces, return_inverse=True)
+    quads = faces.reshape(-1, 4).astype(np.int32)
+    return mesh.points[nodes], np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
+
+
+@pytest.mark.parametrize("fine", [grid(8, 8, 8), grid(2)], ids=["finer", "coarser"])
+def test_nodes_slide_on_the_surface_of_a_file(fine):
+    points, triangles = as_triangles(fine)
+    points = 4 / points.max() * points
+    mesh = grid(4)
+    boundary = boundary_of(mesh)
+    surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary)
+    np.testing.assert_array_equal(surface.kind, boundary.kind)
+    own = Surface(mesh.points, boundary)
+    nodes = np.flatnonzero(boundary.kind >= Kind.CURVE)
+    x = mesh.points[nodes] + 0.3 * np.random.default_rng(0).normal(size=(len(nodes), 3))
+    (places, there), (same, here) = project(surface, x, nodes), project(own, x, nodes)
+    np.testing.assert_allclose(places, same, atol=1e-12)
+    np.testing.assert_allclose(np.abs(there), np.abs(here), atol=1e-12)
+
+
+def test_curve_nodes_slide_on_patches_where_a_surface_has_no_curve():
+    mesh = cylinder()
+    points, triangles = as_triangles(ball(8))
+    surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary_of(mesh))
+    nodes = np.flatnonzero(mesh.topology.boundary)
+    assert (surface.kind[nodes] == Kind.PATCH).all()
+    radius = np.linalg.norm(project(surface, mesh.points[nodes], nodes)[0], axis=1)
+    assert radius.min() > 0.95
+    assert radius.max() <= 1 + 1e-14

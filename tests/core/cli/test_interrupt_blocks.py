@@ -1,0 +1,126 @@
+"""The blocks that answer signals, within this process: with SIGALRM, and as on systems that have none."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from hexmend.cli.process import interrupts
+from hexmend.cli.process.interrupts import ENDING, EndsAfterIteration, EndsCleanly, FinishesWriting
+from hexmend.signal_guard import uninterrupted
+
+#: A program that gets a signal after each handler that a block restores, and rests then.
+RESTORES = """
+import os, signal, sys, time
+from hexmend.cli import interrupts
+interrupts.exit_on_signals()
+whole = signal.signal
+def restore(number, handler):
+    before = whole(number, handler)
+    os.kill(os.getpid(), signal.SIGINT)
+    return before
+with interrupts.EndsCleanly(completes=sys.argv[1] == "completes"):
+    signal.signal = restore
+time.sleep(1)
+sys.exit(7)
+"""
+
+
+@pytest.fixture(autouse=True)
+def handlers():
+    """The handlers of signals are, after the test, those of before it."""
+    numbers = (*ENDING, signal.SIGALRM)
+    before = [signal.getsignal(number) for number in numbers]
+    yield
+    for number, handler in zip(numbers, before, strict=True):
+        assert signal.getsignal(number) == handler
+
+
+@pytest.fixture(params=["alarm", "no alarm"])
+def timer(request, monkeypatch):
+    """The timer of this system, or that of a system without SIGALRM."""
+    if request.param == "no alarm":
+        monkeypatch.setattr(interrupts, "_ALARM", None)
+
+
+def send(number=signal.SIGINT):
+    os.kill(os.getpid(), number)
+
+
+def rest(seconds):
+    """Wait in short steps, between which signals are answered wherever they come from."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        time.sleep(0.005)
+
+
+def test_a_signal_is_raised_when_a_function_returns_that_had_to_be_finished(timer):
+    finished = []
+
+    @uninterrupted
+    def work():
+        send()
+        rest(0.1)
+        finished.append(True)
+
+    with pytest.raises(KeyboardInterrupt), EndsCleanly():
+        while len(finished) < 100:
+            work()
+    assert len(finished) == 1
+
+
+def test_the_grace_ends_a_block_that_is_asked_twice(timer, monkeypatch, capfd):
+    monkeypatch.setattr(FinishesWriting, "grace", 0.05)
+    with pytest.raises(KeyboardInterrupt), FinishesWriting():
+        send()
+        send()
+        rest(60)
+    assert capfd.readouterr().err == "Writing the result; a second Ctrl-C leaves it 0.05 s.\n"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_result_is_written_to_its_end_however_long_that_takes_after_one_signal(timer, monkeypatch, number):
+    monkeypatch.setattr(FinishesWriting, "grace", 0.01)
+    with FinishesWriting() as writing:
+        send(number)
+        rest(0.2)
+    assert writing.asked
+
+
+def test_nothing_is_raised_after_the_end_of_a_block_with_a_grace(timer, monkeypatch):
+    monkeypatch.setattr(FinishesWriting, "grace", 0.05)
+    with FinishesWriting():
+        send()
+        send()
+    rest(0.2)
+
+
+def test_a_block_has_the_status_of_its_first_signal():
+    for number, other in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGINT)):
+        with EndsAfterIteration() as signals:
+            assert not signals.asked
+            send(number)
+            assert signals.asked
+            with pytest.raises(KeyboardInterrupt):
+                send(other)
+        assert signals.status == 128 + number
+
+
+def test_a_signal_that_waits_at_the_end_of_a_block_comes_to_the_one_around_it(timer):
+    @uninterrupted
+    def work():
+        with EndsCleanly():
+            send()
+
+    with pytest.raises(KeyboardInterrupt), EndsCleanly():
+        work()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("block", "status", "said"), [("completes", 7, ""), ("", 130, "hexmend: interrupted\n")])
+def test_a_signal_while_a_block_restores_handlers_leaves_no_timer(block, status, said):
+    done = subprocess.run([sys.executable, "-c", RESTORES, block], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (status, said)

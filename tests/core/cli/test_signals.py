@@ -1,0 +1,178 @@
+"""What a signal leaves: the best iterate written, the old file whole, nothing beside them."""
+
+import os
+import signal
+import stat
+import subprocess
+import sys
+
+import pytest
+
+from hexmend import gallery, io
+from hexmend.cli.main import main
+
+#: The program, which tells of every iteration.
+TALKATIVE = """
+import signal, sys
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # who runs the tests may ignore it
+from hexmend.cli.command import progress
+from hexmend.cli.main import main
+progress.EVERY = 0.0
+sys.exit(main(sys.argv[1:]))
+"""
+#: The program, which takes its time to write.
+SLOW_TO_WRITE = """
+import signal, sys, time
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
+from hexmend.cli.process.interrupts import FinishesWriting
+from hexmend.cli.main import main
+import hexmend.io
+FinishesWriting.grace = 0.1
+from hexmend.io.base.format import FORMATS
+whole = FORMATS["vtu"].write
+def write(path, mesh, encoding):
+    whole(path, mesh, encoding)
+    print("writing", file=sys.stderr, flush=True)
+    time.sleep(60)
+object.__setattr__(FORMATS["vtu"], "write", write)
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    path = tmp_path / "mesh.vtu"
+    io.write(path, gallery.make("cube", size=125, scramble=0.3))
+    return path
+
+
+def signalled(program, number, at, *words, again_at=None):
+    """Run the program and send it a signal at its first line on stderr that begins with `at`; wait for its end.
+
+    Another one follows at the first line after that which begins with `again_at`.
+    """
+    done = subprocess.Popen(
+        [sys.executable, "-c", program, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    with done:
+        for line in done.stderr:
+            if line.startswith(at):
+                done.send_signal(number)
+                if again_at is None:
+                    break
+                at, again_at = again_at, None
+        else:
+            pytest.fail(f"the program ended before {at!r}")
+        out, err = done.communicate(timeout=60)
+    assert "Traceback" not in err
+    return done.returncode, out, err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_what_a_run_reached_is_written_and_nothing_else_is_left(mesh, tmp_path, number):
+    words = ["smooth", mesh, "-o", tmp_path / "out.vtu", "--method", "laplacian"]
+    status, _, err = signalled(
+        TALKATIVE, number, "laplacian: iteration", *words, "--tolerance", "0", "--max-iterations", "1000000"
+    )
+    assert status == 0
+    assert "Interrupted: what was reached so far is kept." in err
+    assert io.read(tmp_path / "out.vtu").n_hexes == 125
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["mesh.vtu", "out.vtu"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_an_end_while_writing_leaves_the_old_file_whole(mesh, tmp_path, number):
+    before = mesh.read_bytes()
+    words = ["smooth", mesh, "-o", mesh, "--method", "laplacian"]
+    status, _, err = signalled(SLOW_TO_WRITE, number, "writing", *words, again_at="Writing the result")
+    assert status == 128 + number
+    assert "hexmend: interrupted" in err
+    assert mesh.read_bytes() == before
+    assert [path.name for path in tmp_path.iterdir()] == ["mesh.vtu"]
+
+
+def test_a_program_that_is_killed_while_writing_leaves_the_old_file_whole(mesh):
+    before = mesh.read_bytes()
+    signalled(SLOW_TO_WRITE, signal.SIGKILL, "writing", "smooth", mesh, "-o", mesh, "--method", "laplacian")
+    assert mesh.read_bytes() == before
+
+
+def test_a_file_that_replaces_another_has_its_mode_from_the_first_byte(mesh, tmp_path):
+    mesh.chmod(0o600)
+    seen = []
+    from hexmend.io.storage.atomic import replacing
+
+    with replacing(mesh) as temporary:
+        seen.append(stat.S_IMODE(os.stat(temporary).st_mode))
+        temporary.write_bytes(b"new")
+    assert seen == [0o600]
+    assert stat.S_IMODE(mesh.stat().st_mode) == 0o600
+
+
+@pytest.mark.parametrize("option", ["--json", "--history", "--save-recipe"])
+def test_a_report_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, option, capsys):
+    out = tmp_path / "out.vtu"
+    for place, said in (
+        (mesh, "is the mesh"),
+        (tmp_path / "no" / "a.toml", "there is no folder"),
+        (tmp_path, "is a folder"),
+    ):
+        assert main(["smooth", str(mesh), "-o", str(out), option, str(place)]) == 3
+        assert said in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_a_mesh_that_cannot_be_written_is_said_before_the_run(mesh, tmp_path, capsys):
+    assert main(["smooth", str(mesh), "-o", str(tmp_path / "no" / "out.vtu")]) == 3
+    (tmp_path / "folder.vtu").mkdir()
+    assert main(["smooth", str(mesh), "-o", str(tmp_path / "folder.vtu")]) == 3
+    assert "is a folder" in capsys.readouterr().err
+
+
+def test_letters_that_a_terminal_has_not_and_a_full_disk_are_no_traceback(mesh):
+    command = [sys.executable, "-m", "hexmend", "info", str(mesh)]
+    done = subprocess.run(command, capture_output=True, env={**os.environ, "PYTHONIOENCODING": "ascii"}, check=False)
+    assert done.returncode == 0
+    assert b"Traceback" not in done.stderr
+    if os.path.exists("/dev/full"):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        assert done.returncode == 3
+        assert "cannot be written" in done.stderr
+        assert "Traceback" not in done.stderr
+
+
+def test_codes_that_steer_a_terminal_are_not_printed(tmp_path, capsys):
+    path = tmp_path / "a\x1b[2Jb.vtu"
+    path.write_text("no mesh")
+    assert main(["info", str(path)]) == 3
+    assert "\x1b" not in capsys.readouterr().err
+
+
+def test_a_recipe_whose_key_is_endless_is_refused(tmp_path, mesh, capsys):
+    (tmp_path / "deep.toml").write_text("a" + ".a" * 50_000 + " = 1\n")
+    out = ["-o", str(tmp_path / "out.vtu")]
+    assert main(["smooth", str(mesh), *out, "--recipe", str(tmp_path / "deep.toml")]) == 3
+    assert "a key of more than 8 parts" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("scale", [1e103, 1e-110, 1e300])
+def test_lengths_beyond_numbers_are_one_clear_error(tmp_path, scale, capsys):
+    text = "\n".join(f"{x * scale!r} {y * scale!r} {z * scale!r}" for z in (0, 1) for y in (0, 1) for x in (0, 1))
+    path = tmp_path / "far.vtk"
+    path.write_text(
+        "# vtk DataFile Version 2.0\nv\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+        f"POINTS 8 double\n{text}\nCELLS 1 9\n8 0 1 3 2 4 5 7 6\nCELL_TYPES 1\n12\n"
+    )
+    assert main(["info", str(path), "--json"]) == 3
+    assert "unit of length" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("scale", [1e74, 1e-74])
+def test_lengths_within_numbers_have_figures(tmp_path, scale, capsys):
+    mesh = gallery.make("cube", size=27, scramble=0.2)
+    io.write(tmp_path / "m.vtk", mesh.rebuilt(points=mesh.points * scale))
+    assert main(["info", str(tmp_path / "m.vtk"), "--json", "--metrics"]) == 0
+    said = capsys.readouterr().out
+    assert "NaN" not in said
+    assert "Infinity" not in said

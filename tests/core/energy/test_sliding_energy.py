@@ -1,0 +1,93 @@
+"""Derivatives of the energy along the surface, against differences."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.boundary import Kind, Sliding
+from hexmend.energy import Power, SlidingEnergy
+from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.grids import grid
+
+SOLIDS = {"block": lambda: grid(3, 2, 2), "cylinder": lambda: cylinder(16, 3), "ball": lambda: ball(3)}
+
+
+def along_the_surface(sliding, points, seed):
+    """A step of unit size for each free node, along the surface; 0 for those that are next to an edge of a facet."""
+    mesh, random = sliding.mesh, np.random.default_rng(seed)
+    step = random.uniform(-1, 1, mesh.points.shape) * mesh.free[:, None]
+    nodes = sliding.nodes
+    weights = sliding.surface.trees.closest(points[nodes], sliding.surface.group_of(nodes)).weights
+    weights[sliding.boundary.kind[nodes] == Kind.CURVE, 2] = 1
+    bases = sliding.bases(points[nodes])
+    step[nodes] = np.einsum("kij,klj,kl->ki", bases, bases, step[nodes])
+    step[nodes[weights.min(axis=1) < 0.01]] = 0
+    return step[mesh.free]
+
+
+def at(solid, seed, p):
+    """The energy of a solid whose nodes have slid, their places in mean edge lengths, a step along the surface."""
+    there = slid(SOLIDS[solid](), 0.2, seed)
+    sliding = Sliding(SOLIDS[solid]())
+    energy = SlidingEnergy(sliding, Power(p))
+    return energy, energy.scaled(there.points), along_the_surface(sliding, there.points, seed)
+
+
+cases = given(st.sampled_from(sorted(SOLIDS)), st.integers(0, 2**32 - 1), st.sampled_from([1.0, 2.0, 3.5]))
+
+
+@settings(max_examples=30)
+@cases
+def test_gradient_is_that_of_differences(solid, seed, p):
+    energy, x, step = at(solid, seed, p)
+    t, delta = 1e-6, 0.05
+    rise = energy.value(energy.moved(x, step, t), delta) - energy.value(energy.moved(x, step, -t), delta)
+    gradient = energy.gradient(x, delta)
+    assert rise / (2 * t) == pytest.approx((gradient * step).sum(), rel=1e-5, abs=1e-5 * np.abs(gradient).sum())
+
+
+@settings(max_examples=30)
+@cases
+def test_hessian_is_that_of_differences(solid, seed, p):
+    energy, x, step = at(solid, seed, p)
+    t, delta = 1e-6, 0.05
+    rise = energy.gradient(energy.moved(x, step, t), delta) - energy.gradient(energy.moved(x, step, -t), delta)
+    product = energy.hessian(x, delta).matvec(step.ravel()).reshape(-1, 3)
+    np.testing.assert_allclose(rise / (2 * t), product, rtol=1e-4, atol=1e-5 * np.abs(product).max())
+
+
+@settings(max_examples=20)
+@cases
+def test_the_assembled_hessian_has_the_same_products_along_the_surface(solid, seed, p):
+    energy, x, step = at(solid, seed, p)
+    hessian = energy.hessian(x, 0.05).shifted(0.3)
+    product = hessian.matvec(step.ravel())
+    np.testing.assert_allclose(
+        hessian.assembled(np.float64) @ step.ravel(), product, rtol=1e-8, atol=1e-8 * np.abs(product).max()
+    )
+
+
+@settings(max_examples=5)
+@cases
+def test_off_the_surface_nothing_is_coupled_and_no_eigenvalue_is_an_extreme(solid, seed, p):
+    energy, x, _ = at(solid, seed, p)
+    matrix = energy.hessian(x, 0.05).assembled(np.float64)
+    whole = np.stack([matrix @ one for one in np.eye(matrix.shape[0])])
+    rows = np.searchsorted(energy.nodes, energy.sliding.nodes)
+    projector = np.eye(len(whole))
+    for row, along in zip(rows, energy.projectors(x), strict=True):
+        projector[3 * row : 3 * row + 3, 3 * row : 3 * row + 3] = along
+    off = np.eye(len(whole)) - projector
+    np.testing.assert_allclose(off @ whole @ projector, 0, atol=1e-9 * np.abs(whole).max())
+    along = np.linalg.eigvalsh(projector @ whole @ projector)
+    beside = np.linalg.eigvalsh(off @ whole @ off)
+    assert beside.max() <= along.max() * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("solid", sorted(SOLIDS))
+def test_the_gradient_leads_nowhere_off_the_surface(solid):
+    energy, x, _ = at(solid, 1, 2.0)
+    rows = np.searchsorted(energy.nodes, energy.sliding.nodes)
+    gradient = energy.gradient(x, 0.05)[rows]
+    np.testing.assert_allclose(np.einsum("kij,kj->ki", energy.projectors(x), gradient), gradient, atol=1e-12)

@@ -1,0 +1,217 @@
+"""Abaqus's files: those that Gmsh 4.15 wrote, decks as people write them, and what is written and read again."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
+from hexmend.mesh.second_order import MID_PLACES
+from hexmend.quality import summarise
+from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
+
+FILES = Path(__file__).parents[2] / "files"
+
+#: Faces S1 to S6 as the manual numbers their corners.
+SIDES = ["1 2 3 4", "5 8 7 6", "1 5 6 2", "2 6 7 3", "3 7 8 4", "4 8 5 1"]
+
+
+def cube(ids=range(1, 9)) -> str:
+    return "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in zip(ids, UNIT_CUBE, strict=True))
+
+
+DECK = f"""\
+*Heading
+ A cube ** and no comment
+** PARTS
+*node, nset=All Nodes
+{cube(range(11, 19))}
+*Element, type = C3D8R , elset=Body
+ 5, 11, 12, 13, 14,
+ 15, 16, 17, 18
+*Nset, nset="wall (west)", generate
+ 11, 15, 4
+*NSET,
+ NSET=both
+ WALL, 12
+*nset, nset=wall
+ 11,
+ 13
+*Elset, elset=all
+ body
+*Surface, type=ELEMENT, name=Top
+ BODY, S2
+ 5, S6
+*Material, name=Steel
+*Elastic
+ 210000., 0.3
+*Step
+*End Step
+"""
+
+
+def read(text, tmp_path):
+    (tmp_path / "a.inp").write_text(text)
+    return io.read(tmp_path / "a.inp")
+
+
+def test_a_deck_as_people_write_it_is_read(tmp_path):
+    mesh = read(DECK, tmp_path)
+    assert mesh.hexes.tolist() == [list(range(8))]
+    assert mesh.node_data["id"].tolist() == list(range(11, 19))
+    assert mesh.hex_data["id"].tolist() == [5]
+    assert {name: members.tolist() for name, members in mesh.node_sets.items()} == {
+        "All Nodes": list(range(8)), "wall (west)": [0, 4], "both": [0, 1, 2], "wall": [0, 2],
+    }  # fmt: skip
+    assert {name: members.tolist() for name, members in mesh.hex_sets.items()} == {"Body": [0], "all": [0]}
+    assert {name: rows.tolist() for name, rows in mesh.side_sets.items()} == {"Top": [[0, 5], [0, 0]]}
+    assert mesh.field_data["abaqus:types"] == ["C3D8R"]
+    assert "*MATERIAL" in mesh.notes[0]
+
+
+def test_every_way_of_ending_lines_reads_the_same(tmp_path):
+    (tmp_path / "b.inp").write_bytes(DECK.replace("\n", "\r\n").encode())
+    assert_same(read(DECK, tmp_path), io.read(tmp_path / "b.inp"))
+
+
+@pytest.mark.parametrize("side", range(6))
+def test_the_sides_of_a_hex_are_those_of_the_manual(side, tmp_path):
+    deck = f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*SURFACE, NAME=s\n1, S{side + 1}\n"
+    ((_, face),) = read(deck, tmp_path).side_sets["s"]
+    assert sorted(FACES[face] + 1) == sorted(map(int, SIDES[side].split()))
+
+
+def test_the_27_nodes_of_a_hex_are_where_they_belong(tmp_path):
+    places = [*UNIT_CUBE, *MID_PLACES[:12], [0.5, 0.5, 0.5]]
+    places += [UNIT_CUBE[[int(k) - 1 for k in side.split()]].mean(axis=0) for side in SIDES]
+    nodes = "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(places))
+    row = ", ".join(map(str, range(1, 16))) + ",\n" + ", ".join(map(str, range(16, 28)))
+    middles_are_in_the_middle(read(f"*NODE\n{nodes}*ELEMENT, TYPE=C3D27\n1, {row}\n", tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("file", "kinds"),
+    [("o1", {"line", "quad", "triangle", "wedge"}), ("o2i", {"line3", "quad8", "triangle6", "wedge15"})],
+)
+def test_a_file_of_gmsh_is_read(file, kinds):
+    mesh = io.read(FILES / f"gmsh-{file}.inp")
+    assert mesh.n_hexes == 2
+    assert summarise(mesh).inverted == 0
+    assert {one.kind for one in mesh.cells} == kinds
+    assert mesh.hex_sets["block_one"].tolist() == [0, 1]
+    middles_are_in_the_middle(mesh)
+
+
+@pytest.mark.parametrize("nodes", [8, 20, 27])
+def test_what_is_written_is_read_again(nodes, tmp_path):
+    mesh = with_everything(nodes)
+    io.write(tmp_path / "a.inp", mesh)
+    assert io.left_out(tmp_path / "a.inp", mesh) == []
+    assert_same(mesh, io.read(tmp_path / "a.inp"))
+
+
+def test_types_of_elements_stay_what_they_were(tmp_path):
+    deck = DECK + f"*NODE\n{cube(range(21, 29))}*ELEMENT, TYPE=C3D8I\n6, 21, 22, 23, 24, 25, 26, 27, 28\n"
+    deck += "*ELEMENT, TYPE=M3D4\n7, 11, 12, 13, 14\n"
+    io.write(tmp_path / "b.inp", read(deck, tmp_path))
+    written = (tmp_path / "b.inp").read_text()
+    assert [line.split("=")[1] for line in written.splitlines() if "*ELEMENT" in line] == ["C3D8R", "C3D8I", "M3D4"]
+
+
+def test_names_that_differ_in_capitals_only_stay_two(tmp_path):
+    mesh = with_everything().replace(
+        node_sets={"wall": np.array([1]), "Wall": np.array([2]), 'a "b", c': np.array([3])}
+    )
+    io.write(tmp_path / "a.inp", mesh)
+    again = io.read(tmp_path / "a.inp").node_sets
+    assert {name: members.tolist() for name, members in again.items()} == {"wall": [1], "Wall": [2], "a 'b', c": [3]}
+
+
+def test_a_real_file_is_read_and_survives(real_mesh, tmp_path):
+    mesh = io.read(real_mesh("bunny_projected.inp"))
+    assert (mesh.n_hexes, summarise(mesh).inverted) == (9732, 4341)
+    assert len(mesh.node_sets["ALLNODES"]) == mesh.n_nodes
+    io.write(tmp_path / "a.inp", mesh)
+    assert_same(mesh, io.read(tmp_path / "a.inp"))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("\0" * 5000, "holds bytes that are no text"),
+        ("hello", "has no line that begins with *"),
+        ("*HEADING\n", "has no *NODE"),
+        ("*NODE\n1, 0, 0, x\n", "*NODE holds 'x' in row 4 of 4 (line 2)"),
+        ("*NODE\n1.5, 0, 0, 0\n", "has the number 1.5"),
+        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7\n", "holds 8 numbers: expected 9 an element"),
+        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 9\n", "node 9 is used"),
+        (f"*NODE\n{cube()}*ELEMENT, TYPE=C3D4\n1, 1, 2, 4, 5\n", "holds no hexahedra, but 1 tetra cell"),
+        (f"*NODE\n{cube()}1, 0, 0, 0\n*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n", "node 1 is given twice"),
+        ("*INCLUDE, INPUT=nodes.inp\n", "takes what follows from another file, 'nodes.inp'"),
+        ("*NODE, INPUT=nodes.inp\n", "takes what follows from another file, 'nodes.inp'"),
+        ("*NODE\n1, 0, 0, 0\n*NGEN\n1, 5, 1\n", "*NGEN in line 3 makes nodes or elements out of others"),
+        ("*NODE, SYSTEM=C\n1, 0, 0, 0\n", "has other coordinates than x, y and z"),
+        (DECK + "*NSET, NSET=x\nnowhere\n", "names the set 'NOWHERE'"),
+        (DECK + "*NSET, NSET=x\ny\n*NSET, NSET=y\nx\n", "is a member of itself"),
+        (DECK + "*NSET, NSET=x, GENERATE\n1, 5, 0\n", "expected first, last and step"),
+        ("*INSTANCE, NAME=a, PART=b\n", "is of the part 'b', which is not there"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_named(text, words, tmp_path):
+    with pytest.raises(FileError) as error:
+        read(text, tmp_path)
+    assert words in str(error.value)
+
+
+def test_numbers_that_a_set_generates_are_not_all_made(tmp_path):
+    mesh = read(DECK + "*NSET, NSET=x, GENERATE\n1, 99999999999999, 2\n", tmp_path)
+    assert mesh.node_sets["x"].tolist() == [0, 2, 4, 6]
+    many = "".join(f"*NSET, NSET=s{k}, GENERATE\n1, 99999\n" for k in range(4))
+    nodes = "".join(f"{k}, 0, 0, 0\n" for k in range(1, 9))
+    mesh = read(f"*NODE\n{nodes}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n{many}", tmp_path)
+    assert len(mesh.node_sets) == 4
+
+
+def test_blanks_and_other_exponents_are_numbers_too(tmp_path):
+    nodes = cube().replace("2, 1, 0, 0", "2, 1.0D+00, , ").replace("4, 0, 1, 0", "4,,1.d0")
+    mesh = read(f"*NODE\n{nodes}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n", tmp_path)
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+
+
+def test_elements_of_other_types_and_what_names_them_are_left_out_and_said(tmp_path):
+    deck = (
+        DECK
+        + "*ELEMENT, TYPE=COH3D8, ELSET=glue\n70, 11, 12, 13, 14,\n15, 16, 17, 18\n71, 11, 12, 13, 14, 15, 16, 17, 18\n"
+    )
+    deck += (
+        "*ELEMENT, TYPE=MASS, ELSET=glue\n72, 11\n*SURFACE, NAME=mixed\nglue, S1\n5, SPOS\n*NSET, NSET=some\n11, 99\n"
+    )
+    mesh = read(deck, tmp_path)
+    assert mesh.n_hexes == 1
+    assert mesh.cells[0].kind == "vertex"
+    assert mesh.cells[0].sets["glue"].tolist() == [0]
+    assert mesh.node_sets["some"].tolist() == [0]
+    assert "mixed" not in mesh.side_sets
+    assert any("2 elements of other types (COH3D8)" in note for note in mesh.notes)
+    assert any("1 members of sets that do not exist" in note for note in mesh.notes)
+    assert any("4 entries of surfaces" in note for note in mesh.notes)
+
+
+def test_surfaces_stay_on_their_elements_where_those_of_second_order_come_first(tmp_path):
+    """Hexes are written by the number of their nodes."""
+    far = "".join(f"{k}, {x + 5:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 21))
+    middles = "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(MID_PLACES[:12], 9))
+    deck = (
+        f"*NODE\n{cube()}{middles}{far}*ELEMENT, TYPE=C3D20\n100, {', '.join(map(str, range(1, 16)))},\n"
+        "16, 17, 18, 19, 20\n*ELEMENT, TYPE=C3D8\n200, 21, 22, 23, 24, 25, 26, 27, 28\n"
+        "*SURFACE, NAME=S\n100, S1\n"
+    )
+    mesh = read(deck, tmp_path)
+    io.write(tmp_path / "b.inp", mesh)
+    back = io.read(tmp_path / "b.inp")
+    for one in (mesh, back):
+        ((hexa, face),) = one.side_sets["S"]
+        assert one.hex_data["id"][hexa] == 100
+        assert {tuple(p) for p in one.points[one.hexes[hexa][FACES[face]]]} == {tuple(p) for p in UNIT_CUBE[:4]}

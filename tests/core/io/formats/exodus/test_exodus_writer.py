@@ -1,0 +1,190 @@
+"""ExodusII as it is written: read again, read by VTK, on HDF5 too; ids, pins and sets are kept."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.second_order import MID_PLACES
+from tests.core.grids import grid
+from tests.core.io.formats.exodus.exodus_files import HEX27, letters, rich, written
+
+
+def test_all_that_is_held_is_read_again(tmp_path):
+    mesh = rich()
+    assert io.left_out(tmp_path / "r.exo", mesh) == []
+    io.write(tmp_path / "r.exo", mesh)
+    back = io.read(tmp_path / "r.exo")
+    np.testing.assert_array_equal(back.hexes, mesh.hexes)
+    for kind in ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets"):
+        mine, its = getattr(mesh, kind), getattr(back, kind)
+        assert set(mine) == set(its), kind
+        for name, values in mine.items():
+            np.testing.assert_array_equal(its[name], values, err_msg=name)
+    np.testing.assert_array_equal(back.pinned, mesh.pinned)
+    assert back.cells[0].sets["lid"].tolist() == [1]
+    assert back.cells[0].data["t"].tolist() == [1.5, 2]
+
+
+def test_hexes_of_both_orders_keep_what_is_said_of_each(tmp_path):
+    bare = grid(3, 1, 1)
+    mids = np.full((3, 19), -1)
+    mids[0, :12] = np.arange(16, 28)
+    points = np.vstack([bare.points, bare.points[bare.hexes[0]].mean(axis=0) + MID_PLACES[:12]])
+    mesh = Mesh(
+        points, bare.hexes, mid_nodes=mids, hex_data={"p": np.arange(3.0)}, side_sets={"in": np.array([[0, 0], [2, 1]])}
+    )
+    io.write(tmp_path / "m.exo", mesh)
+    back = io.read(tmp_path / "m.exo")
+    own = {tuple(row): k for k, row in enumerate(back.hexes.tolist())}
+    place = [own[tuple(row)] for row in mesh.hexes.tolist()]
+    np.testing.assert_array_equal(back.mid_nodes[place], mesh.mid_nodes)
+    np.testing.assert_array_equal(back.hex_data["p"][place], mesh.hex_data["p"])
+    assert {(int(h), int(f)) for h, f in back.side_sets["in"]} == {(place[0], 0), (place[2], 1)}
+
+
+def of_vtk(path):
+    """Blocks of a file by VTK: name, type, points of each cell."""
+    vtk = pytest.importorskip("vtk")
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    reader = vtk.vtkExodusIIReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    blocks = reader.GetOutput().GetBlock(0)
+    for k in range(blocks.GetNumberOfBlocks()):
+        grid_, name = blocks.GetBlock(k), blocks.GetMetaData(k).Get(vtk.vtkCompositeDataSet.NAME())
+        points = vtk_to_numpy(grid_.GetPoints().GetData())
+        cells = vtk_to_numpy(grid_.GetCells().GetConnectivityArray()).reshape(grid_.GetNumberOfCells(), -1)
+        yield name, grid_.GetCellType(0), points[cells]
+
+
+def test_vtk_reads_what_is_written(tmp_path):
+    mesh = rich()
+    io.write(tmp_path / "r.exo", mesh)
+    found = list(of_vtk(tmp_path / "r.exo"))
+    assert [(name, kind, len(cells)) for name, kind, cells in found][:2] == [("a", 12, 3), ("b", 12, 2)]
+    np.testing.assert_array_equal(
+        np.concatenate([cells for _, kind, cells in found if kind == 12]), mesh.points[mesh.hexes]
+    )
+    path = written(tmp_path / "one.exo", HEX27 / 2, [("HEX27", "", [range(1, 28)])])
+    io.write(tmp_path / "again.exo", io.read(path))
+    ((_, kind, cells),) = of_vtk(tmp_path / "again.exo")
+    assert kind == 29
+    np.testing.assert_array_equal(cells[0], np.concatenate([UNIT_CUBE, MID_PLACES]))
+
+
+def test_a_file_on_hdf5_is_read_as_one_of_the_classic_format(tmp_path):
+    netCDF4 = pytest.importorskip("netCDF4")
+    io.write(tmp_path / "classic.exo", rich())
+    with netCDF4.Dataset(tmp_path / "classic.exo") as one, netCDF4.Dataset(tmp_path / "new.exo", "w") as other:
+        one.set_auto_mask(False)
+        for name, dimension in one.dimensions.items():
+            other.createDimension(name, None if dimension.isunlimited() else len(dimension))
+        for name, values in one.variables.items():
+            copy = other.createVariable(name, values.dtype, values.dimensions, zlib=True)
+            copy.setncatts({key: values.getncattr(key) for key in values.ncattrs()})
+            copy[:] = values[:]
+    assert (tmp_path / "new.exo").read_bytes()[:4] == b"\x89HDF"
+    mesh, back = io.read(tmp_path / "classic.exo"), io.read(tmp_path / "new.exo")
+    np.testing.assert_array_equal(back.hexes, mesh.hexes)
+    for kind in ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets"):
+        for name, values in getattr(mesh, kind).items():
+            np.testing.assert_array_equal(getattr(back, kind)[name], values, err_msg=name)
+
+
+@pytest.mark.parametrize("pins", [[], [1, 4]])
+@pytest.mark.parametrize("name", ["fixed", "Fixed"])
+def test_pins_and_sets_called_fixed_are_kept_apart(name, pins, tmp_path):
+    mesh = grid(2).replace(node_sets={name: np.array([0, 9])}, pinned=np.isin(np.arange(27), pins))
+    io.write(tmp_path / "f.exo", mesh)
+    back = io.read(tmp_path / "f.exo")
+    assert np.flatnonzero(back.pinned if back.pinned is not None else []).tolist() == pins
+    assert {key: one.tolist() for key, one in back.node_sets.items()} == {name: [0, 9]}
+
+
+def test_ids_of_blocks_and_sets_are_kept(tmp_path):
+    bare = grid(2)
+    more = [
+        ("eb_prop1", ("num_el_blk",), np.array([300, 20], np.int32)),
+        ("ns_prop1", ("num_node_sets",), np.array([100], np.int32)),
+        ("ns_names", ("num_node_sets", "len_name"), letters(["inlet"])),
+        ("node_ns1", ("num_nod_ns1",), np.array([1, 27], np.int32)),
+        ("ss_prop1", ("num_side_sets",), np.array([200], np.int32)),
+        ("elem_ss1", ("num_side_ss1",), np.array([8], np.int32)),
+        ("side_ss1", ("num_side_ss1",), np.array([6], np.int32)),
+    ]
+    blocks = [("HEX8", "", bare.hexes + 1), ("SHELL4", "", bare.hexes[:1, 4:] + 1)]
+    mesh = io.read(written(tmp_path / "m.exo", bare.points, blocks, more))
+    assert io.left_out(tmp_path / "again.exo", mesh) == []
+    io.write(tmp_path / "again.exo", mesh.replace(node_sets={"new": np.array([3]), **mesh.node_sets}))
+    from scipy.io import netcdf_file
+
+    with netcdf_file(tmp_path / "again.exo", mmap=False) as file:
+        ids = {name: file.variables[name + "_prop1"][:].tolist() for name in ("eb", "ns", "ss")}
+    assert ids == {"eb": [300, 20], "ns": [101, 100], "ss": [200]}
+
+
+def test_whole_numbers_that_are_rounded_are_told(tmp_path):
+    large = np.arange(8) + 2**53
+    mesh = grid(2).replace(hex_data={"exact": large - 8, "key": large, "low": -large}, node_data={"u": np.arange(27)})
+    told = ["whole numbers of cell data above 2^53, which are rounded (key, low)"]
+    assert io.left_out(tmp_path / "a.exo", mesh) == told
+    kept = mesh.replace(hex_data={"exact": large - 8, "id": large})
+    assert io.left_out(tmp_path / "a.exo", kept) == []
+    io.write(tmp_path / "a.exo", kept)
+    np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], large)
+
+
+def test_columns_that_have_the_names_of_other_data_are_renamed_together_and_that_is_said(tmp_path):
+    rng = np.random.default_rng(0)
+    vector, pair, scalar = rng.normal(size=(27, 3)), rng.normal(size=(27, 2)), rng.normal(size=27)
+    nodes = {"v": vector, "v_x": scalar, "w": pair, "w_3": scalar, "free": vector}
+    mesh = grid(2).replace(node_data=nodes, hex_data={"s": rng.normal(size=(8, 3)), "s_z": np.arange(8.0)})
+    assert io.left_out(tmp_path / "a.exo", mesh) == [
+        "names of point data as they are (v, w)",
+        "names of cell data as they are (s)",
+    ]
+    io.write(tmp_path / "a.exo", mesh)
+    back = io.read(tmp_path / "a.exo")
+    assert set(back.node_data) == {"v_2", "v_x", "w_2", "w_3", "free"}
+    assert set(back.hex_data) == {"s_2", "s_z"}
+    for title, values in {"v_2": vector, "v_x": scalar, "w_2": pair, "w_3": scalar, "free": vector}.items():
+        np.testing.assert_array_equal(back.node_data[title], values)
+    np.testing.assert_array_equal(back.hex_data["s_2"], mesh.hex_data["s"])
+
+
+def test_data_and_names_that_the_format_cannot_have_are_told(tmp_path):
+    names = [" lead", "lead", "S", "s", ""]
+    mesh = grid(2).replace(
+        node_data={"phase": np.arange(27) * 1j, " t": np.arange(27.0), "v": np.ones((27, 3)), "v_x": np.arange(27.0)},
+        hex_data={"label": np.array(list("abcdefgh"))},
+        node_sets={name: np.array([k]) for k, name in enumerate(names)},
+        hex_sets={name: np.array([k]) for k, name in enumerate(names)},
+        side_sets={"": np.array([[0, 0]])},
+    )
+    assert io.left_out(tmp_path / "a.exo", mesh) == [
+        "point data that are no numbers (phase)",
+        "cell data that are no numbers (label)",
+        "names of point data as they are ( t, v)",
+        "names of sets as they are (,  lead)",
+    ]
+    io.write(tmp_path / "a.exo", mesh)
+    back = io.read(tmp_path / "a.exo")
+    for sets in (back.node_sets, back.hex_sets):
+        members = {name: one.tolist() for name, one in sets.items()}
+        assert members == {"lead 2": [0], "lead": [1], "S": [2], "s": [3], "unnamed": [4]}
+    assert list(back.side_sets) == ["unnamed"]
+    np.testing.assert_array_equal(back.node_data["t"], np.arange(27))
+    np.testing.assert_array_equal(back.node_data["v_x"], np.arange(27))
+
+
+@pytest.mark.parametrize(("most", "status"), [(9, 0), (2**31 - 1, 0), (2**31, 0x2000)])
+def test_the_head_says_how_wide_numbers_are(most, status, tmp_path):
+    netCDF4 = pytest.importorskip("netCDF4")
+    io.write(tmp_path / "a.exo", grid(2).replace(hex_data={"id": np.arange(8) + most - 7}))
+    with netCDF4.Dataset(tmp_path / "a.exo") as file:
+        assert (file.int64_status, file.file_size, file.floating_point_word_size) == (status, 1, 8)
+        assert file.api_version == file.version == np.float32(8.03)
+        assert file["elem_num_map"][:].max() == most

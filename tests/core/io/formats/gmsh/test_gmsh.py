@@ -1,0 +1,249 @@
+"""Gmsh's files: those that Gmsh 4.15 itself wrote, and what is written and read again."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.mesh.cells import Cells
+from hexmend.quality import summarise
+from tests.core.grids import grid
+from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
+
+FILES = Path(__file__).parents[2] / "files"
+VERSIONS = ("2.2-a", "2.2-b", "4.1-a", "4.1-b")
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_file_of_gmsh_is_read_whole(version):
+    mesh = io.read(FILES / f"gmsh-o1-{version}.msh")
+    assert (mesh.n_hexes, mesh.n_nodes, summarise(mesh).inverted) == (2, 15, 0)
+    assert {name: members.tolist() for name, members in mesh.hex_sets.items()} == {"block one": [0, 1]}
+    cells = {one.kind: {name: members.tolist() for name, members in one.sets.items()} for one in mesh.cells}
+    assert cells == {
+        "vertex": {"origin": [0]},
+        "line": {"edge": [0]},
+        "quad": {"floor": [0], "bottom": [0]},
+        "triangle": {"bottom": [0]},
+        "wedge": {"physical 3": [0, 1]},
+    }
+    assert mesh.node_data["id"].tolist() == list(range(1, 16))
+    assert (mesh.points[mesh.hexes].mean(axis=1) == [[0.5, 0.5, 0.25], [0.5, 0.5, 0.75]]).all()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize(("file", "nodes"), [("o2", 27), ("o2i", 20)])
+def test_nodes_of_second_order_are_where_they_belong(file, nodes, version):
+    mesh = io.read(FILES / f"gmsh-{file}-{version}.msh")
+    assert ((mesh.mid_nodes >= 0).sum(axis=1) == nodes - 8).all()
+    assert {"line3", "triangle6", "quad9" if nodes == 27 else "quad8"} < {one.kind for one in mesh.cells}
+    middles_are_in_the_middle(mesh)
+    assert summarise(mesh).inverted == 0
+
+
+@pytest.mark.parametrize("encoding", ["binary", "ascii"])
+@pytest.mark.parametrize("nodes", [8, 20, 27])
+def test_what_is_written_is_read_again(nodes, encoding, tmp_path):
+    mesh = with_everything(nodes)
+    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
+    assert_same(mesh, io.read(tmp_path / "a.msh"), without=("node_sets", "side_sets"))
+
+
+@pytest.mark.parametrize("encoding", ["binary", "ascii"])
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("file", ["o1", "o2", "o2i"])
+def test_a_file_of_gmsh_survives(file, version, encoding, tmp_path):
+    mesh = io.read(FILES / f"gmsh-{file}-{version}.msh")
+    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
+    again = io.read(tmp_path / "a.msh")
+    assert_same(mesh, again)
+    assert sorted(again.field_data["gmsh:physical"]) == sorted(mesh.field_data["gmsh:physical"])
+
+
+def test_both_versions_and_encodings_say_the_same():
+    first = io.read(FILES / "gmsh-o2i-4.1-b.msh")
+    other = io.read(FILES / "gmsh-o2i-4.1-a.msh")
+    np.testing.assert_allclose(first.points, other.points, rtol=1e-12)  # Gmsh writes 16 digits, of which some need 17
+    assert_same(first, other.rebuilt(points=first.points))
+
+
+@pytest.mark.parametrize(("file", "hexes", "sets"), [("sphere_r9.msh", 18944, 1), ("n10-id2_hex.msh", 4060, 10)])
+def test_real_files_are_read_and_survive(file, hexes, sets, real_mesh, tmp_path):
+    mesh = io.read(real_mesh(file))
+    assert (mesh.n_hexes, len(mesh.hex_sets), summarise(mesh).inverted) == (hexes, sets, 0)
+    assert any("wound the other way" in note for note in mesh.notes) == (file == "n10-id2_hex.msh")
+    io.write(tmp_path / "a.msh", mesh)
+    assert_same(mesh, io.read(tmp_path / "a.msh"))
+
+
+def test_a_mesh_without_ids_is_numbered_from_1_and_ids_that_clash_are_not_used(tmp_path):
+    mesh = grid(2)
+    io.write(tmp_path / "a.msh", mesh)
+    assert io.read(tmp_path / "a.msh").node_data["id"].tolist() == list(range(1, 28))
+    io.write(tmp_path / "b.msh", mesh.replace(hex_data={"id": np.full(8, 4)}, node_data={"id": np.full(27, 4)}))
+    assert io.read(tmp_path / "b.msh").hex_data["id"].tolist() == list(range(1, 9))
+
+
+def test_the_content_tells_where_the_suffix_does_not(tmp_path):
+    (tmp_path / "a.inp").write_bytes((FILES / "gmsh-o1-4.1-b.msh").read_bytes())
+    assert io.read(tmp_path / "a.inp").n_hexes == 2
+
+
+HEAD = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+NODES = "$Nodes\n8\n" + "".join(f"{k + 1} {k & 1} {k >> 1 & 1} {k >> 2}\n" for k in range(8)) + "$EndNodes\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("hello", "does not begin with $MeshFormat"),
+        ("$MeshFormat\n1 0 8\n$EndMeshFormat\n", "is of version '1'"),
+        ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "Save it as 4.1 with Gmsh"),
+        ("$MeshFormat\n4.1 1 8\nabcd\n$EndMeshFormat\n", "tells the order of bytes"),
+        (HEAD, "has no section $Nodes"),
+        (HEAD + NODES, "has no section $Elements"),
+        (HEAD + "$Nodes\n8\n1 0 0 0\n", "$Nodes ends without $EndNodes"),
+        (HEAD + "$Nodes\n9999999999\n1 0 0 0\n$EndNodes\n", "$Nodes holds 5 numbers: expected 39999999997"),
+        (HEAD + "$Nodes\n1\n1.5 0 0 0\n$EndNodes\n", "the tag 1.5"),
+        (HEAD + NODES + "$Elements\n1\n1 99 0 1\n$EndElements\n", "elements of the type 99"),
+        (HEAD + NODES + "$Elements\n1\n1 5 0 1 2 4\n$EndElements\n", "$Elements holds 1 whole elements of 1"),
+        (HEAD + NODES + "$Elements\n1\n1 5 -4 1 2 4 3 5 6 8 7\n$EndElements\n", "holds 0 whole elements of 1"),
+        (HEAD + NODES + "$Elements\n1\n1 5 0 1 2 4 3 5 6 8 77\n$EndElements\n", "node 77 is used"),
+        (HEAD + NODES + "$Elements\n1\n1 4 0 1 2 4 3\n$EndElements\n", "holds no hexahedra, but 1 tetra cell"),
+        (HEAD + NODES.replace("\n3 ", "\n2 "), "has no section $Elements"),
+        (
+            HEAD + NODES.replace("\n3 ", "\n2 ") + "$Elements\n1\n1 5 0 1 2 4 3 5 6 8 7\n$EndElements\n",
+            "node 2 is given twice",
+        ),
+    ],
+)
+def test_what_is_wrong_is_named(text, words, tmp_path):
+    (tmp_path / "a.msh").write_text(text)
+    with pytest.raises(FileError) as error:
+        io.read(tmp_path / "a.msh")
+    assert words in str(error.value)
+
+
+def test_a_hex_that_stands_in_two_groups_is_one_hex_and_counts_are_not_believed(tmp_path):
+    elements = "$Elements\n2\n1 5 2 1 1 1 2 4 3 5 6 8 7\n2 5 2 2 1 1 2 4 3 5 6 8 7\n$EndElements\n"
+    (tmp_path / "a.msh").write_text(HEAD + NODES + elements)
+    mesh = io.read(tmp_path / "a.msh")
+    assert mesh.n_hexes == 1
+    assert set(mesh.hex_sets) == {"physical 1", "physical 2"}
+    binary = (FILES / "gmsh-o1-4.1-b.msh").read_bytes()
+    at = binary.index(b"$Nodes\n") + 7
+    (tmp_path / "b.msh").write_bytes(binary[:at] + (2**62).to_bytes(8, "little") * 2 + binary[at + 16 :])
+    with pytest.raises(FileError):
+        io.read(tmp_path / "b.msh")
+
+
+@pytest.mark.parametrize("encoding", ["binary", "ascii"])
+def test_data_and_pins_survive(encoding, tmp_path):
+    mesh, random = with_everything(20), np.random.default_rng(0)
+    pinned = random.random(mesh.n_nodes) < 0.5
+    mesh = mesh.replace(
+        node_data={
+            **mesh.node_data,
+            "heat": random.normal(size=mesh.n_nodes),
+            "flow": random.normal(size=(mesh.n_nodes, 3)),
+        },
+        hex_data={**mesh.hex_data, "stress": random.normal(size=(mesh.n_hexes, 9)), "part": np.arange(mesh.n_hexes)},
+        pinned=pinned,
+    )
+    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
+    again = io.read(tmp_path / "a.msh")
+    assert_same(mesh, again, without=("node_sets", "side_sets"))
+    for kind, names in (("node_data", ("heat", "flow")), ("hex_data", ("stress", "part"))):
+        for name in names:
+            np.testing.assert_array_equal(getattr(again, kind)[name], getattr(mesh, kind)[name])
+    assert again.pinned[pinned].all()
+
+
+def test_data_of_some_nodes_is_no_number_for_the_others(tmp_path):
+    elements = "$Elements\n1\n7 5 2 1 1 1 2 4 3 5 6 8 7\n$EndElements\n"
+    data = '$NodeData\n1\n"heat"\n1\n0.5\n3\n0\n1\n2\n3 1.5\n1 2.5\n$EndNodeData\n'
+    data += '$ElementData\n1\n"flow"\n1\n0.5\n3\n0\n3\n1\n7 1 2 3\n$EndElementData\n'
+    (tmp_path / "a.msh").write_text(HEAD + NODES + elements + data)
+    mesh = io.read(tmp_path / "a.msh")
+    np.testing.assert_array_equal(mesh.node_data["heat"], [2.5, np.nan, 1.5] + [np.nan] * 5)
+    assert mesh.hex_data["flow"].tolist() == [[1, 2, 3]]
+
+
+def test_data_called_fixed_of_some_nodes_fix_these_alone(tmp_path):
+    io.write(tmp_path / "a.msh", grid(2), encoding="ascii")
+    data = '$NodeData\n1\n"fixed"\n1\n0\n3\n0\n1\n2\n14 1\n3 0\n$EndNodeData\n'
+    with open(tmp_path / "a.msh", "a") as file:
+        file.write(data)
+    mesh = io.read(tmp_path / "a.msh")
+    assert np.flatnonzero(mesh.pinned).tolist() == [13]
+    io.write(tmp_path / "b.vtu", mesh)
+    assert np.flatnonzero(io.read(tmp_path / "b.vtu").pinned).tolist() == [13]
+
+
+def test_data_of_any_width_are_read(tmp_path):
+    mesh = grid(1)
+    io.write(tmp_path / "a.msh", mesh, encoding="ascii")
+    rows = "".join(f"{k} {' '.join(str(k * j) for j in range(12))}\n" for k in range(1, 9))
+    with open(tmp_path / "a.msh", "a") as file:
+        file.write(f'$NodeData\n1\n"many"\n1\n0\n3\n0\n12\n8\n{rows}$EndNodeData\n')
+    np.testing.assert_array_equal(io.read(tmp_path / "a.msh").node_data["many"], np.outer(range(1, 9), range(12)))
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "binary"])
+def test_data_of_other_widths_than_gmsh_s_are_filled_up_or_left_out_and_that_is_said(encoding, tmp_path):
+    data = {"two": np.ones((8, 2)), "six": np.full((8, 6), 6), "ten": np.ones((8, 10)), "tensor": np.ones((8, 3, 3))}
+    mesh = grid(1).replace(node_data={**data, "a b": np.zeros(8), "a  b": np.ones(8)}, hex_data={"word": ["x"]})
+    assert io.left_out(tmp_path / "a.msh", mesh) == [
+        "point data of more than 9 columns, or no numbers (ten)",
+        "names of point data as they are (a  b)",
+        "the width of point data, filled up to 3 or 9 columns (six, two)",
+        "cell data of more than 9 columns, or no numbers (word)",
+    ]
+    io.write(tmp_path / "a.msh", mesh, encoding=encoding)
+    back = io.read(tmp_path / "a.msh").node_data
+    assert back["six"][0].tolist() == [6] * 6 + [0] * 3
+    assert {name: values.shape for name, values in back.items() if name != "id"} == {
+        "two": (8, 3), "six": (8, 9), "tensor": (8, 9), "a b": (8,), "a b 2": (8,)
+    }  # fmt: skip
+
+
+def test_a_row_of_data_that_all_nodes_would_be_given_is_refused(tmp_path):
+    """A thousand values of one node, in many sections."""
+    path = tmp_path / "a.msh"
+    io.write(path, grid(20), encoding="ascii")
+    row = " ".join(["1", *["0"] * 1000])
+    with open(path, "a") as file:
+        file.writelines(f'$NodeData\n1\n"{k}"\n1\n0\n3\n0\n1000\n1\n{row}\n$EndNodeData\n' for k in range(5))
+    with pytest.raises(FileError, match="too many for a file"):
+        io.read(path)
+
+
+def test_no_cells_have_no_data(tmp_path):
+    quads = Cells("quad", np.empty((0, 4), np.int32), {"q": np.empty((0, 3))})
+    io.write(tmp_path / "a.msh", grid(2).replace(cells=(quads,)))
+    assert io.read(tmp_path / "a.msh").n_hexes == 8
+
+
+def test_whole_numbers_that_are_rounded_are_told(tmp_path):
+    mesh = grid(2).replace(hex_data={"exact": np.arange(8) + 2**53 - 8, "key": np.arange(8) + 2**53})
+    assert "whole numbers of cell data above 2^53, which are rounded (key)" in io.left_out(tmp_path / "a.msh", mesh)
+
+
+def test_data_of_one_name_and_several_widths_are_told(tmp_path):
+    quads = Cells("quad", grid(2).topology.boundary_faces[:2], {"d": np.ones((2, 3)), "e": np.ones(2)})
+    mesh = grid(2).replace(hex_data={"d": np.ones(8), "e": np.ones(8)}, cells=(quads,))
+    path = tmp_path / "a.msh"
+    assert io.left_out(path, mesh) == ["names of cell data as they are (d)"]
+    io.write(path, mesh)
+    back = io.read(path)
+    assert set(back.hex_data) == {"d", "e", "id"}
+    assert set(back.cells[0].data) == {"d_2", "e", "id"}
+
+
+def test_sections_that_are_not_kept_are_said(tmp_path):
+    io.write(tmp_path / "a.msh", grid(2), encoding="ascii")
+    with open(tmp_path / "a.msh", "a", encoding="ascii") as file:
+        file.write("$Periodic\n1\n0 1 2\n0\n1\n1 2\n$EndPeriodic\n")
+    assert io.read(tmp_path / "a.msh").notes == ("Sections that are not kept ($Periodic) are left out.",)

@@ -1,0 +1,144 @@
+"""MED's fields: of a file that MEDCoupling 9.15 wrote, and what is written and read again."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.mesh.cells import Cells
+from tests.core.grids import grid
+
+h5py = pytest.importorskip("h5py")
+FILE = Path(__file__).parents[2] / "files" / "medcoupling-fields.med"
+
+
+def test_fields_of_a_file_of_others_are_data():
+    mesh = io.read(FILE)
+    np.testing.assert_array_equal(mesh.node_data["temp"], np.arange(12))
+    np.testing.assert_array_equal(mesh.node_data["velo"][5], [5, 5.5, -5])
+    np.testing.assert_array_equal(mesh.hex_data["stress"], [np.arange(1, 7), np.arange(11, 17)])
+    np.testing.assert_array_equal(mesh.hex_data["ints"], [5, 6])
+    np.testing.assert_array_equal(mesh.hex_data["part"], [np.nan, 99])  # of one hex only
+    np.testing.assert_array_equal(mesh.hex_data["press"], [17, 18])  # of two steps the last
+    assert mesh.notes == (
+        "Fields at Gauss points, or at the nodes of each element, are left out: elno.",
+        "Of fields with several time steps the last is read: press.",
+    )
+
+
+def attributes(path, field):
+    """What MED's library asks of a field and its parts, without times and names of components, by their depth."""
+    with h5py.File(path) as file:
+        groups, found = [file["CHA"][field]], []
+        while groups and isinstance(groups[0], h5py.Group):
+            found.append({name: value for one in groups for name, value in one.attrs.items()})
+            groups = [inner for one in groups for inner in one.values()]
+    passing = {"MAI", "NDT", "NOR", "PDT", "NOM", "UNI", "UNT"}
+    return [{name: value for name, value in one.items() if name not in passing} for one in found]
+
+
+@pytest.mark.parametrize("field", ["temp", "velo", "stress", "ints"])
+def test_a_field_says_of_itself_what_the_library_says(field, tmp_path):
+    io.write(tmp_path / "a.med", io.read(FILE))
+    assert attributes(tmp_path / "a.med", field) == attributes(FILE, field)
+
+
+def test_fields_of_nodes_and_several_kinds_are_one_where_they_are_alike(tmp_path):
+    mesh = grid(2).replace(node_data={"both": np.arange(27.0), "many": np.arange(54.0).reshape(27, 2)})
+    quads = Cells("quad", grid(2).topology.boundary_faces[:2], {"both": np.ones(2), "many": np.array([2**40, 3])})
+    mesh = mesh.replace(hex_data={"both": np.arange(8) / 2}, cells=(quads,))
+    io.write(tmp_path / "a.med", mesh)
+    with h5py.File(tmp_path / "a.med") as file:
+        assert list(file["CHA"]) == ["both", "many", "many_2"]
+        (step,) = file["CHA/both"].values()
+        assert set(step) == {"NOE", "MAI.HE8", "MAI.QU4"}
+        assert step.attrs["LGC"] == 1 << 13 | 1 << 5
+    back = io.read(tmp_path / "a.med")
+    for name, values in mesh.node_data.items():
+        np.testing.assert_array_equal(back.node_data[name], values)
+    np.testing.assert_array_equal(back.hex_data["both"], np.arange(8) / 2)
+    assert back.cells[0].data["many_2"].tolist() == [2**40, 3]
+
+
+def test_names_and_values_that_fields_cannot_have_are_named(tmp_path):
+    names = ["a/b", "a_b", ".", "é" * 40 + "1", "é" * 40 + "2"]
+    data = {name: np.full(8, k) for k, name in enumerate(names)}
+    mesh = grid(1).replace(node_data={**data, "words": np.array(["x"] * 8)})
+    said = io.left_out(tmp_path / "a.med", mesh)
+    assert said[0] == "point data that are no numbers (words)"
+    assert said[1].startswith("names of data as they are (., a/b, ")
+    io.write(tmp_path / "a.med", mesh)
+    back = io.read(tmp_path / "a.med").node_data
+    assert sorted(values.tolist() for values in back.values()) == [[k] * 8 for k in range(5)]
+    assert back["a_b"][0] == 1
+
+
+def changed(tmp_path, change):
+    path = tmp_path / "a.med"
+    path.write_bytes(FILE.read_bytes())
+    with h5py.File(path, "a") as file:
+        change(file, next(iter(file["CHA/temp"].values()))["NOE/MED_NO_PROFILE_INTERNAL"])
+    return path
+
+
+def shorter(file, part):
+    values = part["CO"][:-1]
+    del part["CO"]
+    part["CO"] = values
+
+
+def wrong_profile(file, part):
+    file["PROFILS/pfl1/PFL"][0] = 3
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (shorter, "CO holds 11 numbers: expected 1 for each of 12"),
+        (lambda file, part: part.__delitem__("CO"), "has no CO"),
+        (wrong_profile, "the profile pfl1 names what there is not: expected 1 to 2"),
+        (lambda file, part: file["CHA/temp"].attrs.__setitem__("NCO", 0), "the field temp has 0 components"),
+        (lambda file, part: file["PROFILS"].__delitem__("pfl1"), "cannot be read as HDF5"),
+    ],
+)
+def test_what_is_wrong_is_named(change, words, tmp_path):
+    with pytest.raises(FileError) as error:
+        io.read(changed(tmp_path, change))
+    assert words in str(error.value)
+
+
+def test_fields_of_other_meshes_are_left_out_and_said(tmp_path):
+    path = changed(tmp_path, lambda file, part: file["CHA/temp"].attrs.__setitem__("MAI", np.bytes_("other")))
+    mesh = io.read(path)
+    assert "temp" not in mesh.node_data
+    assert "Fields of other meshes are left out: temp." in mesh.notes
+
+
+def test_fields_that_get_another_name_for_their_type_are_told(tmp_path):
+    mesh = grid(2).replace(node_data={"a": np.zeros(27)}, hex_data={"a": np.arange(8)})
+    assert "names of data as they are (a)" in io.left_out(tmp_path / "a.med", mesh)
+
+
+def test_no_cells_have_no_values(tmp_path):
+    quads = Cells("quad", np.empty((0, 4), np.int32), {"q": np.empty((0, 3)), "of nothing": np.empty((0, 0))})
+    io.write(tmp_path / "a.med", grid(2).replace(cells=(quads,)))
+    assert io.read(tmp_path / "a.med").n_hexes == 8
+
+
+@pytest.mark.parametrize("profiles", [0, 1])
+def test_a_field_of_far_more_components_than_the_file_has_is_refused(profiles, tmp_path):
+    """Values of one node alone, of which all nodes would have as many."""
+    width = 100_000
+    io.write(tmp_path / "a.med", grid(10).replace(node_data={"a": np.zeros(1331)}))
+    with h5py.File(tmp_path / "a.med", "r+") as file:
+        file["CHA/a"].attrs["NCO"] = np.int32(width)
+        (step,) = file["CHA/a"].values()
+        del step["NOE/MED_NO_PROFILE_INTERNAL"]
+        if profiles:
+            step["NOE"].create_group("one").attrs["NGA"] = np.int32(1)
+            step["NOE/one/CO"] = np.zeros(width)
+            file["PROFILS/one/PFL"] = np.array([1], "<i4")
+    with pytest.raises(FileError, match=r"the field a .* too many for a file"):
+        io.read(tmp_path / "a.med")

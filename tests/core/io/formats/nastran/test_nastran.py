@@ -1,0 +1,152 @@
+"""Nastran's bulk data: files that Gmsh 4.15 wrote in all three kinds of fields, and what is written and read again."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend import io
+from hexmend.errors import FileError
+from hexmend.io.formats.nastran import column
+from hexmend.mesh.hexahedron import UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import summarise
+from tests.core.grids import grid
+from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
+
+FILES = Path(__file__).parents[2] / "files"
+GRIDS = "".join(f"GRID,{k + 1},,{x},{y},{z}\n" for k, (x, y, z) in enumerate(UNIT_CUBE.tolist()))
+CUBE = f"BEGIN BULK\n{GRIDS}CHEXA,9,4,1,2,3,4,5,6\n,7,8\nENDDATA\n"
+
+
+def read(text, tmp_path):
+    (tmp_path / "a.bdf").write_text(text)
+    return io.read(tmp_path / "a.bdf")
+
+
+@pytest.mark.parametrize("file", ["o1", "o2i", "free", "large"])
+def test_a_file_of_gmsh_is_read(file):
+    mesh = io.read(FILES / f"gmsh-{file}.bdf")
+    assert (mesh.n_hexes, summarise(mesh).inverted) == (2, 0)
+    assert mesh.hex_sets["property 1"].tolist() == [0, 1]
+    assert mesh.hex_data["id"].tolist() == [5, 6]
+    wedges = mesh.cells[-1]
+    assert wedges.kind == ("wedge" if file == "o1" else "wedge15")
+    assert wedges.sets["property 2"].tolist() == [0, 1]
+    corners = mesh.points[mesh.hexes].mean(axis=1)
+    np.testing.assert_allclose(corners, [[0.5, 0.5, 0.25], [0.5, 0.5, 0.75]])
+    middles_are_in_the_middle(mesh)
+
+
+@pytest.mark.parametrize("nodes", [8, 20])
+def test_what_is_written_is_read_again(nodes, tmp_path):
+    mesh = with_everything(nodes)
+    mesh = mesh.replace(
+        hex_sets={"property 12": np.array([1, 2]), "property 7": np.array([0, *range(3, mesh.n_hexes)])}
+    )
+    io.write(tmp_path / "a.nas", mesh)
+    again = io.read(tmp_path / "a.nas")
+    np.testing.assert_allclose(again.points, mesh.points, rtol=1e-12, atol=1e-15)
+    assert_same(mesh.rebuilt(points=again.points), again, without=("node_sets", "side_sets", "cells"))
+    assert [one.kind for one in again.cells] == [one.kind for one in mesh.cells]
+    assert not any("property" in words for words in io.left_out(tmp_path / "a.nas", mesh))
+
+
+def test_of_27_nodes_20_are_written(tmp_path):
+    io.write(tmp_path / "a.bdf", with_everything(27))
+    mesh = io.read(tmp_path / "a.bdf")
+    assert ((mesh.mid_nodes >= 0).sum(axis=1) == 12).all()
+    assert mesh.n_nodes == with_everything(27).n_nodes - 7 * mesh.n_hexes
+    middles_are_in_the_middle(mesh)
+
+
+@given(value=st.floats(-1e300, 1e300))
+def test_a_column_holds_a_number_as_well_as_it_can(value):
+    text = column(value)
+    assert len(text) <= 16
+    assert "." in text
+    sign, rest = text[:1], text[1:]
+    exponent = max(rest.rfind("+"), rest.rfind("-"))
+    number = float(sign + rest[:exponent] + "e" + rest[exponent:]) if exponent > 0 else float(text)
+    assert number == pytest.approx(value, rel=1e-8, abs=0)
+
+
+def test_numbers_as_nastran_writes_them(tmp_path):
+    text = CUBE.replace("GRID,2,,1.0,0.0", "GRID,2,,10.-1,0.0").replace("GRID,3,,1.0,1.0", "GRID,3,,+.1+1,1.D0")
+    text = "SOL 101\nCEND\nTITLE = cube $ none\n" + text + "GRID,99,,x,y,z\n"
+    mesh = read(text.replace("BEGIN BULK", "BEGIN BULK\nMAT1,1,2.1+5,,.3"), tmp_path)
+    np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
+    assert "1 MAT1" in mesh.notes[0]
+
+
+def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
+    mesh = read(CUBE.replace(",7,8\n", ",7,8,,,1\n"), tmp_path)
+    assert mesh.mid_nodes is None
+    assert "some of their mid-nodes" in mesh.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("GRID,2,,", "\0", "holds bytes that are no text"),
+        ("GRID,2,,", "GRID,2,5,", "GRID in line 3 is in the coordinate system 5: expected 0"),
+        ("GRID,2,,1.0", "GRID,2,,one", "GRID in line 3 holds 'one': expected a number"),
+        ("GRID,2,", "GRID,1,", "node 1 is given twice"),
+        (",7,8\n", ",7\n", "CHEXA in line 10 has 7 nodes: expected 8"),
+        (",7,8\n", ",7,77\n", "node 77 is used"),
+        (",7,8\n", ",7,8.5\n", "CHEXA in line 10 holds '8.5': expected a whole number"),
+        ("CHEXA,9", "INCLUDE 'more.bdf'\nCHEXA,9", "INCLUDE in line 10 takes what follows from another file"),
+        ("CHEXA", "CGAP", "holds no hexahedra"),
+        (GRIDS, "", "has no GRID"),
+    ],
+)
+def test_what_is_wrong_is_named(old, new, words, tmp_path):
+    assert old in CUBE
+    with pytest.raises(FileError) as error:
+        read(CUBE.replace(old, new), tmp_path)
+    assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("sets", "members", "said"),
+    [
+        ({"property 1": [0]}, {"property 1": [0], "property 2": [1]}, []),
+        ({"property 2": [1]}, {"property 1": [0], "property 2": [1]}, []),
+        (
+            {"property 2": [0, 1], "property 3": [0]},
+            {"property 2": [1], "property 3": [0]},
+            ["element sets that overlap (property 2)"],
+        ),
+        (
+            {"property 0": [0], "property 007": [1]},
+            {"property 1": [0, 1]},
+            ["element sets (property 0, property 007)"],
+        ),
+    ],
+)
+def test_elements_are_in_the_properties_they_were_in_or_it_is_said(sets, members, said, tmp_path):
+    mesh = grid(2, 1, 1).replace(hex_sets={name: np.array(rows) for name, rows in sets.items()})
+    assert io.left_out(tmp_path / "a.bdf", mesh) == said
+    io.write(tmp_path / "a.bdf", mesh)
+    assert {name: rows.tolist() for name, rows in io.read(tmp_path / "a.bdf").hex_sets.items()} == members
+
+
+def test_digits_that_columns_have_no_place_for_are_said(tmp_path):
+    words = "last digits of coordinates (a column has a place for 12 to 14)"
+    fine = grid(2)
+    for scale, said in ((0.25, []), (1e-60, []), (1 / 3, [words]), (1e-9 / 3, [words])):
+        mesh = Mesh(fine.points * scale, fine.hexes)
+        assert io.left_out(tmp_path / "a.bdf", mesh) == said
+        io.write(tmp_path / "a.bdf", mesh)
+        assert np.array_equal(io.read(tmp_path / "a.bdf").points, mesh.points) == (not said)
+
+
+def test_ids_of_more_than_eight_digits_do_not_keep_a_mesh_from_being_written(tmp_path):
+    mesh = grid(2).replace(node_data={"id": np.arange(27) + 10**8 - 26}, hex_data={"id": np.arange(8) + 10**8 - 8})
+    assert io.left_out(tmp_path / "a.bdf", mesh) == ["ids of nodes (some of 100,000,000 and above)"]
+    io.write(tmp_path / "a.bdf", mesh)
+    back = io.read(tmp_path / "a.bdf")
+    np.testing.assert_array_equal(back.node_data["id"], np.arange(27) + 1)
+    np.testing.assert_array_equal(back.hex_data["id"], mesh.hex_data["id"])

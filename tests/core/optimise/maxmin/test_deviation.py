@@ -1,0 +1,73 @@
+"""Where a sliding boundary and its surface are apart, as nodes move step by step."""
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.boundary import Sliding
+from hexmend.optimise.maxmin.deviation import Apart
+from tests.core.boundary.solids import ball, slid
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def wandering(mesh, nodes, seed, steps=4):
+    """Points of a mesh, a few of some nodes being moved at a time, and which these are."""
+    random, points = np.random.default_rng(seed), mesh.points
+    for _ in range(steps):
+        moved = random.choice(nodes, 4, replace=False)
+        points = points.copy()
+        points[moved] += random.normal(size=(4, 3)) * 0.2 * mesh.mean_edge_length
+        yield points, moved
+
+
+@settings(max_examples=15)
+@given(seeds)
+def test_followed_distances_bound_those_that_are_looked_up_anew(seed):
+    mesh = slid(ball(3), 0.2, seed)
+    sliding = Sliding(mesh)
+    apart = Apart(sliding, mesh.points)
+    assert apart.far.max() < 1e-9 * mesh.mean_edge_length
+    for step, (points, moved) in enumerate(wandering(mesh, sliding.nodes, seed)):
+        apart = apart.moved(points, moved)
+        anew = Apart(sliding, points)
+        assert (apart.far >= anew.far - 1e-12).all()
+        if not step:  # what is closest to a place at first is that place
+            went = np.isin(sliding.middles, moved).any(axis=1)
+            np.testing.assert_allclose(apart.far[went], anew.far[went], atol=1e-12)
+
+
+@settings(max_examples=15)
+@given(seeds, st.floats(0.01, 0.3))
+def test_a_boundary_leaves_its_room_where_something_is_further_than_before(seed, share):
+    mesh = slid(ball(3), 0.2, seed)
+    sliding, room = Sliding(mesh), share * mesh.mean_edge_length
+    before = Apart(sliding, mesh.points)
+    assert not before.moved(mesh.points, sliding.nodes).leaves(before, sliding.nodes, room)
+    for points, moved in wandering(mesh, sliding.nodes, seed):
+        after = before.moved(points, moved)
+        furthest = max(off.far.max(initial=0.0) for off in both_ways(sliding, points))
+        was = max(off.far.max(initial=0.0) for off in both_ways(sliding, before.points))
+        if was <= room:
+            assert after.leaves(before, moved, room) == (furthest > room)
+        before = after
+
+
+def both_ways(sliding, points):
+    return sliding.off(points, np.arange(len(sliding.middles))), sliding.behind(points)
+
+
+@settings(max_examples=10)
+@given(seeds, st.floats(0.01, 0.1))
+def test_only_what_nodes_could_bring_out_of_the_room_is_bounded(seed, reach):
+    mesh = slid(ball(3), 0.1, seed)
+    sliding, room = Sliding(mesh), 0.3 * mesh.mean_edge_length
+    bounded = 0
+    for points, moved in wandering(mesh, sliding.nodes, seed):
+        apart = Apart(sliding, mesh.points).moved(points, moved)
+        moves = np.zeros(mesh.n_nodes)
+        assert len(apart.bounds(moves, room).above) == 0
+        moves[moved] = reach
+        assert (apart.bounds(moves, room).above < reach).all()
+        bounded += len(apart.bounds(moves + 2 * room, room).above)
+    assert bounded

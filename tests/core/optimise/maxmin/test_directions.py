@@ -1,0 +1,38 @@
+"""The ways of nodes: along axes inside, along the surface where they slide."""
+
+import numpy as np
+import pytest
+
+from hexmend.boundary import Kind, Sliding
+from hexmend.optimise.maxmin.corner_values import shortest_edges
+from hexmend.optimise.maxmin.directions import ways_of
+from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.grids import grid
+
+
+def test_inside_there_are_both_senses_of_each_axis():
+    mesh = grid(3)
+    nodes = np.flatnonzero(mesh.free)
+    ways = ways_of(mesh.points[nodes], np.full(nodes.size, 0.5), 0.1, nodes, np.zeros(nodes.size, bool), None)
+    for k in range(nodes.size):
+        own = {tuple(way) for way in ways.aims[ways.of == k].tolist()}
+        assert own == {tuple(sign * 0.5 * axis) for axis in np.eye(3) for sign in (1, -1)}
+    np.testing.assert_array_equal(ways.leads, ways.aims)
+
+
+@pytest.mark.parametrize("mesh", [ball(3), cylinder(16, 3)], ids=["ball", "cylinder"])
+def test_sliding_nodes_go_along_their_patch_or_curve_and_stay_on_it(mesh):
+    mesh = slid(mesh, 0.2, 1)
+    sliding, radius = Sliding(mesh), 0.2
+    nodes = np.flatnonzero(sliding.mesh.free)
+    x, size = mesh.points[nodes], shortest_edges(mesh.points, mesh.hexes)[nodes]
+    ways = ways_of(x, size, radius, nodes, sliding.slides(nodes), sliding)
+    assert (np.diff(ways.of) >= 0).all()
+    count = {Kind.CURVE: 2, Kind.PATCH: 8}
+    expected = [count.get(Kind(kind), 6) for kind in sliding.kind[nodes]]
+    np.testing.assert_array_equal(np.bincount(ways.of, minlength=nodes.size), expected)
+    on = np.flatnonzero(sliding.slides(nodes)[ways.of])
+    of = ways.of[on]
+    there = x[of] + radius * ways.leads[on]
+    np.testing.assert_allclose(sliding.put_back(there, nodes[of]), there, atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(ways.aims[on], axis=1), size[of])

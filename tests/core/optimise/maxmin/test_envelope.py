@@ -1,0 +1,97 @@
+"""A boundary stays in the envelope of its surface, but for nodes that are lifted."""
+
+import numpy as np
+import pytest
+
+from hexmend.boundary import Sliding
+from hexmend.optimise.maxmin import envelope as envelopes
+from hexmend.optimise.maxmin.deviation import Apart
+from hexmend.optimise.maxmin.envelope import Envelope
+from tests.core.boundary.solids import ball, slid
+from tests.core.grids import grid
+
+
+@pytest.fixture
+def sliding():
+    return Sliding(slid(ball(3), 0.2, 1))
+
+
+def pushed(sliding, nodes, share):
+    """Points with some nodes pushed out by a share of the mean edge length."""
+    points = sliding.mesh.points.copy()
+    points[nodes] *= 1 + share * sliding.mesh.mean_edge_length / np.linalg.norm(points[nodes], axis=1, keepdims=True)
+    return points
+
+
+def test_without_sliding_nothing_is_bounded():
+    mesh = grid(2)
+    envelope, nodes = Envelope(mesh.n_nodes, None), np.arange(mesh.n_nodes)
+    points = mesh.points + 1.0
+    assert envelope.room == np.inf
+    assert not envelope.slides(nodes).any()
+    assert envelope.placed(mesh.points, points, nodes) is points
+    assert envelope.bounds(points, np.ones(mesh.n_nodes)).above.size == 0
+    assert not envelope.leaves(mesh.points, points, nodes)
+    assert envelope.furthest(points) == 0
+
+
+def test_sliding_nodes_are_put_back_and_lifted_ones_are_not(sliding):
+    envelope, nodes = Envelope(sliding.mesh.n_nodes, sliding), sliding.nodes
+    lifted = nodes[:1]
+    envelope.lifted[lifted] = True
+    assert (envelope.slides(nodes) == ~np.isin(nodes, lifted)).all()
+    outside = pushed(sliding, nodes, 0.05)
+    points = envelope.placed(sliding.mesh.points, outside.copy(), nodes)
+    np.testing.assert_array_equal(points[lifted], outside[lifted])
+    others = nodes[1:]
+    np.testing.assert_allclose(sliding.put_back(points[others], others), points[others], atol=1e-9)
+    assert sliding.turned(sliding.mesh.points, points).size == 0
+
+
+def test_the_boundary_leaves_its_room_where_it_is_further_than_that(sliding):
+    mesh, node = sliding.mesh, sliding.nodes[:1]
+    envelope, edge = Envelope(mesh.n_nodes, sliding), mesh.mean_edge_length
+    points = pushed(sliding, node, 0.3)
+    assert not envelope.leaves(mesh.points, points, node)  # where there is no end of room
+    far = envelope.furthest(points)
+    assert 0.2 * edge < far <= 0.3 * edge * (1 + 1e-9)
+    envelope.room = 0.99 * far
+    assert envelope.leaves(mesh.points, points, node)
+    assert node[0] in envelope.strayed(points)
+    envelope.room = 1.01 * far
+    assert not envelope.leaves(mesh.points, points, node)
+    assert envelope.strayed(points).size == 0
+
+
+def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
+    mesh, node = sliding.mesh, sliding.nodes[:1]
+    followed, anew = (Envelope(mesh.n_nodes, sliding) for _ in range(2))
+    followed.room = anew.room = 0.2 * mesh.mean_edge_length
+    points, moves = pushed(sliding, node, 0.1), np.zeros(mesh.n_nodes)
+    moves[sliding.nodes] = 0.2 * mesh.mean_edge_length
+    followed.follow(mesh.points, points, node)
+    one, other = (envelope.bounds(points, moves) for envelope in (followed, anew))
+    assert one.above.size
+    assert (one.rises == 0).all()
+    assert one.above.min() == pytest.approx(other.above.min())
+
+
+def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, monkeypatch):
+    looked = []
+
+    class Counted(Apart):
+        def __init__(self, *given):
+            looked.append(1)
+            super().__init__(*given)
+
+    monkeypatch.setattr(envelopes, "Apart", Counted)
+    envelope = Envelope(sliding.mesh.n_nodes, sliding)
+    envelope.room = sliding.mesh.mean_edge_length
+    before, nodes = sliding.mesh.points, sliding.nodes[:3]
+    after = pushed(sliding, nodes, 0.1)
+    assert not envelope.leaves(before, after, nodes)
+    envelope.bounds(after, np.full(len(after), 0.1))
+    assert len(looked) == 1
+    assert envelope.leaves(after, pushed(sliding, nodes, 1.5), nodes)
+    envelope.bounds(after, np.full(len(after), 0.1))  # what was refused is not where it is
+    assert len(looked) == 1

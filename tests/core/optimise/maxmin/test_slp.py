@@ -1,0 +1,179 @@
+"""The least scaled Jacobian is raised as far as it goes; what stops it is told."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import linprog
+
+from hexmend.boundary import Sliding, surface_change
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.optimise.maxmin.corner_values import gradients, scaled_jacobians, shortest_edges
+from hexmend.optimise.maxmin.linear_program import IDLE
+from hexmend.optimise.maxmin.slp import Limit, Raising
+from tests.core.boundary.solids import ball, cylinder, slid
+from tests.core.grids import grid, scrambled
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def raised(raising, **limits):
+    """What a `Raising` yields: its steps, and where it ends."""
+    *steps, limit = raising.steps(**limits)
+    assert isinstance(limit, Limit)
+    return steps, limit
+
+
+def steepest(mesh, points, limit):
+    """The rate at which the corners of a limit can be raised together, no node going further than its shortest edge."""
+    ends = mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]]
+    _, derivatives = gradients(points, ends)
+    slopes = np.zeros((len(ends), *points.shape))
+    for of, at, slope in zip(slopes, ends, derivatives, strict=True):
+        of[at] = slope
+    slopes *= shortest_edges(points, mesh.hexes)[:, None]
+    slopes = slopes[:, mesh.free].reshape(len(ends), -1)
+    ways = slopes.shape[1]
+    solved = linprog(
+        np.append(np.zeros(ways), -1.0),
+        A_ub=np.column_stack([-slopes, np.ones(len(ends))]),
+        b_ub=np.zeros(len(ends)),
+        bounds=[(-1, 1)] * ways + [(None, None)],
+    )
+    return -solved.fun
+
+
+def one_free_node(seed):
+    """A cube of eight hexes, its boundary rough, so that corners of several hexes hold each other."""
+    mesh = grid(2)
+    return mesh.with_points(mesh.points + np.random.default_rng(seed).uniform(-0.25, 0.25, mesh.points.shape))
+
+
+def with_locked_corner(mesh):
+    """The mesh with its first node pushed so far in that the corner there, all of whose nodes are fixed, is inverted."""
+    points = mesh.points.copy()
+    points[0] += 0.7 * (points[mesh.hexes[0, 6]] - points[0])
+    return mesh.with_points(points)
+
+
+@pytest.mark.slow
+@settings(max_examples=20)
+@given(seeds, st.floats(0.1, 1.2))
+def test_the_least_rises_from_step_to_step_and_fixed_nodes_stay(seed, amplitude):
+    mesh = scrambled(grid(3), amplitude, seed)
+    raising = Raising(mesh, mesh.points)
+    least = raising.corners.least
+    steps, limit = raised(raising)
+    for step in steps:
+        assert step.least > least
+        least = step.least
+        assert step.least == scaled_jacobians(step.points, mesh.hexes).min()  # that of the boundary's corners too
+        np.testing.assert_array_equal(step.points[mesh.fixed], mesh.points[mesh.fixed])
+    assert limit.least == raising.corners.least == least
+    np.testing.assert_array_equal(raising.corners.values, scaled_jacobians(raising.points, mesh.hexes))
+
+
+@pytest.mark.slow
+@settings(max_examples=20)
+@given(seeds, st.floats(0.1, 0.5))
+def test_a_scrambled_grid_is_raised_to_that_of_cubes(seed, amplitude):
+    mesh = scrambled(grid(3), amplitude, seed)
+    raising = Raising(mesh, mesh.points)
+    raised(raising)
+    assert raising.corners.least > 0.99
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_corners_at_the_end_hold_each_other(seed):
+    mesh = one_free_node(seed)
+    raising = Raising(mesh, mesh.points)
+    _, limit = raised(raising)
+    values = raising.corners.values[limit.hexes, limit.corners]
+    assert np.ptp(values) < 1e-3
+    assert (mesh.free[mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]]]).any(axis=1).all()
+    assert steepest(mesh, raising.points, limit) < 3 * IDLE + 1e-6  # each axis of a node has its price
+    random, size = np.random.default_rng(seed), shortest_edges(raising.points, mesh.hexes)[:, None]
+    for reach in 1e-2, 1e-3:
+        way = random.uniform(-1, 1, mesh.points.shape) * size * mesh.free[:, None]
+        there = scaled_jacobians(raising.points + reach * way, mesh.hexes)[limit.hexes, limit.corners]
+        assert there.min() < values.min() + 3 * IDLE * reach + 10 * reach**2
+
+
+def test_nothing_is_raised_beyond_its_aim():
+    mesh = scrambled(grid(4), 0.4, 2)
+    raising = Raising(mesh, mesh.points)
+    steps, _ = raised(raising, aim=0.6)
+    assert [step.least >= 0.6 for step in steps] == [False] * (len(steps) - 1) + [True]
+    assert raised(raising, aim=0.6)[0] == []
+
+
+@settings(max_examples=15)
+@given(seeds)
+def test_settled_corners_do_not_fall_while_others_rise(seed):
+    mesh = one_free_node(seed)
+    raising = Raising(mesh, mesh.points)
+    _, first = raised(raising)
+    at = first.hexes, first.corners
+    held = raising.corners.values[at]
+    raising.settle(first)
+    assert raising.corners.settled[at].all()
+    assert raising.corners.least >= first.least
+    _, second = raised(raising)
+    assert second.least >= first.least
+    np.testing.assert_array_equal(raising.corners.values[at], held)
+    assert raising.corners.lowest >= first.least
+    movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+    assert raising.corners.lowest == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
+
+
+def test_where_nothing_is_free_nothing_is_done():
+    mesh = grid(1)
+    raising = Raising(mesh, mesh.points)
+    steps, limit = raised(raising)
+    assert steps == []
+    assert raising.corners.least == limit.least == np.inf
+    assert limit.hexes.size == 0
+    np.testing.assert_array_equal(raising.points, mesh.points)
+
+
+def test_a_corner_that_fixed_nodes_lock_holds_back_no_other():
+    mesh = with_locked_corner(scrambled(grid(3), 0.3, 4))
+    raising = Raising(mesh, mesh.points)
+    steps, limit = raised(raising)
+    assert steps
+    assert raising.corners.values[0, 0] < 0 < limit.least
+    assert (0, 0) not in list(zip(limit.hexes, limit.corners, strict=True))
+
+
+@settings(max_examples=15)
+@given(seeds, st.integers(0, 7), st.integers(0, 7))
+def test_coinciding_nodes_are_no_end(seed, one, other):
+    mesh = scrambled(grid(3), 0.1, seed)
+    points, inner = mesh.points.copy(), int(np.flatnonzero(mesh.free)[one])
+    ring = mesh.topology.rings[inner]
+    points[inner] = points[ring[other % len(ring)]]
+    raising = Raising(mesh.with_points(points), points)
+    with np.errstate(all="raise"):
+        raised(raising)
+    assert np.isfinite(raising.points).all()
+    np.testing.assert_array_equal(raising.points[mesh.fixed], points[mesh.fixed])
+
+
+@pytest.mark.slow
+@settings(max_examples=10)
+@given(seeds, st.sampled_from(["ball", "cylinder"]), st.floats(0.02, 0.2))
+def test_the_boundary_slides_in_its_room(seed, solid, share):
+    mesh = slid({"ball": ball(3), "cylinder": cylinder(16, 3)}[solid], 0.25, seed)
+    room = share * mesh.mean_edge_length
+    sliding = Sliding(mesh, room=room)
+    raising = Raising(sliding.mesh, mesh.points, sliding)
+    before = raising.corners.least
+    steps, _ = raised(raising)
+    assert (np.diff([before, *(step.least for step in steps)]) > 0).all()
+    assert raising.envelope.furthest(raising.points) <= room * (1 + 1e-9)
+    change = surface_change(mesh, mesh.with_points(raising.points))
+    assert change.furthest <= room * (1 + 1e-9)
+    np.testing.assert_array_equal(raising.points[sliding.mesh.fixed], mesh.points[sliding.mesh.fixed])
+    on = raising.points[sliding.nodes]
+    np.testing.assert_allclose(sliding.put_back(on), on, atol=1e-9)

@@ -1,0 +1,240 @@
+"""Every metric: known values, what is declared, invariances, and hexes that have no value."""
+
+import math
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.stats import special_ortho_group
+
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, DIAGONALS, EDGES, FACES, UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import METRICS, measure, spreads
+from hexmend.quality.statistics import Spread
+from tests.core.grids import grid, scrambled
+
+ONE = np.arange(8, dtype=np.int32)[None]
+
+#: Metrics that grow with the cube of the mesh.
+CUBIC = {"volume", "jacobian"}
+
+
+def value(name, x):
+    return METRICS[name].of(x, ONE, measure(x, ONE))[0]
+
+
+def every(x):
+    return {name: value(name, x) for name in METRICS}
+
+
+SHEAR = np.array([[1, 0, 0], [1, 1, 0], [0, 0, 1]])  # rows: y leans by 45 degrees towards x
+
+KNOWN = {
+    "cube": (UNIT_CUBE, {
+        "q": 1, "scaled-jacobian": 1, "shape": 1, "condition": 1, "jacobian": 1, "volume": 1, "edge-ratio": 1,
+        "aspect-ratio": 1, "stretch": 1, "diagonal": 1, "skew": 0, "taper": 0, "warpage": 0, "min-angle": 90,
+        "max-angle": 90,
+    }),
+    "stretched": (UNIT_CUBE * [2, 1, 1], {
+        "q": 2 ** (2 / 3) / 2, "scaled-jacobian": 1, "shape": 2 ** (2 / 3) / 2, "condition": math.sqrt(6) * 1.5 / 3,
+        "jacobian": 2, "volume": 2, "edge-ratio": 2, "aspect-ratio": 2, "stretch": math.sqrt(3 / 6), "diagonal": 1,
+        "skew": 0, "taper": 0, "warpage": 0, "min-angle": 90, "max-angle": 90,
+    }),
+    "sheared": (UNIT_CUBE @ SHEAR, {
+        "q": 0.75, "scaled-jacobian": math.sqrt(0.5), "shape": 0.75, "condition": 4 / 3, "jacobian": 1, "volume": 1,
+        "edge-ratio": math.sqrt(2), "aspect-ratio": math.sqrt(2), "stretch": math.sqrt(3 / 6),
+        "diagonal": math.sqrt(2 / 6), "skew": math.sqrt(0.5), "taper": 0, "warpage": 0, "min-angle": 45,
+        "max-angle": 135,
+    }),
+    "parallelepiped": (UNIT_CUBE @ [[1, 0, 0], [0.5, math.sqrt(3) / 2, 0], [0, 0, 2]], {
+        "volume": math.sqrt(3), "jacobian": math.sqrt(3), "edge-ratio": 2, "aspect-ratio": 2, "skew": 0.5,
+        "min-angle": 60, "max-angle": 120, "diagonal": math.sqrt(5 / 7), "stretch": math.sqrt(3 / 7), "taper": 0,
+    }),
+    "frustum": (UNIT_CUBE * 2 - [1, 1, 0] - (UNIT_CUBE * 2 - 1) * UNIT_CUBE[:, 2:] * [0.5, 0.5, 0], {
+        "volume": 2 / 3 * (4 + 1 + 2), "taper": 1 / 3, "skew": 0, "aspect-ratio": 4 / 3, "warpage": 0,
+        "edge-ratio": math.sqrt(4.5), "jacobian": 2,
+    }),
+    "flat": (UNIT_CUBE * [1, 1, 0], {
+        "q": 0, "scaled-jacobian": 0, "shape": 0, "condition": math.inf, "jacobian": 0, "volume": 0,
+        "edge-ratio": math.inf, "aspect-ratio": math.inf, "stretch": 0, "diagonal": 1, "skew": 1, "taper": math.inf,
+        "warpage": 2, "min-angle": 0, "max-angle": 180,
+    }),
+    "in one place": (UNIT_CUBE * 0 + 3, {
+        "q": 0, "scaled-jacobian": 0, "shape": 0, "condition": math.inf, "jacobian": 0, "volume": 0,
+        "edge-ratio": math.inf, "aspect-ratio": math.inf, "stretch": 0, "diagonal": 0, "skew": 1, "taper": math.inf,
+        "warpage": 2, "min-angle": 0, "max-angle": 180,
+    }),
+    "inside out": (UNIT_CUBE * [-1, 1, 1], {
+        "q": 0, "scaled-jacobian": -1, "shape": 0, "condition": math.inf, "jacobian": -1, "volume": -1,
+        "edge-ratio": 1, "aspect-ratio": 1, "stretch": 1, "diagonal": 1, "skew": 0, "taper": 0, "warpage": 0,
+        "min-angle": 90, "max-angle": 90,
+    }),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_known_values(name):
+    x, expected = KNOWN[name]
+    values = every(np.array(x, float))
+    assert {key: values[key] for key in expected} == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+def by_plain_arithmetic(x):
+    """Every metric of one hex that is no flat one, straight from the manual."""
+    edges, diagonals = (np.linalg.norm(x[pairs[:, 1]] - x[pairs[:, 0]], axis=1) for pairs in (EDGES, DIAGONALS))
+    sides = (2 * UNIT_CUBE - 1).T
+    axes, crossing = sides @ x, sides * sides[[1, 2, 0]] @ x
+    long, other = np.linalg.norm(axes, axis=1), np.linalg.norm(crossing, axis=1)
+    skew = [abs(axes[i] @ axes[j]) / (long[i] * long[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
+    taper = [other[i] / min(long[i], long[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
+    S = [np.column_stack([x[k] - x[t[0]] for k in t[1:]]) for t in CORNER_TETRAHEDRA]
+    sound = min(map(np.linalg.det, S)) > 0
+    shape = [3 * np.linalg.det(s) ** (2 / 3) / np.square(s).sum() if sound else 0 for s in S]
+    condition = [np.linalg.norm(s) * np.linalg.norm(np.linalg.inv(s)) / 3 if sound else math.inf for s in S]
+    warpage, angles, volume = [], [], 0
+    for face in FACES:
+        y = x[face]
+        ahead, back = np.roll(y, -1, axis=0) - y, np.roll(y, 1, axis=0) - y
+        normals = np.cross(ahead, back)
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        warpage.append(1 - min(normals[0] @ normals[2], normals[1] @ normals[3]) ** 3)
+        lengths = np.linalg.norm(ahead, axis=1) * np.linalg.norm(back, axis=1)
+        angles += np.degrees(np.arccos((ahead * back).sum(axis=1) / lengths)).tolist()
+        middle = y.mean(axis=0)  # (a + b + c + d)/4: four tetrahedra with it and the origin
+        volume += sum(np.linalg.det([y[k], y[(k + 1) % 4], middle]) for k in range(4)) / 6
+    return {
+        "edge-ratio": edges.max() / edges.min(), "stretch": math.sqrt(3) * edges.min() / diagonals.max(),
+        "diagonal": diagonals.min() / diagonals.max(), "aspect-ratio": long.max() / long.min(), "skew": max(skew),
+        "taper": max(taper), "shape": min(shape), "condition": max(condition), "warpage": max(warpage),
+        "min-angle": min(angles), "max-angle": max(angles), "volume": volume,
+    }  # fmt: skip
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0.2, 0.7]))
+def test_metrics_are_those_of_plain_arithmetic(seed, amplitude):
+    x = UNIT_CUBE + np.random.default_rng(seed).uniform(-amplitude, amplitude, (8, 3))
+    expected = by_plain_arithmetic(x)
+    values = every(x)
+    assert {name: values[name] for name in expected} == pytest.approx(expected, rel=1e-9, abs=1e-9)
+
+
+def test_a_mesh_of_no_hexes_has_no_values():
+    none = np.empty((0, 8), np.int32)
+    figures = measure(UNIT_CUBE, none)
+    assert {metric.of(UNIT_CUBE, none, figures).shape for metric in METRICS.values()} == {(0,)}
+
+
+def test_a_prism_has_an_edge_of_no_length():
+    x = UNIT_CUBE.copy()
+    x[1], x[5] = x[0], x[4]
+    values = every(x)
+    assert values["edge-ratio"] == math.inf
+    assert (values["stretch"], values["min-angle"], values["max-angle"], values["warpage"]) == (0, 0, 180, 2)
+    assert values["volume"] == pytest.approx(0.5)
+    assert math.isfinite(values["aspect-ratio"])
+
+
+def test_a_twisted_cube_is_warped():
+    x = UNIT_CUBE * 2 - 1
+    angle = 0.3
+    x[4:, :2] = x[4:, :2] @ [[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]]
+    values = every(x)
+    assert 0 < values["warpage"] < 0.7
+    assert values["taper"] > 0
+    assert values["skew"] == pytest.approx(0, abs=1e-14)
+
+
+def test_the_jacobian_of_the_centre_counts():
+    for seed in range(200):
+        x = UNIT_CUBE + np.random.default_rng(seed).uniform(-0.8, 0.8, (8, 3))
+        axes = [sum(x[b] - x[a] for a, b in EDGES[4 * i : 4 * i + 4]) for i in range(3)]
+        centre, lowest = np.linalg.det(axes) / 64, measure(x, ONE).sigma[0]
+        assert value("jacobian", x) == pytest.approx(min(centre, lowest), rel=1e-12, abs=1e-14)
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(-40, 40))
+def test_metrics_do_not_depend_on_place_turn_or_size(seed, exponent):
+    random = np.random.default_rng(seed)
+    x = UNIT_CUBE + random.uniform(-0.25, 0.25, (8, 3))
+    scale = 10.0**exponent
+    moved = (x @ special_ortho_group.rvs(3, random_state=random).T + random.uniform(-5, 5, 3)) * scale
+    here, there = every(x), every(moved)
+    for name in METRICS:
+        size = scale**3 if name in CUBIC else 1
+        assert there[name] / size == pytest.approx(here[name], rel=1e-9, abs=1e-9), name
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_metrics_do_not_depend_on_where_the_numbering_begins(seed):
+    x = UNIT_CUBE + np.random.default_rng(seed).uniform(-0.6, 0.6, (8, 3))
+    turned = [[1, 2, 3, 0, 5, 6, 7, 4], [1, 5, 6, 2, 0, 4, 7, 3]]  # about z, about y
+    for order in turned:
+        assert every(x[order]) == pytest.approx(every(x), rel=1e-9, abs=1e-9)
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0, 1e-310, 1e-200, 1e-60, 1, 1e60, 1e110, 1e200, 1e307]))
+def test_finite_points_have_values_in_range_and_none_is_nan(seed, scale):
+    random = np.random.default_rng(seed)
+    x = random.integers(-1, 2, (8, 3)) * scale * random.choice([1.0, 1e-8], (8, 1))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        values = every(x)
+    for name in set(METRICS) - {"q", "scaled-jacobian"}:
+        low, high = METRICS[name].full_range
+        assert low - 1e-12 <= values[name] <= high + 1e-12, name
+
+
+@pytest.mark.parametrize("metric", METRICS.values(), ids=METRICS)
+def test_metrics_declare_what_they_are_and_stay_in_range(metric):
+    mesh = scrambled(grid(3), 0.6)
+    values = metric.of(mesh.points, mesh.hexes, measure(mesh.points, mesh.hexes))
+    assert METRICS[metric.name] is metric
+    assert metric.formula
+    assert metric.source
+    assert metric.meaning.endswith(".")
+    assert metric.better in (-1, 0, 1)
+    assert len(metric.title) <= 16
+    assert values.shape == (27,)
+    assert values.dtype == np.float64
+    low, high = metric.full_range
+    assert (values >= low - 1e-12).all()
+    assert (values <= high + 1e-12).all()
+    assert low <= metric.acceptable[0] < metric.acceptable[1] <= high
+
+
+def test_cubes_are_acceptable_and_what_is_worse_is_counted():
+    mesh = grid(3)
+    assert {spread.unacceptable for spread in spreads(mesh).values()} == {0}
+    assert Spread.over(METRICS["edge-ratio"], np.array([1, 5, 6, math.inf])) == Spread(1.0, 4.0, 6.0, 1, 2)
+    assert Spread.over(METRICS["condition"], np.array([math.inf])) == Spread(None, None, None, 1, 1)
+    assert Spread.over(METRICS["volume"], np.array([-1.0, 2.0])).unacceptable == 1
+    assert Spread.over(METRICS["shape"], np.array([0.2, 1 + 1e-15])).unacceptable == 1
+
+
+def test_volumes_of_a_mesh_add_up_to_that_of_its_box():
+    mesh = scrambled(grid(4), 0.3)
+    assert METRICS["volume"].of(mesh.points, mesh.hexes, None).sum() == pytest.approx(64)
+
+
+def test_single_hexes_and_many_agree():
+    mesh = scrambled(grid(7), 0.4)  # more than a chunk, and no whole number of lanes
+    figures = measure(mesh.points, mesh.hexes)
+    for name, metric in METRICS.items():
+        many = metric.of(mesh.points, mesh.hexes, figures)
+        one = Mesh(mesh.points, mesh.hexes[-1:])
+        assert metric.of(one.points, one.hexes, measure(one.points, one.hexes))[0] == many[-1], name
+
+
+def test_the_documentation_lists_every_metric_as_it_is_declared():
+    text = (Path(__file__).resolve().parents[3] / "docs/metrics.md").read_text(encoding="utf-8")
+    better = {1: "higher", -1: "lower", 0: "–"}
+    for name, metric in METRICS.items():
+        ranges = (
+            f"{low:g} to {high:g}".replace("inf", "∞").replace("-", "−")
+            for low, high in (metric.full_range, metric.acceptable)
+        )
+        row = f"| `{name}` | {metric.formula.replace('|', chr(92) + '|')} | {' | '.join(ranges)} | {better[metric.better]} |"
+        assert row in text, f"docs/metrics.md has no line\n{row}"

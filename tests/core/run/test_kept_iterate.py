@@ -1,0 +1,217 @@
+"""Which iterate a run keeps, and that it says what is worse: no method ends worse silently."""
+
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend import io
+from hexmend.cli.main import main
+from hexmend.gallery import GALLERY, make
+from hexmend.iteration import Stop
+from hexmend.quality import FIGURES, JUDGED, measure
+from hexmend.run import iterate, smooth
+from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
+from hexmend.smoothers import METHODS
+from tests.core.grids import grid
+from tests.core.smoothers.mend.test_mend import with_locked_corner
+
+SHORT = Stop(max_iterations=12)
+LAST = Stop(max_iterations=12, keep_last=True)
+
+#: By how much the least q(H) of an optimiser's result may be lower than at the start: what four decimals do not tell.
+SLACK = 0.5e-4
+
+
+@pytest.fixture(scope="module")
+def bridge():
+    """A sound mesh in which Laplacian smoothing inverts hexes."""
+    return make("bridge-sharp", size=864)
+
+
+def meshes():
+    """Gallery meshes, from sound to badly tangled, some with an inverted hex that fixed nodes lock."""
+    made = st.builds(
+        lambda name, scramble, seed: make(name, size=200, scramble=scramble, seed=seed),
+        st.sampled_from(list(GALLERY)),
+        st.sampled_from([0.0, 0.1, 0.3, 0.6, 1.0]),
+        st.integers(0, 99),
+    )
+    return made | made.map(with_locked_corner)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", METHODS)
+@settings(max_examples=8)
+@given(mesh=meshes(), most=st.integers(0, 12))
+def test_no_method_ends_with_more_inverted_hexes_or_a_lower_q_min(name, mesh, most):
+    result = smooth(mesh, name, Stop(max_iterations=most))
+    before, after = result.before, result.after
+    assert after.inverted <= before.inverted
+    if name != "mend" and after.inverted == before.inverted:
+        assert after.q_min >= before.q_min - (SLACK if METHODS[name].optimises else 0)
+
+
+@pytest.mark.parametrize("name", [name for name, method in METHODS.items() if not method.optimises])
+@settings(max_examples=8)
+@given(mesh=meshes())
+def test_a_method_without_an_objective_keeps_its_best_iterate_of_equals_the_last(name, mesh):
+    result = smooth(mesh, name, SHORT)
+    ranks = [(row["inverted"], -row["q_min"]) for row in result.history]
+    assert ranks[result.kept] == min(ranks)
+    assert min(ranks) not in ranks[result.kept + 1 :]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name, method in METHODS.items() if method.optimises and name != "mend"])
+@settings(max_examples=8)
+@given(mesh=meshes())
+def test_an_optimiser_keeps_its_last_iterate_unless_that_is_worse(name, mesh):
+    result = smooth(mesh, name, SHORT)
+    first = result.history[0]
+    ranks = [(row["inverted"], row["q_min"] < first["q_min"] - SLACK) for row in result.history]
+    assert ranks[result.kept] == min(ranks)
+    assert min(ranks) not in ranks[result.kept + 1 :]
+
+
+@pytest.mark.parametrize("stop", [SHORT, LAST], ids=["best", "last"])
+@pytest.mark.parametrize("name", METHODS)
+@settings(max_examples=4)
+@given(mesh=meshes())
+def test_worse_tells_exactly_what_is_worse(name, stop, mesh):
+    result = smooth(mesh, name, stop)
+    before, after = measure(mesh.points, mesh.hexes), measure(result.mesh.points, mesh.hexes)
+    rise = {
+        "inverted": before.n_inverted - after.n_inverted,
+        "q_min": after.q.min() - before.q.min(),
+        "scaled_jacobian": after.scaled_jacobian.min() - before.scaled_jacobian.min(),
+    }
+    assert list(result.worse) == [one for one in rise if rise[one] < -1e-12]
+    assert ("Worse than at the start" in result.message) == bool(result.worse)
+    for one, key in JUDGED.items():
+        words = result.message.partition("Worse than at the start")[2]
+        assert (FIGURES[key].label in words) == (one in result.worse)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", METHODS)
+@settings(max_examples=4)
+@given(mesh=meshes())
+def test_the_last_is_kept_where_it_is_asked_for(name, mesh):
+    run = iterate(mesh, name, LAST)
+    for _ in run:
+        pass
+    assert run.reached is run.last
+    assert "Kept" not in run.message
+    np.testing.assert_array_equal(run.result().mesh.points, run.last.points)
+
+
+def test_laplacian_gives_back_a_sound_mesh_and_says_so(bridge):
+    kept, last = smooth(bridge, "laplacian"), smooth(bridge, "laplacian", Stop(keep_last=True))
+    assert (kept.after.inverted, kept.worse) == (0, ())
+    assert "Kept is iteration 3, better than what came after." in kept.message
+    assert last.after.inverted > 0
+    assert "Worse than at the start: inverted 0 → 12" in last.message
+
+
+def test_a_stage_goes_on_from_what_was_kept_and_a_recipe_can_ask_for_the_last(bridge):
+    def begun_from(stop):
+        recipe = from_toml(to_toml(Recipe.of(Stage(METHODS["laplacian"](), stop), "mend")))
+        run = iterate(bridge, recipe)
+        list(run)
+        return next(stage for stage in run.result().stages if stage.stage == 2).first
+
+    assert begun_from(SHORT) == 3
+    assert begun_from(LAST) == 12
+
+
+def test_what_was_best_before_the_method_was_changed_is_still_kept(bridge):
+    run = iterate(bridge, "laplacian", LAST)
+    for _ in range(4):
+        next(run)
+    assert run.reached.number == 4
+    run.go_on_with("laplacian", SHORT)
+    assert run.reached.number == 3
+    run.go_on_with(METHODS["laplacian"](update="simultaneous"))
+    list(run)
+    assert (run.reached.number, run.last.number) == (3, 12)
+
+
+def test_a_method_that_takes_over_goes_on_from_the_newest_and_may_end_better(bridge):
+    run = iterate(bridge, "laplacian")
+    for _ in range(6):
+        newest = next(run)
+    run.go_on_with("local-sd")
+    taken_over = next(run)
+    expected = next(iterate(bridge.with_points(newest.points), "local-sd"))
+    np.testing.assert_array_equal(taken_over.points, expected.points)
+    list(run)
+    assert run.reached.number > 6
+    assert not {"inverted", "q_min"} & set(run.result().worse)
+
+
+def test_a_perfect_grid_is_not_worse_for_rounding():
+    assert all(smooth(grid(3), name, LAST).worse == () for name in METHODS)
+
+
+@pytest.mark.parametrize("words", [[], ["--keep-last"]])
+def test_smooth_and_compare_tell_other_programs(bridge, tmp_path, capsys, words):
+    io.write(tmp_path / "bridge.vtu", bridge)
+    paths = {name: str(tmp_path / name) for name in ("bridge.vtu", "out.vtu", "report.json", "tables")}
+    status = main(["smooth", paths["bridge.vtu"], "-o", paths["out.vtu"], "--json", paths["report.json"],
+                   "--method", "laplacian", *words])  # fmt: skip
+    assert status == (4 if words else 0)
+    fallen = ["inverted", "q_min", "scaled_jacobian"] if words else []
+    assert json.loads((tmp_path / "report.json").read_text())["worse"] == fallen
+    assert main(["compare", paths["bridge.vtu"], "-o", paths["tables"], "--methods", "laplacian", *words]) == 0
+    (row,) = json.loads((tmp_path / "tables/comparison.json").read_text())["rows"]
+    assert row["worse"] == fallen
+    said = capsys.readouterr().out
+    assert ("Worse than before: laplacian (inverted, q min, scaled Jacobian min)." in said) == bool(words)
+
+
+@pytest.mark.parametrize("words", [[], ["--keep-last"]])
+@pytest.mark.parametrize("term", ["xterm", "dumb"])
+@pytest.mark.parametrize("command", ["smooth", "compare"])
+def test_what_is_worse_is_red_where_there_are_colours(bridge, tmp_path, capsys, monkeypatch, command, term, words):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", term)
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    io.write(tmp_path / "bridge.vtu", bridge)
+    which = ["--method" if command == "smooth" else "--methods", "laplacian"]
+    main([command, str(tmp_path / "bridge.vtu"), "-o", str(tmp_path / "out.vtu"), *which, *words])
+    assert ("\x1b[31m" in capsys.readouterr().out) == bool(words)
+
+
+# Measured on meshes of others
+
+
+@pytest.mark.parametrize("name", ["CAD4.vtk", "bunny.vtk", "block_in.mesh", "cap_in.mesh", "pave1.e.vtk"])
+def test_laplacian_ends_with_no_more_inverted_hexes_on_real_meshes(real_mesh, name):
+    mesh = io.read(real_mesh(name))
+    result = smooth(mesh, "laplacian")
+    assert result.after.inverted <= result.before.inverted
+    assert result.after.inverted < result.before.inverted or result.after.q_min >= result.before.q_min
+
+
+@pytest.mark.slow
+def test_smart_laplacian_does_not_spoil_the_worst_hex(real_mesh):
+    mesh = io.read(real_mesh("pierrot_32735.mesh"))
+    result = smooth(mesh, "smart-laplacian")
+    assert result.history[-1]["q_min"] < 0.1 < result.before.q_min <= result.after.q_min
+    assert f"Kept is iteration {result.kept}" in result.message
+
+
+def test_a_method_that_takes_over_may_keep_where_it_begins(bridge):
+    """Of iterates that are as good an optimiser keeps the last, where Laplacian smoothing had kept an earlier one."""
+    run = iterate(bridge, "laplacian", SHORT)
+    for _ in range(12):
+        newest = next(run)
+        if run.reached is not newest and newest.figures.q.min() > run.result().before.q_min:
+            break
+    kept = run.reached
+    assert kept.number < newest.number
+    run.go_on_with("local-sd", Stop(max_iterations=newest.number))
+    assert run.reached.number == newest.number

@@ -1,0 +1,51 @@
+"""Moves that do harm are taken back, one by one: no hex that was sound at a sweep's start is inverted at its end."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.quality import measure
+from hexmend.smoothers import METHODS
+from tests.core.boundary.solids import ball, slid
+from tests.core.grids import grid, scrambled
+
+Smart = METHODS["smart-laplacian"]
+
+
+@settings(max_examples=20)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0.4, 0.8, 1.2]), st.sampled_from(["inversion", "quality"]))
+def test_sound_hexes_stay_sound_in_every_sweep(seed, amplitude, guard):
+    mesh = scrambled(grid(4), amplitude, seed)
+    steps = Smart(guard=guard).steps(mesh)
+    before = measure(next(steps).points, mesh.hexes)
+    for _ in range(3):
+        after = measure(next(steps).points, mesh.hexes)
+        assert not (after.inverted & ~before.inverted).any()
+        if guard == "quality":
+            assert after.q.min() >= before.q.min() - 1e-12
+        before = after
+
+
+@pytest.mark.parametrize("guard", ["inversion", "quality"])
+def test_no_sound_hex_is_inverted_where_nodes_slide(guard):
+    mesh = slid(ball(4), 0.4, 3)
+    steps = Smart(guard=guard, boundary="slide").steps(mesh)
+    before = measure(next(steps).points, mesh.hexes)
+    after = measure(next(steps).points, mesh.hexes)
+    assert not (after.inverted & ~before.inverted).any()
+
+
+def test_some_moves_are_taken_back():
+    steps = Smart().steps(scrambled(grid(4), 0.8, 1))
+    next(steps)
+    assert next(steps).notes["taken_back"] > 0
+
+
+def test_where_no_move_does_harm_every_node_goes_to_the_mean_of_its_neighbours():
+    mesh = scrambled(grid(3), 0.05, 1)
+    smart, plain = (METHODS[name]().steps(mesh) for name in ("smart-laplacian", "laplacian"))
+    next(smart), next(plain)
+    step = next(smart)
+    assert step.notes["taken_back"] == 0
+    np.testing.assert_array_equal(step.points, next(plain).points)

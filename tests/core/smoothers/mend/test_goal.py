@@ -1,0 +1,180 @@
+"""What mend is after: the least scaled Jacobian is raised where it is told to, and no harm is done in any case."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.gallery import make
+from hexmend.io import read
+from hexmend.iteration import Outcome
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
+from hexmend.optimise.maxmin.corner_set import MovableCorners
+from hexmend.optimise.maxmin.corner_values import scaled_jacobians
+from hexmend.quality import measure
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS
+from tests.core.boundary.solids import ball, cylinder, slid, wavy
+from tests.core.grids import grid, scrambled
+
+Mend = METHODS["mend"]
+
+#: Small meshes, cheap to draw many of.
+MESHES = {
+    "grid": lambda: grid(3),
+    "wavy": lambda: wavy(grid(3), 0.3),
+    "five-side": lambda: make("five-side", size=60),
+    "bridge-sharp": lambda: make("bridge-sharp", size=60),
+    "cylinder": lambda: cylinder(16, 2),
+    "ball": lambda: ball(3),
+}
+
+
+def figures(mesh):
+    """The number of inverted hexes, the least scaled Jacobian and the least quality of a mesh."""
+    measured = measure(mesh.points, mesh.hexes)
+    return measured.n_inverted, measured.scaled_jacobian.min(), measured.q.min()
+
+
+@pytest.mark.slow
+@settings(max_examples=30)
+@given(
+    name=st.sampled_from(sorted(MESHES)),
+    goal=st.sampled_from(["shape", "scaled-jacobian"]),
+    boundary=st.sampled_from(["fixed", "slide"]),
+    amplitude=st.sampled_from([0.0, 0.1, 0.3, 0.6, 1.5]),
+    iterations=st.sampled_from([1, 4, 12, 60]),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_it_does_no_harm_wherever_it_is_stopped(name, goal, boundary, amplitude, iterations, seed):
+    mesh = MESHES[name]()
+    mesh = scrambled(mesh, amplitude * mesh.mean_edge_length, seed)
+    if boundary == "slide":
+        mesh = slid(mesh, amplitude / 2, seed)
+    result = smooth(mesh, Mend(goal=goal, boundary=boundary), Stop(max_iterations=iterations))
+    inverted, least, q = figures(mesh)
+    inverted_after, least_after, q_after = figures(result.mesh)
+    assert inverted_after <= inverted
+    if inverted_after == inverted:
+        assert least_after >= least or q_after >= q
+        if goal == "scaled-jacobian":
+            assert least_after >= least
+    if boundary == "fixed":
+        np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
+
+
+@settings(max_examples=8)
+@given(st.sampled_from(sorted(MESHES)), st.sampled_from(["fixed", "slide"]), st.integers(0, 2**32 - 1))
+def test_the_least_ends_no_lower_than_at_the_optimum_of_shape(name, boundary, seed):
+    mesh = MESHES[name]()
+    mesh = scrambled(mesh, 0.3 * mesh.mean_edge_length, seed)
+    least = [smooth(mesh, Mend(goal=goal, boundary=boundary)).after for goal in ("shape", "scaled-jacobian")]
+    if least[0].inverted == least[1].inverted:
+        assert least[1].scaled_jacobian_min >= least[0].scaled_jacobian_min - 1e-9
+
+
+def test_what_limits_the_least_is_told():
+    mesh = wavy(scrambled(grid(2), 0.3, 1), 0.2, 2)
+    result = smooth(mesh, Mend(goal="scaled-jacobian"))
+    assert result.outcome is Outcome.NO_IMPROVEMENT
+    movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+    least = scaled_jacobians(result.mesh.points, mesh.hexes)[movable].min()
+    assert f"The least scaled Jacobian of the corners that can be moved is {least:.4f}" in result.message
+    held = np.unique(result.limits.hexes)
+    assert held.size
+    assert ", ".join(f"{h}" for h in dict.fromkeys(result.limits.hexes[:8].tolist())) in result.message
+    values = scaled_jacobians(result.mesh.points, mesh.hexes)
+    corner = mesh.hexes[result.limits.hexes] == result.limits.nodes[:, None]
+    assert corner.sum() == result.limits.hexes.size
+    np.testing.assert_allclose(values[result.limits.hexes][corner], least, atol=1e-3)
+    assert (values[result.limits.locked].min(axis=1) < least).all()
+    shaped = smooth(mesh, Mend())
+    assert "The least scaled Jacobian" not in shaped.message
+    assert shaped.limits is None
+
+
+@pytest.mark.parametrize("name", ["bridge-sharp", "plane"])
+def test_corners_that_are_apart_are_not_said_to_hold_each_other(name):
+    mesh = make(name, size=500)
+    result = smooth(mesh, Mend(goal="scaled-jacobian"))
+    limits = result.limits
+    corner = (mesh.hexes[limits.hexes] == limits.nodes[:, None]).argmax(axis=1)
+    places = len(set(MovableCorners(mesh, result.mesh.points).groups(8 * limits.hexes + corner)))
+    assert places > 1
+    assert f"{limits.hexes.size} of them can go no further there, in {places} places apart" in result.message
+    assert "hold each other" not in result.message
+
+
+def test_a_corner_that_is_locked_below_the_others_is_told():
+    cube = grid(2)
+    points = cube.points.copy()
+    points[cube.topology.boundary & (points == 0).all(axis=1)] += 0.35  # the apex of a corner of the cube
+    mesh = scrambled(cube.with_points(points), 0.2)
+    result = smooth(mesh, Mend(goal="scaled-jacobian"))
+    assert result.limits.locked.tolist() == [0]
+    values = scaled_jacobians(result.mesh.points, mesh.hexes)
+    assert "One corner is locked below that" in result.message or "corners are locked below that" in result.message
+    assert f"{values.min():.4f} at the lowest, in hex 0." in result.message
+
+
+@pytest.mark.slow
+def test_cad4_is_raised_to_its_optimum(real_mesh):
+    mesh = read(real_mesh("CAD4.vtk"))
+    result = smooth(mesh, Mend(goal="scaled-jacobian"))
+    assert result.after.inverted == 0
+    assert result.after.scaled_jacobian_min >= 0.148
+    assert result.after.q_min >= result.before.q_min
+    np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
+
+
+def test_of_impeller_all_is_raised_that_is_not_locked(real_mesh):
+    mesh = read(real_mesh("impeller.vtk"))
+    result = smooth(mesh, Mend(goal="scaled-jacobian"))
+    movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+    assert scaled_jacobians(mesh.points, mesh.hexes)[movable].min() < 0.214
+    values = scaled_jacobians(result.mesh.points, mesh.hexes)
+    assert values[movable].min() >= 0.2434
+    assert values[~movable].min() == pytest.approx(result.before.scaled_jacobian_min)
+    assert f"of the corners that can be moved is {values[movable].min():.4f}" in result.message
+
+
+@settings(max_examples=15)
+@given(
+    name=st.sampled_from(["cube", "five-side", "bridge-sharp"]),
+    far=st.floats(1, 6),
+    which=st.integers(0, 2**16),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_a_node_far_away_is_brought_back(name, far, which, seed):
+    sound = make(name, size=200)
+    (inner,) = np.nonzero(sound.free)
+    node, points = inner[which % inner.size], sound.points.copy()
+    way = np.random.default_rng(seed).normal(size=3)
+    points[node] += 10**far * sound.mean_edge_length * way / np.linalg.norm(way)
+    mesh = sound.with_points(points)
+    assert measure(points, mesh.hexes).n_inverted > 0
+    result, best = smooth(mesh, Mend()), smooth(sound, Mend())
+    assert result.after.inverted == 0
+    assert result.after.objective == pytest.approx(best.after.objective, rel=1e-3, abs=1e-6)
+    away = np.linalg.norm(result.mesh.points - best.mesh.points, axis=1)
+    assert away.max() < 0.1 * sound.mean_edge_length
+
+
+def test_a_node_far_away_in_a_real_mesh_is_brought_back(real_mesh):
+    sound = read(real_mesh("swivel2_7494.mesh"))
+    points, node = sound.points.copy(), np.flatnonzero(sound.free)[100]
+    points[node] += 1e5 * sound.mean_edge_length
+    result = smooth(sound.with_points(points), Mend())
+    assert result.before.inverted > 0
+    assert result.after.inverted == result.after.locked_inverted
+    assert np.linalg.norm(result.mesh.points[node] - sound.points[node]) < sound.mean_edge_length
+
+
+@pytest.mark.slow
+def test_where_the_optimum_of_shape_lowers_the_least_the_goal_that_raises_it_is_named(real_mesh):
+    mesh = read(real_mesh("CAD4.vtk"))
+    shaped, raised = (smooth(mesh, Mend(goal=goal)) for goal in ("shape", "scaled-jacobian"))
+    assert shaped.worse == ("scaled_jacobian",)
+    assert "With goal=scaled-jacobian the least scaled Jacobian rises instead" in shaped.message
+    assert raised.worse == ()
+    assert "rises instead" not in raised.message

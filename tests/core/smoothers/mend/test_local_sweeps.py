@@ -1,0 +1,119 @@
+"""Which nodes mend's local sweeps move: around what is inverted or poor, but never where corners are left out."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from hexmend.energy import MeshEnergy, SlidingEnergy
+from hexmend.kernels import local
+from hexmend.quality import measure
+from hexmend.smoothers.mend import mend
+from hexmend.smoothers.mend.local_sweeps import local_sweeps
+from tests.core.boundary.solids import wavy
+from tests.core.grids import grid, scrambled
+
+
+@pytest.fixture
+def swept(monkeypatch):
+    """Sweeps as mend makes them around a hex of a grid of 7 x 7 x 7; the nodes that move."""
+    mesh = scrambled(grid(7), 0.2, 1)
+    energy = MeshEnergy(mesh)
+    asked = []
+    sweep = local.sweep
+    monkeypatch.setattr(local, "sweep", lambda *given: asked.append(given) or sweep(*given))
+
+    def around(which, left_out=(), sweeps=2):
+        hexes, omitted = np.zeros(mesh.n_hexes, bool), np.zeros(mesh.n_hexes, np.uint8)
+        hexes[list(which)], omitted[list(left_out)] = True, 1
+        x = energy.scaled(mesh.points)
+        there = local_sweeps(energy, x, hexes, omitted, 0.0, sweeps)
+        assert len(asked) == sweeps
+        np.testing.assert_array_equal(x, energy.scaled(mesh.points))
+        asked.clear()
+        return set(np.flatnonzero((there != x).any(axis=1)).tolist())
+
+    return mesh, around
+
+
+def nodes_of(mesh, hexes):
+    return set(np.unique(mesh.hexes[list(hexes)]).tolist())
+
+
+def neighbours(mesh, which):
+    """Hexes that have a node in common with some."""
+    return np.flatnonzero(np.isin(mesh.hexes, mesh.hexes[list(which)]).any(axis=1))
+
+
+@pytest.mark.parametrize("hexa", [171, 0, 24])  # in the middle, at a corner, in between
+def test_nodes_of_a_hex_and_of_its_neighbours_move_and_no_others(swept, hexa):
+    mesh, around = swept
+    assert around([hexa]) == nodes_of(mesh, neighbours(mesh, [hexa])) & set(np.flatnonzero(mesh.free).tolist())
+
+
+def test_nodes_at_hexes_of_which_corners_are_left_out_stay(swept):
+    mesh, around = swept
+    moved, all_of_them = around([171], left_out=[172]), around([171])
+    assert moved == all_of_them - nodes_of(mesh, [172])
+    assert moved < all_of_them
+
+
+def test_sweeps_lower_the_energy_of_what_they_are_made_around(swept):
+    mesh, around = swept
+    worst = int(measure(mesh.points, mesh.hexes).eta.argmax())
+    assert around([worst], sweeps=1) <= around([worst], sweeps=5)
+
+
+def test_corners_that_resist_are_left_out_as_those_that_are_locked():
+    """Half of a cube is folded back over the other: wherever the node in the middle goes, hexes are inverted."""
+    mesh = grid(2)
+    points = mesh.points.copy()
+    points[points[:, 0] == 2, 0] = -1.0
+    mesh = mesh.with_points(points)
+    energy, locked = MeshEnergy(mesh), mend.locked_corners(mesh)
+    walk = mend.Mend()._untangled(mesh, energy.but(energy.power, locked), locked)  # noqa: SLF001
+    while True:
+        try:
+            next(walk)
+        except StopIteration as end:
+            points, left_out = end.value
+            break
+    inverted = mend.inverted_corners(points, mesh.hexes)
+    np.testing.assert_array_equal(left_out, inverted | locked)
+    assert (inverted & ~locked).any()
+
+
+@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+def test_what_resists_is_given_up_after_so_many_deltas_that_mended_nothing(boundary, monkeypatch):
+    """Nothing is ever mended here: each delta has one round of sweeps."""
+    mesh = scrambled(grid(3), 1.5, 1)
+    method = mend.Mend(boundary=boundary)
+    energy = SlidingEnergy(method.sliding(mesh)) if method.slides else MeshEnergy(mesh)
+    monkeypatch.setattr(mend, "tangled_in", lambda *_: (5, -0.1))
+    deltas = [step.notes["delta"] for step in method._untangled(mesh, energy, mend.locked_corners(mesh))  # noqa: SLF001
+              if "sweeps" in step.notes]  # fmt: skip
+    assert len(deltas) == (mend.SLIDING_PATIENCE if energy.faceted else mend.PATIENCE)
+    assert (np.diff(deltas) < 0).all()
+
+
+def test_a_run_at_its_optimum_has_no_iteration_that_only_repeats_the_last():
+    steps = list(itertools.islice(mend.Mend().steps(wavy(grid(3), 0.2)), 300))
+    assert 2 < len(steps) < 300
+    assert all((one.points != other.points).any() for one, other in itertools.pairwise(steps))
+
+
+@pytest.mark.parametrize("few", [True, False])
+def test_where_few_hexes_are_inverted_they_are_swept_longer_and_the_whole_mesh_steps_at_every_third_delta(
+    few, monkeypatch
+):
+    mesh = scrambled(grid(3), 1.5, 1)
+    monkeypatch.setattr(mend, "tangled_in", lambda *_: (5, -0.1))  # nothing is ever mended
+    monkeypatch.setattr(mend, "FEW", 6 / 27 if few else 5 / 27)
+    walk = mend.Mend()._untangled(mesh, MeshEnergy(mesh), mend.locked_corners(mesh))  # noqa: SLF001
+    steps = [step.notes for step in walk]
+    swept = [notes["sweeps"] for notes in steps if "sweeps" in notes]
+    assert swept == [mend.MANY_SWEEPS if few else mend.SWEEPS] * mend.PATIENCE
+    deltas = list(dict.fromkeys(notes["delta"] for notes in steps))
+    stepped = {deltas.index(notes["delta"]) for notes in steps if "sweeps" not in notes}
+    assert stepped <= set(range(2, mend.PATIENCE, 3) if few else range(mend.PATIENCE))
+    assert stepped

@@ -1,0 +1,102 @@
+"""What methods advise where something got worse, and what mend's steps say while another stage is to come."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from hexmend.boundary import Sliding
+from hexmend.optimise.maxmin.slp import Limit, Raising
+from hexmend.quality.regressions import JUDGED
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.mend import maxmin_stage
+from hexmend.smoothers.mend.maxmin_stage import TOGETHER, lifted
+from tests.core.boundary.solids import ball, slid
+
+#: Every set of figures that can be worse.
+WORSE = [words for count in range(len(JUDGED) + 1) for words in itertools.combinations(JUDGED, count)]
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_what_is_advised_is_a_text_whatever_got_worse(name):
+    assert all(isinstance(METHODS[name]().instead(words), str) for words in WORSE)
+
+
+def test_mend_advises_its_other_goal_or_its_guard_only_where_they_help():
+    mend = METHODS["mend"]
+    for words in WORSE:
+        advice = mend().instead(words)
+        assert ("goal=scaled-jacobian" in advice) == ("scaled_jacobian" in words and "inverted" not in words)
+        assert ("guard=true" in advice) == (bool(words) and "inverted" not in words)
+        assert mend(goal="scaled-jacobian").instead(words) == ""
+
+
+def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
+    mesh = slid(ball(3), 0.3, 1)
+    room = 0.1 * mesh.mean_edge_length
+    sliding = Sliding(mesh, room=room)
+    other = Raising(sliding.mesh, mesh.points, sliding)
+    *_, limit = other.steps()
+    assert isinstance(limit, Limit)
+    steps = list(lifted(Raising(sliding.mesh, mesh.points, sliding), room, other, limit))
+    assert steps
+    assert all(step.more for step in steps)
+    assert not steps[-1].detour
+
+
+def test_what_is_no_better_off_the_surface_is_given_up():
+    mesh = ball(3)
+    sliding = Sliding(mesh, room=1e-9)
+    other = Raising(sliding.mesh, mesh.points, sliding)
+    *_, limit = other.steps()
+    other.corners.values[:] = 1.0  # as good as can be: nothing is better
+    walk = lifted(Raising(sliding.mesh, mesh.points, sliding), 1e-9, other, limit)
+    steps = []
+    while True:
+        try:
+            steps.append(next(walk))
+        except StopIteration as end:
+            best, of = end.value
+            break
+    assert best is other
+    assert of is limit
+    assert steps[-1].points is other.points
+    assert steps[-1].notes == {"least": other.corners.lowest}
+    assert all(step.more for step in steps)
+
+
+@pytest.mark.slow
+def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(monkeypatch):
+    mesh = slid(ball(3), 0.3, 1)
+    room = 0.01 * mesh.mean_edge_length
+    sliding = Sliding(mesh, room=room)
+    other = Raising(sliding.mesh, mesh.points, sliding)
+    *_, limit = other.steps()
+    monkeypatch.setattr(maxmin_stage, "AIM", 0.7)
+    made, into = [], Raising.into
+    monkeypatch.setattr(Raising, "into", lambda *given: (made.append(step.points) or step for step in into(*given)))
+    steps = list(lifted(Raising(sliding.mesh, mesh.points, sliding), room, other, limit))
+    assert len(made) > TOGETHER
+    shown = [k for k, points in enumerate(made) if any(step.detour and step.points is points for step in steps)]
+    assert shown == list(range(0, len(made), TOGETHER))
+
+
+def test_what_is_better_off_the_surface_and_back_in_its_room_is_taken(monkeypatch):
+    mesh = slid(ball(3), 0.3, 1)
+    room = 0.1 * mesh.mean_edge_length
+    sliding = Sliding(mesh, room=room)
+    other, off = (Raising(sliding.mesh, mesh.points, sliding) for _ in range(2))
+    limit = Limit(other.corners.least, np.array([0]), np.array([0]))
+    monkeypatch.setattr(maxmin_stage, "AIM", 0.3)
+    walk = lifted(off, room, other, limit)
+    while True:
+        try:
+            next(walk)
+        except StopIteration as end:
+            best, of = end.value
+            break
+    assert best is off
+    assert of is not limit
+    assert off.corners.lowest > other.corners.lowest
+    assert 0.5 * room < off.envelope.furthest(off.points) <= room * (1 + 1e-5)
+    assert not off.envelope.turns

@@ -1,0 +1,126 @@
+"""What no method that lets the boundary slide does: turn a quad of it over, or leave the room around the surface."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.boundary import Sliding, surface_change
+from hexmend.run import Stop, smooth
+from hexmend.smoothers import METHODS
+from tests.core.boundary.solids import ball, cylinder, slid, wavy
+from tests.core.grids import grid
+
+METHOD = st.sampled_from(sorted(METHODS))
+SOLIDS = {
+    "block": lambda: grid(3, 2, 4),
+    "cylinder": lambda: cylinder(16, 3),
+    "ball": lambda: ball(3),
+    "wavy": lambda: wavy(grid(4), 0.3),
+}
+SOLID = st.sampled_from(sorted(SOLIDS))
+SEED = st.integers(0, 2**32 - 1)
+
+
+def sides(points, sliding):
+    """By how much each of the boundary's quads faces outward, as the sine between its diagonals seen from there, (k,)."""
+    x = points[sliding.boundary.faces]
+    one, other = x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]
+    size = np.linalg.norm(one, axis=1) * np.linalg.norm(other, axis=1)
+    return np.einsum("kj,kj->k", np.cross(one, other), sliding.outward) / np.maximum(size, np.finfo(float).tiny)
+
+
+@pytest.mark.slow
+@settings(max_examples=60)
+@given(name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.2, 0.6, 1.0]), seed=SEED)
+def test_no_step_turns_a_quad_over(name, solid, amplitude, seed):
+    mesh = slid(SOLIDS[solid](), amplitude, seed)
+    sliding = Sliding(mesh)
+    before = sides(mesh.points, sliding)
+    method = METHODS[name](boundary="slide", surface_tolerance="unlimited")
+    for step in itertools.islice(method.steps(mesh), 8):
+        after = sides(step.points, sliding)
+        if not step.detour:
+            assert not ((before > 1e-6) & (after < -1e-6)).any()
+            before = after
+
+
+def test_normals_are_those_of_the_sides():
+    mesh = grid(3)
+    sliding = Sliding(mesh)
+    middles = mesh.points[sliding.boundary.faces].mean(axis=1) - 1.5
+    outermost = np.abs(middles).argmax(axis=1)
+    expected = np.zeros_like(middles)
+    rows = np.arange(len(middles))
+    expected[rows, outermost] = np.sign(middles[rows, outermost])
+    np.testing.assert_allclose(sliding.outward, expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "local-sd", "global-nr", "mend"])
+def test_a_node_beyond_its_neighbour_finds_its_way_back(name):
+    cube = grid(4)
+    points = cube.points.copy()
+    node = int(np.flatnonzero((cube.points == [2, 2, 0]).all(axis=1))[0])
+    points[node, 0] += 1.4  # two quads lie over each other, none is turned as a whole
+    mesh = cube.with_points(points)
+    result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance="unlimited"), Stop(max_iterations=200))
+    assert (sides(result.mesh.points, Sliding(cube)) > 0.5).all()
+    assert np.linalg.norm(result.mesh.points[node] - cube.points[node]) < 0.5
+    np.testing.assert_array_equal(result.mesh.points[:, 2][cube.points[:, 2] == 0], 0)
+
+
+def test_a_quad_that_is_turned_may_stay_so_and_be_turned_back():
+    mesh = grid(4)
+    sliding, folded = Sliding(mesh), mesh.points.copy()
+    node = int(np.flatnonzero((folded == [2, 2, 0]).all(axis=1))[0])
+    folded[node, :2] += 1.4  # beyond the opposite corner of a quad
+    assert sliding.turned(mesh.points, folded).size == 1
+    assert not sliding.turned(folded, folded).size
+    assert not sliding.turned(folded, mesh.points).size
+    np.testing.assert_array_equal(sliding.unturned(mesh.points, folded), mesh.points)
+
+
+@pytest.mark.slow
+@settings(max_examples=60)
+@given(
+    name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.0, 0.3, 0.8]), tolerance=st.sampled_from([0.02, 0.1, 0.3]),
+    seed=SEED,
+)  # fmt: skip
+def test_the_boundary_stays_in_its_room_both_ways(name, solid, amplitude, tolerance, seed):
+    mesh = slid(SOLIDS[solid](), amplitude, seed)
+    method = METHODS[name](boundary="slide", surface_tolerance=tolerance)
+    result = smooth(mesh, method, Stop(max_iterations=10, keep_last=True))
+    assert surface_change(mesh, result.mesh).max <= tolerance * (1 + 1e-4)
+
+
+@pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "local-patch"])
+def test_the_room_costs_little_of_what_is_reached(name):
+    mesh = slid(wavy(grid(4), 0.3), 0.5, seed=2)
+    stop = Stop(max_iterations=20, keep_last=True)
+    free, held = (
+        smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=room), stop) for room in ("unlimited", 0.1)
+    )
+    assert free.surface.max > 0.1 >= held.surface.max * (1 - 1e-6)
+    assert held.after.q_mean - held.before.q_mean > 0.3 * (free.after.q_mean - free.before.q_mean)
+
+
+@pytest.mark.slow
+@settings(max_examples=40)
+@given(name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.0, 0.3, 0.8]), seed=SEED)
+def test_with_a_tolerance_of_0_the_boundary_stays_on_its_surface(name, solid, amplitude, seed):
+    mesh = slid(SOLIDS[solid](), amplitude, seed)
+    method = METHODS[name](boundary="slide", surface_tolerance=0)
+    result = smooth(mesh, method, Stop(max_iterations=10, keep_last=True))
+    assert result.surface.max < 1e-7
+    assert abs(result.surface.volume_change) < 1e-7
+
+
+@pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "global-nr", "mend"])
+def test_with_a_tolerance_of_0_nodes_slide_where_the_surface_is_flat(name):
+    mesh = slid(grid(4), 0.3, seed=1)
+    result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=0), Stop(max_iterations=50))
+    on = result.mesh.points[Sliding(mesh).nodes]
+    assert np.abs(on - np.round(on)).max() < 0.05  # where the nodes of a grid of cubes are
+    assert result.surface.max < 1e-9

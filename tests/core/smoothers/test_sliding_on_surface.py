@@ -1,0 +1,158 @@
+"""The boundary slides on a surface that is given, not on itself."""
+
+import functools
+import itertools
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend import io
+from hexmend.boundary import Kind, Skin, Sliding, surface_change
+from hexmend.boundary.closest_point import triangulated
+from hexmend.cli.main import main
+from hexmend.errors import MeshError
+from hexmend.run import Stop, smooth
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.smoothers import METHODS
+from tests.core.boundary.solids import ball, cylinder, slid, wavy
+from tests.core.grids import grid
+
+
+def skin_of(mesh, name="part.stl"):
+    """The boundary of a mesh as triangles."""
+    points, triangles, _ = triangulated(mesh.points, mesh.topology.boundary_faces)
+    used, numbers = np.unique(triangles, return_inverse=True)
+    return Skin(points[used], numbers.reshape(-1, 3).astype(np.int32), name)
+
+
+def write_stl(path, skin):
+    """As text, each triangle with corners of its own."""
+    lines = ["solid part"]
+    for corners in skin.points[skin.faces].tolist():
+        lines += ["facet normal 0 0 0", "outer loop"]
+        lines += [f"vertex {x!r} {y!r} {z!r}" for x, y, z in corners]
+        lines += ["endloop", "endfacet"]
+    path.write_text("\n".join([*lines, "endsolid part"]))
+
+
+SOLIDS = {
+    "ball": (lambda: ball(3), lambda: ball(12)),
+    "cylinder": (lambda: cylinder(16, 2), lambda: cylinder(64, 8)),
+    "block": (lambda: grid(3), lambda: grid(3)),
+}
+
+
+@functools.cache
+def fine_skin(solid):
+    """The surface of a solid of small faces; making one takes longer than smoothing a mesh on it."""
+    return skin_of(SOLIDS[solid][1]())
+
+
+@pytest.mark.slow
+@settings(max_examples=30)
+@given(st.sampled_from(sorted(METHODS)), st.sampled_from(sorted(SOLIDS)), st.integers(0, 2**32 - 1))
+def test_nodes_are_put_on_the_surface_and_stay_on_it(name, solid, seed):
+    mesh, target = slid(SOLIDS[solid][0](), 0.2, seed), fine_skin(solid)
+    kept, on = Sliding(mesh).mesh.fixed, mesh.sliding_on(target)
+    slides = Sliding(on).nodes
+    for number, step in enumerate(itertools.islice(METHODS[name](boundary="slide").steps(on), 4)):
+        if number:
+            assert target.distances(step.points[slides]).max() < 1e-9 * mesh.mean_edge_length
+        np.testing.assert_array_equal(step.points[kept], mesh.points[kept])
+
+
+def test_its_own_boundary_as_the_surface_is_the_same_as_none():
+    mesh = slid(cylinder(16, 3), 0.2)
+    own, on = Sliding(mesh), Sliding(mesh.sliding_on(skin_of(mesh)))
+    np.testing.assert_array_equal(own.kind, on.kind)
+    method, stop = METHODS["local-nr"](boundary="slide"), Stop(max_iterations=5)
+    one, other = (smooth(of, method, stop).mesh.points for of in (mesh, mesh.sliding_on(skin_of(mesh))))
+    np.testing.assert_allclose(one, other, atol=1e-6)
+
+
+def test_edges_of_the_boundary_that_the_surface_does_not_have_are_smooth():
+    coarse, target = cylinder(8, 2), skin_of(cylinder(64, 8))  # whose sides meet at 45 degrees
+    mesh = coarse.sliding_on(target)
+    before, after = Sliding(coarse), Sliding(mesh)
+    height = coarse.points[:, 2]
+    side = (before.kind == Kind.CURVE) & (height > 0.1) & (height < 0.9)
+    assert side.any()
+    assert (after.kind[side] == Kind.PATCH).all()
+    rim = (before.kind == Kind.CURVE) & ~side
+    assert (after.kind[rim] == Kind.CURVE).all()
+
+
+def test_the_distance_told_is_that_from_the_surface():
+    mesh, target = ball(3), skin_of(ball(12), "ball.stl")
+    result = smooth(mesh.sliding_on(target), METHODS["laplacian"](boundary="slide"), Stop(max_iterations=3))
+    assert result.surface.of == "ball.stl"
+    assert "from ball.stl" in result.surface.words
+    nodes = result.surface.furthest  # a coarse boundary cuts off the ball's bends
+    assert 0.01 < nodes < 0.5
+    assert result.surface == surface_change(mesh.sliding_on(target), result.mesh)
+    assert surface_change(mesh, result.mesh.sliding_on(skin_of(mesh))).furthest != nodes
+
+
+def test_all_stages_slide_on_it():
+    mesh, target = ball(3), skin_of(ball(12))
+    stages = [Stage(METHODS[name](boundary="slide"), Stop(max_iterations=4)) for name in ("getme", "local-sd", "mend")]
+    result = smooth(mesh.sliding_on(target), Recipe.of(*stages))
+    slides = Sliding(mesh.sliding_on(target)).nodes
+    assert target.distances(result.mesh.points[slides]).max() < 1e-9
+
+
+def test_a_boundary_that_stays_does_not_see_it():
+    mesh = wavy(ball(3), 0.1)
+    result = smooth(mesh.sliding_on(skin_of(ball(12))), "local-nr", Stop(max_iterations=3))
+    np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
+    assert result.surface is None
+
+
+@pytest.mark.parametrize("change", [lambda x: 1000 * x, lambda x: x + 50, lambda x: x / 25.4])
+def test_a_surface_of_another_unit_or_place_is_refused(change):
+    mesh, skin = ball(4), skin_of(ball(6))
+    with pytest.raises(MeshError, match=r"part\.stl: .* mean edge lengths or more from it.*unit or place"):
+        mesh.sliding_on(Skin(change(skin.points), skin.faces, skin.name))
+
+
+def test_the_command_line_takes_it(tmp_path, capsys):
+    path, stl, report = tmp_path / "ball.vtu", tmp_path / "fine.stl", tmp_path / "report.json"
+    io.write(path, slid(ball(3), 0.3))
+    write_stl(stl, skin_of(ball(12)))
+    words = ["smooth", str(path), "-o", str(tmp_path / "out.vtu"), "--max-iterations", "5", "--json", str(report)]
+    assert main([*words, "--method", "local-nr", "--surface", str(stl), "--surface-tolerance", "0.2"]) in (0, 4)
+    assert "from fine.stl" in capsys.readouterr().out
+    said = json.loads(report.read_text())
+    assert said["parameters"]["boundary"] == "slide"
+    assert said["parameters"]["surface_tolerance"] == 0.2
+    assert main([*words, "--method", "local-nr", "--boundary", "slide", "--surface-tolerance", "unlimited"]) in (0, 4)
+    assert json.loads(report.read_text())["parameters"]["surface_tolerance"] == "unlimited"
+    assert main([*words, "--method", "local-nr", "--boundary", "slide", "--surface-tolerance", "0"]) in (0, 4)
+    assert json.loads(report.read_text())["surface"]["max"] < 1e-7
+    recipe = tmp_path / "recipe.toml"
+    recipe.write_text('format = 1\n[[stage]]\nmethod = "laplacian"\nparameters = { boundary = "slide" }\n')
+    assert main([*words, "--recipe", str(recipe), "--surface", str(stl)]) in (0, 4)
+    assert "from fine.stl" in capsys.readouterr().out
+
+
+def test_what_the_command_line_says_of_a_surface_that_is_none(tmp_path, capsys):
+    path, stl = tmp_path / "ball.vtu", tmp_path / "far.stl"
+    io.write(path, ball(3))
+    skin = skin_of(ball(3))
+    write_stl(stl, Skin(1000 * skin.points, skin.faces))
+    words = ["smooth", str(path), "-o", str(tmp_path / "out.vtu")]
+    for more, status, said in (
+        (["--surface", str(stl)], 3, "far.stl: one in ten nodes"),
+        (["--surface", str(tmp_path / "none.stl")], 3, "none.stl: there is no such file"),
+        (["--surface", str(stl), "--boundary", "fixed"], 2, "--surface names what the boundary slides on"),
+        (["--surface-tolerance", "0.1", "--set", "surface_tolerance=0.2"], 2, "say the same thing"),
+        (["--surface-tolerance", "-1"], 2, "surface_tolerance"),
+    ):
+        assert main([*words, *more]) == status
+        captured = capsys.readouterr()
+        assert said in captured.err
+        assert captured.err.count("\n") == 1
+    assert not (tmp_path / "out.vtu").exists()

@@ -1,0 +1,281 @@
+"""Methods that let the nodes of the boundary slide: over the registry, on solids whose surface is known."""
+
+import itertools
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.stats import special_ortho_group
+
+from hexmend import io, kernels
+from hexmend.boundary import Kind, Sliding, freed_by_sliding, surface_change
+from hexmend.cli.main import main
+from hexmend.energy import SQUARES
+from hexmend.iteration import Outcome
+from hexmend.kernels import local
+from hexmend.kernels import sliding as on_surface
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import locked, measure
+from hexmend.report import record
+from hexmend.run import Stop, iterate, smooth
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.smoothers import METHODS
+from tests.core.boundary.solids import ball, cylinder, slid, wavy
+from tests.core.grids import grid
+
+SLIDING = sorted(name for name, cls in METHODS.items() if hasattr(cls, "boundary"))
+SOLIDS = {
+    "block": lambda: grid(3, 2, 4),
+    "cylinder": lambda: cylinder(16, 3),
+    "ball": lambda: ball(3),
+    "wavy": lambda: wavy(grid(4), 0.15),
+}
+
+
+def on_its_surface(sliding, points):
+    """How far sliding nodes are from their own curves and patches, in mean edge lengths."""
+    x = points[sliding.nodes]
+    return np.linalg.norm(sliding.put_back(x) - x, axis=1).max() / sliding.mesh.mean_edge_length
+
+
+def turned(mesh, seed=0):
+    turn = special_ortho_group.rvs(3, random_state=np.random.default_rng(seed))
+    return mesh.with_points(mesh.points @ turn.T + 0.3)
+
+
+def test_every_optimiser_and_averaging_method_can():
+    assert set(SLIDING) == set(METHODS)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    name=st.sampled_from(SLIDING),
+    solid=st.sampled_from(sorted(SOLIDS)),
+    amplitude=st.sampled_from([0.1, 0.3, 0.6]),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_corners_are_kept_and_all_others_stay_on_their_curves_and_patches(name, solid, amplitude, seed):
+    mesh = slid(SOLIDS[solid](), amplitude, seed)
+    pinned = np.zeros(mesh.n_nodes, dtype=bool)
+    pinned[np.random.default_rng(seed).integers(0, mesh.n_nodes, 3)] = True
+    mesh = mesh.replace(pinned=pinned)
+    sliding = Sliding(mesh)
+    for step in itertools.islice(METHODS[name](boundary="slide").steps(mesh), 6):
+        kept = sliding.mesh.fixed
+        np.testing.assert_array_equal(step.points[kept], mesh.points[kept])
+        assert on_its_surface(sliding, step.points) < 1e-9
+
+
+@pytest.mark.parametrize(
+    "name", ["local-nr", "local-mnr", "local-patch", "global-nr", "global-mnr", "mend", "laplacian"]
+)
+def test_a_scrambled_cube_goes_back_to_the_grid(name):
+    cube = grid(4)
+    mesh = slid(cube, 0.3, seed=3)
+    assert np.abs(mesh.points - cube.points)[cube.fixed].max() > 0.2
+    result = smooth(mesh, METHODS[name](boundary="slide"), Stop(tolerance=1e-9, max_iterations=500))
+    np.testing.assert_allclose(result.mesh.points, cube.points, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", SLIDING)
+def test_a_flat_solid_keeps_its_surface_and_volume(name):
+    mesh = turned(slid(grid(3, 4, 3), 0.3))
+    result = smooth(mesh, METHODS[name](boundary="slide"), Stop(max_iterations=30))
+    assert result.surface.moved > 20
+    assert result.surface.max < 1e-12
+    assert abs(result.surface.volume_change) < 1e-12
+    assert result.surface.features_kept == result.surface.features
+    assert result.after.q_mean > result.before.q_mean
+
+
+@pytest.mark.parametrize("name", SLIDING)
+def test_the_number_of_threads_does_not_matter(name):
+    mesh, most, results = slid(cylinder(32, 6), 0.3), kernels.threads(), []
+    try:
+        for threads in (1, 2, 3):
+            kernels.set_threads(threads)
+            steps = METHODS[name](boundary="slide").steps(mesh)
+            results.append(next(itertools.islice(steps, 3, None)).points)
+    finally:
+        kernels.set_threads(most)
+    for result in results[1:]:
+        np.testing.assert_array_equal(results[0], result)
+
+
+@pytest.mark.parametrize("name", SLIDING)
+def test_the_boundary_stays_unless_it_is_told_to_slide(name):
+    mesh = slid(grid(3), 0.3)
+    result = smooth(mesh, METHODS[name](), Stop(max_iterations=3))
+    assert result.surface is None
+    np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
+
+
+@pytest.mark.parametrize("name", SLIDING)
+def test_one_layer_has_nodes_that_slide(name):
+    mesh = slid(grid(4, 4, 1), 0.3)
+    assert smooth(mesh, name).outcome is Outcome.NOTHING_FREE
+    result = smooth(mesh, METHODS[name](boundary="slide"), Stop(max_iterations=20))
+    assert result.outcome is not Outcome.NOTHING_FREE
+    assert result.after.q_min > result.before.q_min + 0.05
+
+
+def test_where_corners_are_all_there_is_nothing_moves():
+    result = smooth(grid(1), METHODS["mend"](boundary="slide"))
+    assert result.outcome is Outcome.NOTHING_FREE
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.sampled_from(["smart-laplacian", "getme", "getme-sequential"]), st.integers(0, 2**32 - 1))
+def test_guarded_methods_invert_no_hex_that_was_sound(name, seed):
+    mesh = slid(ball(3), 0.4, seed)
+    was = measure(mesh.points, mesh.hexes).inverted
+    for step in itertools.islice(METHODS[name](boundary="slide").steps(mesh), 5):
+        now = measure(step.points, mesh.hexes).inverted
+        assert not (now & ~was).any()
+        was = now
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.sampled_from(["local-sd", "local-nr", "local-mnr", "local-patch", "global-nr"]), st.integers(0, 2**32 - 1))
+def test_optimisers_lower_the_objective_and_never_leave_the_feasible_region(name, seed):
+    mesh = slid(cylinder(16, 3), 0.1, seed)
+    if measure(mesh.points, mesh.hexes).n_inverted:
+        return
+    steps = METHODS[name](boundary="slide").steps(mesh)
+    values = [np.square(measure(step.points, mesh.hexes).eta).sum() for step in itertools.islice(steps, 6)]
+    assert np.isfinite(values).all()
+    assert (np.diff(values) <= 1e-12 * values[0]).all()
+
+
+def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_patch():
+    mesh = slid(grid(3), 0.3, seed=5)
+    sliding = Sliding(mesh)
+    moved = next(itertools.islice(METHODS["laplacian"](boundary="slide", update="simultaneous").steps(mesh), 1, None))
+    kind, part = sliding.boundary.kind, sliding.boundary.part
+    edges = {tuple(sorted(edge)) for edge in mesh.topology.edges[mesh.topology.edge_on_boundary].tolist()}
+    curves = {tuple(sorted(edge)) for edge in sliding.boundary.segments.tolist()}
+    for node in sliding.nodes:
+        along = curves if kind[node] == Kind.CURVE else edges
+        ring = [other for other in mesh.topology.rings[node] if tuple(sorted((int(node), int(other)))) in along]
+        assert all(part[other] == part[node] or kind[other] < kind[node] for other in ring)
+        np.testing.assert_allclose(moved.points[node], mesh.points[ring].mean(axis=0), atol=1e-12)  # its sides are flat
+
+
+@pytest.mark.parametrize("direction", [local.STEEPEST_DESCENT, local.NEWTON, local.MODIFIED_NEWTON])
+def test_nodes_that_do_not_slide_are_visited_as_ever(direction):
+    mesh = slid(ball(4), 0.2)
+    sliding, corners, colours = Sliding(mesh), mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
+    swept = []
+    for sweep, more in (local.sweep, ()), (on_surface.local, (sliding.tangents(mesh.points), *sliding.ground)):
+        points = mesh.points.copy()
+        sweep(
+            points, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
+            direction, 0.01, SQUARES, 1.0, 0.7, 1e-4, 100, *more,
+        )  # fmt: skip
+        swept.append(points)
+    np.testing.assert_allclose(swept[0], swept[1], atol=1e-9)
+
+
+def test_all_stages_of_a_run_slide_on_the_surface_that_it_began_with():
+    mesh = slid(ball(4), 0.3)
+    stages = [Stage(METHODS[name](boundary="slide"), Stop(max_iterations=5)) for name in ("getme", "local-sd", "mend")]
+    sliding = Sliding(mesh)
+    assert on_its_surface(sliding, smooth(mesh, Recipe.of(*stages)).mesh.points) < 1e-9
+    run = iterate(mesh, stages[0].smoother)
+    next(run)
+    run.go_on_with(stages[1].smoother, Stop(max_iterations=4))
+    for iteration in run:
+        assert on_its_surface(sliding, iteration.points) < 1e-9
+    again = smooth(
+        run.result().mesh, stages[1].smoother, Stop(max_iterations=2)
+    )  # a run of its own: the surface of now
+    assert on_its_surface(Sliding(run.result().mesh), again.mesh.points) < 1e-9
+
+
+def test_the_surface_is_recorded():
+    mesh = slid(cylinder(16, 3), 0.2)
+    result = smooth(mesh, METHODS["local-nr"](boundary="slide"), Stop(max_iterations=10))
+    change = surface_change(mesh, result.mesh)
+    assert result.surface == change
+    surface = record(result)["surface"]
+    assert list(surface) == ["max", "mean", "max_percent_of_diagonal", "volume_change", "moved"]
+    assert surface == change.to_dict()
+    assert "surface" not in record(smooth(mesh, "local-nr", Stop(max_iterations=2)))
+
+
+def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_path, capsys):
+    path, out, report = tmp_path / "mesh.vtu", tmp_path / "out.vtu", tmp_path / "report.json"
+    mesh = slid(cylinder(16, 3), 0.2)
+    io.write(path, mesh)
+    words = [
+        "smooth",
+        str(path),
+        "-o",
+        str(out),
+        "--method",
+        "local-nr",
+        "--max-iterations",
+        "5",
+        "--json",
+        str(report),
+    ]
+    assert main([*words, "--boundary", "slide"]) == 0
+    assert "The boundary slid: " in capsys.readouterr().out
+    said = json.loads(report.read_text())
+    assert said["parameters"]["boundary"] == "slide"
+    assert said["surface"]["moved"] > 0
+    assert main([*words, "--boundary", "fixed"]) == 0
+    assert "slid" not in capsys.readouterr().out
+    assert "surface" not in json.loads(report.read_text())
+    assert main([*words, "--boundary", "slide", "--set", "boundary=fixed"]) == 2
+    assert "--set boundary" in capsys.readouterr().err
+
+
+def test_comparisons_let_every_method_slide(tmp_path, capsys):
+    path, folder = tmp_path / "mesh.vtu", tmp_path / "tables"
+    io.write(path, slid(grid(3), 0.2))
+    words = ["compare", str(path), "-o", str(folder), "--methods", "laplacian,global-nr", "--max-iterations", "5"]
+    assert main([*words, "--boundary", "slide"]) == 0
+    rows = json.loads((folder / "comparison.json").read_text())["rows"]
+    assert [row["parameters"]["boundary"] for row in rows] == ["slide", "slide"]
+    assert all(row["surface"]["max"] < 1e-9 for row in rows)
+
+
+def pushed_in():
+    """A hex whose corner is pushed in: the nodes around it slide away from it, if they may."""
+    mesh = grid(3)
+    points = mesh.points.copy()
+    points[0] += 0.7 * (points[mesh.hexes[0, 6]] - points[0])  # a corner whose neighbours slide
+    return mesh.with_points(points)
+
+
+def test_locked_hexes_that_sliding_frees_are_told_from_those_that_it_cannot(tmp_path, capsys):
+    mesh = pushed_in()
+    which = locked(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
+    assert which.sum() == 1
+    assert (freed_by_sliding(mesh, which) == which).all()
+    pinned = np.zeros(mesh.n_nodes, dtype=bool)
+    pinned[mesh.hexes[0]] = True
+    assert not freed_by_sliding(mesh.replace(pinned=pinned), which).any()
+    io.write(tmp_path / "mesh.vtu", mesh)
+    assert main(["info", str(tmp_path / "mesh.vtu")]) == 0
+    said = "Locked: 1 can be freed where the boundary slides (--boundary slide), 0 cannot."
+    assert said in capsys.readouterr().out
+
+
+def test_a_hex_with_a_corner_in_a_flat_side_is_not_freed():
+    mesh = flattened()
+    which = locked(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
+    assert which.any()
+    assert not freed_by_sliding(mesh, which).any()
+
+
+def flattened() -> Mesh:
+    """Two by two hexes on one layer; the corner of one is drawn to the middle of its sides, so that it is straight."""
+    mesh = grid(2, 2, 1)
+    points = mesh.points.copy()
+    for corner, one, other in (0, 1, 3), (9, 10, 12):
+        points[corner] = (points[one] + points[other]) / 2
+    return mesh.with_points(points)
