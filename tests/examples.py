@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 HOME = "/home/me"
 
 #: A block that holds one of these words needs a library, and is left out where that is not installed.
-NEEDS = {"hx.view(": "trame_pyvista", "hexmend_app": "PySide6"}
+NEEDS = {"hx.view(": "trame_pyvista", "hexmend_app": "PySide6", "_pyvista(": "pyvista", "meshio": "meshio"}
 
 _BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from hexmend import energy, gallery
     from hexmend.advice import advise
     from hexmend.errors import FileError, HexmendError, MeshError, ParameterError
+    from hexmend.interop import from_meshio, from_pyvista, to_meshio, to_pyvista
     from hexmend.io import read, read_surface, write
     from hexmend.iteration import Iteration, Outcome, Result, Step
     from hexmend.mesh.cells import Cells
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "advice": ("advise",),
     "errors": ("FileError", "HexmendError", "MeshError", "ParameterError"),
+    "interop": ("from_meshio", "from_pyvista", "to_meshio", "to_pyvista"),
     "io": ("read", "read_surface", "write"),
     "iteration": ("Iteration", "Outcome", "Result", "Step"),
     "mesh": ("Mesh",),
@@ -71,6 +73,8 @@ __all__ = [
     "advise",
     "compare",
     "energy",
+    "from_meshio",
+    "from_pyvista",
     "gallery",
     "iterate",
     "measure",
@@ -81,6 +85,8 @@ __all__ = [
     "read_surface",
     "smooth",
     "summarise",
+    "to_meshio",
+    "to_pyvista",
     "view",
     "write",
     "write_recipe",

@@ -115,14 +115,18 @@ def to_content(path: Path, grid: Grid) -> Content:
     return Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=said)
 
 
-def from_mesh(mesh: Mesh) -> Grid:
+def from_mesh(mesh: Mesh, kinds: str = "biufU") -> Grid:
     """The grid that holds a mesh, hexahedra first; sets are arrays named "set:...", pins one named "fixed".
 
-    Data of cells and nodes that VTK's formats have no type for, such as complex numbers, are left out.
+    Parameters
+    ----------
+    mesh : Mesh
+    kinds : str
+        Kinds of NumPy types of which data of cells and nodes are kept. VTK's formats have no complex numbers.
     """
     content = content_of(mesh)
-    blocks = tuple(replace(block, data=_numbers_and_texts(block.data)) for block in content.blocks)
-    return of_content(replace(content, blocks=blocks, node_data=_numbers_and_texts(with_marks(mesh))))
+    blocks = tuple(replace(block, data=_of_kinds(block.data, kinds)) for block in content.blocks)
+    return of_content(replace(content, blocks=blocks, node_data=_of_kinds(with_marks(mesh), kinds)))
 
 
 def of_content(content: Content) -> Grid:
@@ -149,8 +153,8 @@ def of_content(content: Content) -> Grid:
     )
 
 
-def _numbers_and_texts(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    return {name: values for name, values in data.items() if np.asarray(values).dtype.kind in "biufU"}
+def _of_kinds(data: Mapping[str, np.ndarray], kinds: str) -> dict[str, np.ndarray]:
+    return {name: values for name, values in data.items() if np.asarray(values).dtype.kind in kinds}
 
 
 def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:

@@ -1,0 +1,192 @@
+"""Meshes to and from meshio's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from hexmend.cells import CELL_KINDS
+from hexmend.errors import MeshError
+from hexmend.interop.conversion import importing, mesh_of
+from hexmend.interop.side_marks import with_side_marks
+from hexmend.io.content import HEX_KINDS, Block, Content, from_mesh, joined, joined_sets, to_mesh
+from hexmend.io.pins import with_marks
+from hexmend.mesh import Mesh
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import meshio
+
+#: The kinds of cells by meshio's names.
+KINDS = {"hexahedron": "hex", "hexahedron20": "hex20", "hexahedron27": "hex27", **{kind: kind for kind in CELL_KINDS}}
+NAMES = {kind: name for name, kind in KINDS.items()}
+
+#: VTK's order of nodes, which Hexmend has, from and to meshio's where the two differ.
+_ORDER = {"wedge": [0, 2, 1, 3, 5, 4]}
+
+#: Entries that meshio's reader of Gmsh puts among the cell sets and that hold no cells.
+_NO_SETS = {"gmsh:bounding_entities"}
+
+#: Cell data of Gmsh that hold the number of a cell's physical group; its name and dimension are field data.
+_PHYSICAL = "gmsh:physical"
+
+
+def to_meshio(mesh: Mesh) -> meshio.Mesh:
+    """meshio mesh of a mesh: its hexes, its cells of other kinds, and all data and sets that came with it.
+
+    Node sets are point sets; element sets are cell sets. meshio has no sets of faces: bit k of the cell data
+    "sides:inlet" marks face k of a cell as one of the side set "inlet". Point data "fixed" are 1 for nodes that are
+    marked as fixed. Data of hexes alone are NaN or 0 for other cells.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    meshio.Mesh
+        A copy: changing it does not change the mesh.
+
+    Raises
+    ------
+    InstallationError
+        Where meshio is not installed.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> to_meshio(make("cube", size=27)).cells  # doctest: +SKIP
+    [<meshio CellBlock, type: hexahedron, num cells: 27, tags: []>]
+    """
+    with importing("meshio"):
+        import meshio
+
+    content = from_mesh(with_side_marks(mesh))
+    lengths = [len(block) for block in content.blocks]
+    data = joined([block.data for block in content.blocks], lengths)
+    sets = dict.fromkeys(name for block in content.blocks for name in block.sets)
+    return meshio.Mesh(
+        np.array(content.points),
+        [(NAMES[block.kind], _reordered(block.kind, block.nodes)) for block in content.blocks],
+        point_data={name: np.array(values) for name, values in with_marks(mesh).items()},
+        cell_data={name: np.split(values, np.cumsum(lengths)[:-1]) for name, values in data.items()},
+        field_data=dict(content.field_data),
+        point_sets={name: np.array(members) for name, members in content.node_sets.items()},
+        cell_sets={name: [np.array(block.sets.get(name, ()), np.int64) for block in content.blocks] for name in sets},
+    )
+
+
+def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
+    """Mesh of the hexahedra of a meshio mesh, with its data, its sets and its cells of other kinds.
+
+    Arrays named as `to_meshio` names them become side sets and marks of fixed nodes again; physical groups of Gmsh
+    become sets. Cells of other kinds are handled as in a file: see `hexmend.read`.
+
+    Parameters
+    ----------
+    meshio_mesh : meshio.Mesh
+    as_is : bool
+        Keep parts whose hexes are all wound the other way as they are; else they are turned.
+
+    Returns
+    -------
+    Mesh
+        A copy: changing the meshio mesh does not change it. Its `notes` say what was done to it.
+
+    Raises
+    ------
+    InstallationError
+        Where meshio is not installed.
+    MeshError
+        For an object that is no meshio mesh or holds no hexahedra, and for cells or points that make no mesh.
+    """
+    with importing("meshio"):
+        import meshio
+
+    if not isinstance(meshio_mesh, meshio.Mesh):
+        raise MeshError(
+            f"from_meshio() was given an object of type {type(meshio_mesh).__name__}; expected a meshio.Mesh"
+        )
+    return mesh_of("meshio mesh", lambda title: to_mesh(title, _content(meshio_mesh)), as_is)
+
+
+def _content(mesh: meshio.Mesh) -> Content:
+    """Content of a meshio mesh: one block of cells for each kind."""
+    sets = _physical_groups(mesh) | {name: parts for name, parts in mesh.cell_sets.items() if name not in _NO_SETS}
+    blocks: dict[str, list[Block]] = {}
+    unread: dict[str, int] = {}
+    for place, cells in enumerate(mesh.cells):
+        kind = KINDS.get(cells.type)
+        if kind is None:
+            unread[f"type {cells.type}"] = unread.get(f"type {cells.type}", 0) + len(cells)
+            continue
+        data = {name: np.array(parts[place]) for name, parts in mesh.cell_data.items()}
+        members = {name: _members(parts, place) for name, parts in sets.items()}
+        blocks.setdefault(kind, []).append(Block(kind, _reordered(kind, cells.data), data, members))
+    merged = [_merged(some) for some in blocks.values()]
+    merged.sort(key=lambda block: block.kind not in HEX_KINDS)
+    notes = []
+    if unread:
+        kinds = ", ".join(sorted(unread))
+        notes.append(f"{sum(unread.values()):,} cells of other kinds ({kinds}) are left out.")
+    return Content(
+        np.array(mesh.points),
+        tuple(_without_empty_sets(merged)),
+        {name: np.array(values) for name, values in mesh.point_data.items()},
+        {name: np.array(members, np.int64) for name, members in mesh.point_sets.items()},
+        field_data=dict(mesh.field_data),
+        notes=tuple(notes),
+        unread=unread,
+    )
+
+
+def _physical_groups(mesh: meshio.Mesh) -> dict[str, list[np.ndarray]]:
+    """Physical groups of Gmsh as cell sets, as meshio gives them for files of version 2: numbers of a dimension."""
+    groups = {}
+    for name, entry in mesh.field_data.items():
+        numbers = np.asarray(entry)
+        if _PHYSICAL in mesh.cell_data and numbers.shape == (2,) and numbers.dtype.kind in "iu":
+            groups[name] = [
+                np.flatnonzero((np.asarray(tags) == numbers[0]) & (cells.dim == numbers[1]))
+                for cells, tags in zip(mesh.cells, mesh.cell_data[_PHYSICAL], strict=True)
+            ]
+    return groups
+
+
+def _members(parts: Sequence[object], place: int) -> np.ndarray:
+    """Members of a cell set in one block; meshio's readers give None, or nothing, where there are none."""
+    part = parts[place] if place < len(parts) else None
+    return np.array(() if part is None else part, np.int64)
+
+
+def _merged(blocks: Sequence[Block]) -> Block:
+    """Blocks of one kind as one."""
+    lengths = [len(block) for block in blocks]
+    data, sets = (
+        joined([block.data for block in blocks], lengths),
+        joined_sets([block.sets for block in blocks], lengths),
+    )
+    return Block(blocks[0].kind, np.concatenate([block.nodes for block in blocks]), data, sets)
+
+
+def _without_empty_sets(blocks: Sequence[Block]) -> list[Block]:
+    """Blocks without the sets that only other blocks have members of; sets without any member stay with the first."""
+    filled = {name for block in blocks for name, members in block.sets.items() if len(members)}
+    return [
+        replace(
+            block,
+            sets={
+                name: members
+                for name, members in block.sets.items()
+                if len(members) or (place == 0 and name not in filled)
+            },
+        )
+        for place, block in enumerate(blocks)
+    ]
+
+
+def _reordered(kind: str, nodes: np.ndarray) -> np.ndarray:
+    nodes = np.array(nodes, np.int64)
+    return nodes[:, _ORDER[kind]] if kind in _ORDER else nodes

@@ -1,0 +1,173 @@
+"""Meshes to and from PyVista's unstructured grids. This is the one module of the core that names PyVista."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+
+import numpy as np
+
+from hexmend.errors import MeshError
+from hexmend.interop.conversion import importing, mesh_of
+from hexmend.interop.side_marks import with_side_marks
+from hexmend.io.carry import Grid, from_mesh, to_mesh
+from hexmend.io.pieces import joined
+from hexmend.mesh import Mesh
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import pyvista
+
+#: Kinds of NumPy types that PyVista's grids hold: booleans, whole, real and complex numbers, and texts.
+_KINDS = "biufcU"
+#: Kinds that they do not hold: bytes, dates, durations, Python's objects and records.
+_OTHER_KINDS = "SMmOV"
+
+
+def to_pyvista(mesh: Mesh) -> pyvista.UnstructuredGrid:
+    """PyVista grid of a mesh: its hexes, its cells of other kinds, and all data and sets that came with it.
+
+    Point data and cell data are those of the nodes and the cells. A node set, element set or side set "inlet" is an
+    array too: "set:inlet" of the points or of the cells is 1 for its members, and bit k of "sides:inlet" of a cell
+    marks face k. Point data "fixed" are 1 for nodes that are marked as fixed. Data of hexes alone are NaN or 0 for
+    other cells.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    pyvista.UnstructuredGrid
+        A copy: changing it does not change the mesh. Its cells are of VTK's types 12, 25 or 29 for hexes of 8, 20 or
+        27 nodes.
+
+    Raises
+    ------
+    InstallationError
+        Where PyVista is not installed.
+
+    Warns
+    -----
+    UserWarning
+        For arrays that PyVista cannot hold, which are left out.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> to_pyvista(make("cube", size=27)).n_cells  # doctest: +SKIP
+    27
+    """
+    with importing("pyvista"):
+        import pyvista
+
+    carried = from_mesh(with_side_marks(mesh), _KINDS + _OTHER_KINDS)
+    grid = pyvista.UnstructuredGrid()
+    grid.points = np.array(carried.points)
+    cells = pyvista.CellArray.from_arrays(carried.start, carried.nodes, deep=True)
+    grid.SetCells(pyvista.convert_array(carried.types, deep=True), cells)
+    refused = [
+        name
+        for attributes, data in (
+            (grid.point_data, carried.node_data),
+            (grid.cell_data, carried.cell_data),
+            (grid.field_data, carried.field_data),
+        )
+        for name, values in data.items()
+        if not _set_array(attributes, name, values)
+    ]
+    if refused:
+        warnings.warn(f"arrays that PyVista cannot hold are left out: {', '.join(refused)}", stacklevel=2)
+    return grid
+
+
+def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
+    """Mesh of the hexahedra of a PyVista grid, with its data, its sets and its cells of other kinds.
+
+    Arrays named as `to_pyvista` names them become sets and marks of fixed nodes again. Cells of other kinds are handled
+    as in a file: see `hexmend.read`.
+
+    Parameters
+    ----------
+    grid : pyvista.DataSet
+        Any data set with hexahedra or voxels: an unstructured grid, a structured grid, an image... VTK's own objects
+        are taken too.
+    as_is : bool
+        Keep parts whose hexes are all wound the other way as they are; else they are turned.
+
+    Returns
+    -------
+    Mesh
+        A copy: changing the grid does not change it. Its `notes` say what was done to it.
+
+    Raises
+    ------
+    InstallationError
+        Where PyVista is not installed.
+    MeshError
+        For an object that is no data set or holds no hexahedra, and for cells or points that make no mesh.
+    """
+    with importing("pyvista"):
+        import pyvista
+
+    if not isinstance(grid, pyvista.DataObject) and hasattr(grid, "IsA"):
+        grid = pyvista.wrap(grid)
+    if not isinstance(grid, pyvista.DataSet):
+        hint = ": join its blocks with combine()" if isinstance(grid, pyvista.MultiBlock) else ""
+        expected = "expected a PyVista data set with hexahedra, such as an UnstructuredGrid"
+        raise MeshError(f"from_pyvista() was given an object of type {type(grid).__name__}{hint}; {expected}")
+    if not isinstance(grid, pyvista.UnstructuredGrid):
+        grid = grid.cast_to_unstructured_grid()
+    read = Grid(
+        np.array(grid.points, np.float64),
+        np.array(grid.celltypes),
+        np.array(grid.cell_offsets if hasattr(type(grid), "cell_offsets") else grid.offset, np.int64),
+        np.array(grid.cell_connectivity, np.int64),
+        _arrays(grid.point_data),
+        _arrays(grid.cell_data),
+        {name: _field(values) for name, values in grid.field_data.items()},
+    )
+    return mesh_of("PyVista grid", lambda title: to_mesh(title, joined([read])), as_is)
+
+
+def _set_array(attributes: pyvista.DataSetAttributes, name: str, values: object) -> bool:
+    """Add a copy of an array to a grid; False where PyVista cannot hold it."""
+    array = np.asarray(values)
+    if array.dtype.kind == "U":
+        return _set_texts(attributes, name, array)
+    if array.dtype.kind == "f" and array.itemsize < 4:
+        array = array.astype(np.float32)
+    if array.dtype.kind not in _KINDS or not array.size:
+        return not array.size
+    array = array.astype(array.dtype.newbyteorder("="), copy=False)
+    try:
+        attributes.set_array(array.reshape(len(array), -1) if array.ndim > 2 else array, name, deep_copy=True)
+    except (TypeError, ValueError):
+        return False
+    return True
+
+
+def _set_texts(attributes: pyvista.DataSetAttributes, name: str, texts: np.ndarray) -> bool:
+    """Add texts to a grid through VTK, as PyVista itself refuses letters beyond ASCII."""
+    import pyvista
+
+    if texts.ndim > 1:
+        return False
+    texts = np.atleast_1d(texts)
+    array = pyvista.convert_string_array(np.array([""]))
+    array.SetNumberOfValues(len(texts))
+    for place, text in enumerate(texts.tolist()):
+        array.SetValue(place, text)
+    array.SetName(name)
+    attributes.VTKObject.AddArray(array)
+    return True
+
+
+def _arrays(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return {name: np.array(values, subok=False) for name, values in data.items()}
+
+
+def _field(values: object) -> np.ndarray | list[str]:
+    """Field data as the readers of files give them: numbers as an array, texts as a list."""
+    array = np.atleast_1d(np.array(values, subok=False))
+    return [str(text) for text in array.ravel()] if array.dtype.kind == "U" else array

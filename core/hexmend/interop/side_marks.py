@@ -1,0 +1,53 @@
+"""Side sets as data of the hexes, for grids that have no sets of faces.
+
+The data of a side set "inlet" are named "sides:inlet": bit k of a hex's number (1, 2, 4, 8, 16, 32) marks its face k of
+`hexmend.hexahedron.FACES`, which is also face k of VTK's hexahedron. Such data stay right where cells are left out or
+put in another order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hexmend.hexahedron import FACES
+from hexmend.mesh import Mesh
+
+PREFIX = "sides:"
+
+_BITS = 1 << np.arange(len(FACES))
+
+
+def with_side_marks(mesh: Mesh) -> Mesh:
+    """Copy of a mesh with its side sets as data of its hexes."""
+    marks = {}
+    for name, rows in mesh.side_sets.items():
+        marks[PREFIX + name] = mark = np.zeros(mesh.n_hexes, np.uint8)
+        np.bitwise_or.at(mark, rows[:, 0], _BITS[rows[:, 1]].astype(np.uint8))
+    return mesh.replace(hex_data={**mesh.hex_data, **marks}, side_sets={})
+
+
+def with_side_sets(mesh: Mesh) -> Mesh:
+    """Copy of a mesh with side sets in place of the data that `with_side_marks` makes of them.
+
+    The faces of a set are in the order of the hexes. Data of such a name with other numbers stay data.
+    """
+    marks = {name: np.asarray(values) for name, values in mesh.hex_data.items() if name.startswith(PREFIX)}
+    marks = {name: values for name, values in marks.items() if _are_marks(values)}
+    if not marks:
+        return mesh
+    sides = {
+        name.removeprefix(PREFIX): np.argwhere(values.astype(np.int64)[:, None] & _BITS)
+        for name, values in marks.items()
+    }
+    cells = tuple(
+        replace(block, data={name: values for name, values in block.data.items() if name not in marks})
+        for block in mesh.cells
+    )
+    hex_data = {name: values for name, values in mesh.hex_data.items() if name not in marks}
+    return mesh.replace(hex_data=hex_data, side_sets={**mesh.side_sets, **sides}, cells=cells)
+
+
+def _are_marks(values: np.ndarray) -> bool:
+    return values.ndim == 1 and values.dtype.kind in "iuf" and bool(np.isin(values, np.arange(2 * _BITS[-1])).all())
