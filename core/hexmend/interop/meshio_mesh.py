@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from types import ModuleType
 
 import numpy as np
 
@@ -60,9 +61,7 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
     >>> to_meshio(make("cube", size=27)).cells  # doctest: +SKIP
     [<meshio CellBlock, type: hexahedron, num cells: 27, tags: []>]
     """
-    with importing("meshio"):
-        import meshio
-
+    meshio = _library()
     content = from_mesh(with_side_marks(mesh))
     lengths = [len(block) for block in content.blocks]
     data = joined([block.data for block in content.blocks], lengths)
@@ -102,14 +101,18 @@ def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
     MeshError
         For an object that is no meshio mesh or holds no hexahedra, and for cells or points that make no mesh.
     """
-    with importing("meshio"):
-        import meshio
-
+    meshio = _library()
     if not isinstance(meshio_mesh, meshio.Mesh):
         raise MeshError(
             f"from_meshio() was given an object of type {type(meshio_mesh).__name__}; expected a meshio.Mesh"
         )
     return mesh_of("meshio mesh", lambda title: to_mesh(title, _content(meshio_mesh)), as_is)
+
+
+def _library() -> ModuleType:
+    with importing("meshio"):
+        import meshio
+    return meshio
 
 
 def _content(mesh: meshio.Mesh) -> Content:

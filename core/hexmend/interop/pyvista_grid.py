@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from types import ModuleType
 
 import numpy as np
 
@@ -58,9 +59,7 @@ def to_pyvista(mesh: Mesh) -> pyvista.UnstructuredGrid:
     >>> to_pyvista(make("cube", size=27)).n_cells  # doctest: +SKIP
     27
     """
-    with importing("pyvista"):
-        import pyvista
-
+    pyvista = _library()
     carried = from_mesh(with_side_marks(mesh), _KINDS + _OTHER_KINDS)
     grid = pyvista.UnstructuredGrid()
     grid.points = np.array(carried.points)
@@ -107,9 +106,7 @@ def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
     MeshError
         For an object that is no data set or holds no hexahedra, and for cells or points that make no mesh.
     """
-    with importing("pyvista"):
-        import pyvista
-
+    pyvista = _library()
     if not isinstance(grid, pyvista.DataObject) and hasattr(grid, "IsA"):
         grid = pyvista.wrap(grid)
     if not isinstance(grid, pyvista.DataSet):
@@ -128,6 +125,12 @@ def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
         {name: _field(values) for name, values in grid.field_data.items()},
     )
     return mesh_of("PyVista grid", lambda title: to_mesh(title, joined([read])), as_is)
+
+
+def _library() -> ModuleType:
+    with importing("pyvista"):
+        import pyvista
+    return pyvista
 
 
 def _set_array(attributes: pyvista.DataSetAttributes, name: str, values: object) -> bool:
@@ -149,12 +152,10 @@ def _set_array(attributes: pyvista.DataSetAttributes, name: str, values: object)
 
 def _set_texts(attributes: pyvista.DataSetAttributes, name: str, texts: np.ndarray) -> bool:
     """Add texts to a grid through VTK, as PyVista itself refuses letters beyond ASCII."""
-    import pyvista
-
     if texts.ndim > 1:
         return False
     texts = np.atleast_1d(texts)
-    array = pyvista.convert_string_array(np.array([""]))
+    array = _library().convert_string_array(np.array([""]))
     array.SetNumberOfValues(len(texts))
     for place, text in enumerate(texts.tolist()):
         array.SetValue(place, text)
