@@ -3,7 +3,8 @@
 Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used, or memory does not suffice; 4 done, and
 hexes are still inverted; 128 and the signal's number (130 for Ctrl-C) where it was interrupted.
 
-A command pays for what it uses: modules are imported where they are needed, here and in the commands.
+A command pays for what it uses: modules are imported where they are needed, here and in the commands. lazy_loader is
+not used: it gives modules but no names, warns of each submodule, and commands are no faster with it.
 """
 
 from __future__ import annotations

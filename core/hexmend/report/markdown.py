@@ -1,4 +1,4 @@
-"""Tables as Markdown."""
+"""Tables as Markdown. tabulate is not used: a pipe in a cell, such as in a file's name, breaks its tables."""
 
 from __future__ import annotations
 

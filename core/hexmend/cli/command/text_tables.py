@@ -1,4 +1,4 @@
-"""Small tables of the command line, drawn without a library: loading one takes longer than most commands do."""
+"""Small tables of the command line, drawn without a library: tabulate takes 0.04 s to load and removes indents."""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Wavefront's OBJ, parsed by meshlane."""
+"""Wavefront's OBJ, parsed by meshlane.
+
+trimesh is not used: it splits quads, misreads a face whose corners are written in several forms, such as
+`1/1/1 2/1/1 3//1 4/1`, and takes 0.5 s to import.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Stanford's PLY, in decimals and binary, parsed by meshlane."""
+"""Stanford's PLY, in decimals and binary, parsed by meshlane.
+
+trimesh is not used: it splits quads and reads a file that is cut short as a smaller surface. VTK's reader crashes on
+one.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
 """NetCDF's classic formats, in which ExodusII files are kept: 32 and 64-bit offsets, and 64-bit data.
 
-Unidata, *The NetCDF classic format specification*. All numbers are big-endian, all parts padded to 4 bytes.
+Unidata, *The NetCDF classic format specification*. All numbers are big-endian, all parts padded to 4 bytes. netCDF4 is
+not used: it reads what a file that is cut short lacks as zeros, and needs a process of its own for damaged files.
 """
 
 from __future__ import annotations

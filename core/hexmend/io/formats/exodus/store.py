@@ -1,4 +1,7 @@
-"""Where ExodusII's variables are kept: a NetCDF file of a classic format, or one on HDF5."""
+"""Container of ExodusII's variables: a NetCDF file of a classic format, or one on HDF5.
+
+netCDF4 is not used: it reads what a file that is cut short lacks as zeros, and follows links out of an HDF5 file.
+"""
 
 from __future__ import annotations
 
