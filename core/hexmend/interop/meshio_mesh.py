@@ -39,7 +39,8 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
 
     Node sets are point sets; element sets are cell sets. meshio has no sets of faces: bit k of the cell data
     "sides:inlet" marks face k of a cell as one of the side set "inlet". Point data "fixed" are 1 for nodes that are
-    marked as fixed. Data of hexes alone are NaN or 0 for other cells.
+    marked as fixed. Data of hexes alone are NaN or 0 for other cells. Left out are the name and the notes of the mesh
+    and the order of the faces of a side set.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ def to_pyvista(mesh: Mesh) -> pyvista.UnstructuredGrid:
     Point data and cell data are those of the nodes and the cells. A node set, element set or side set "inlet" is an
     array too: "set:inlet" of the points or of the cells is 1 for its members, and bit k of "sides:inlet" of a cell
     marks face k. Point data "fixed" are 1 for nodes that are marked as fixed. Data of hexes alone are NaN or 0 for
-    other cells.
+    other cells. Left out are the name and the notes of the mesh, sets without members and the order of members.
 
     Parameters
     ----------

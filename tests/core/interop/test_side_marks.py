@@ -1,7 +1,9 @@
 """Side sets as data of hexes, and back."""
 
 import numpy as np
+import pytest
 
+import hexmend as hx
 from hexmend.interop.side_marks import with_side_marks, with_side_sets
 from tests.core.grids import grid
 
@@ -12,6 +14,19 @@ def test_every_side_is_a_bit():
     assert marked.side_sets == {}
     assert marked.hex_data["sides:all"].tolist() == [63, 0, 0, 63, 0, 0, 0, 0]
     np.testing.assert_array_equal(with_side_sets(marked).side_sets["all"], sides)
+
+
+@pytest.mark.parametrize(("to", "back", "library"), [
+    (hx.to_pyvista, hx.from_pyvista, "pyvista"), (hx.to_meshio, hx.from_meshio, "meshio"),
+])  # fmt: skip
+def test_the_side_sets_of_a_real_mesh_come_back(real_mesh, to, back, library):
+    pytest.importorskip(library)
+    mesh = hx.read(real_mesh("jet.exo"))
+    found = back(to(mesh)).side_sets
+    assert len(mesh.side_sets) == 5
+    assert {name: set(map(tuple, rows.tolist())) for name, rows in found.items()} == {
+        name: set(map(tuple, rows.tolist())) for name, rows in mesh.side_sets.items()
+    }
 
 
 def test_marks_that_became_real_numbers_are_sides_still():
