@@ -18,7 +18,7 @@ HEAVY = {
     "importlib.metadata": "0.04 s",
     "tomllib": "", "tomli_w": "",
     "numba": "", "llvmlite": "",
-    "PySide6": "", "vtkmodules": "", "pyvista": "",
+    "PySide6": "", "vtkmodules": "", "pyvista": "", "meshio": "",
 }  # fmt: skip
 NUMERICAL = {"numpy", "hexmend.kernels", "hexmend.mesh.mesh", *HEAVY}
 RUNNING = {"hexmend.smoothers", "hexmend.energy", "hexmend.run"}
