@@ -8,8 +8,8 @@ from pathlib import Path
 
 from hexmend.errors import FileError, InstallationError, MeshError
 from hexmend.interop.side_marks import with_side_sets
-from hexmend.mesh import Mesh
-from hexmend.orientation import upright
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import upright
 
 
 @contextmanager

@@ -8,13 +8,13 @@ from types import ModuleType
 
 import numpy as np
 
-from hexmend.cells import CELL_KINDS
 from hexmend.errors import MeshError
 from hexmend.interop.conversion import importing, mesh_of
 from hexmend.interop.side_marks import with_side_marks
-from hexmend.io.content import HEX_KINDS, Block, Content, from_mesh, joined, joined_sets, to_mesh
-from hexmend.io.pins import with_marks
-from hexmend.mesh import Mesh
+from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh, joined, joined_sets, to_mesh
+from hexmend.io.base.fixed_marks import with_marks
+from hexmend.mesh.cells import CELL_KINDS
+from hexmend.mesh.mesh import Mesh
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

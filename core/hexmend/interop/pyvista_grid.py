@@ -11,9 +11,9 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.interop.conversion import importing, mesh_of
 from hexmend.interop.side_marks import with_side_marks
-from hexmend.io.carry import Grid, from_mesh, to_mesh
-from hexmend.io.pieces import joined
-from hexmend.mesh import Mesh
+from hexmend.io.formats.vtk.grid import Grid, from_mesh, to_mesh
+from hexmend.io.formats.vtk.merge_grids import joined
+from hexmend.mesh.mesh import Mesh
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -1,7 +1,7 @@
 """Side sets as data of the hexes, for grids that have no sets of faces.
 
 The data of a side set "inlet" are named "sides:inlet": bit k of a hex's number (1, 2, 4, 8, 16, 32) marks its face k of
-`hexmend.hexahedron.FACES`, which is also face k of VTK's hexahedron. Such data stay right where cells are left out or
+`hexmend.mesh.hexahedron.FACES`, which is also face k of VTK's hexahedron. Such data stay right where cells are left out or
 put in another order.
 """
 
@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hexmend.hexahedron import FACES
-from hexmend.mesh import Mesh
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.mesh import Mesh
 
 PREFIX = "sides:"
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import strategies as st
 
-from hexmend.cells import CELL_KINDS
 from hexmend.gallery import make
-from hexmend.mesh import Mesh
+from hexmend.mesh.cells import CELL_KINDS
+from hexmend.mesh.mesh import Mesh
 from tests.core.io.kept import assert_same, with_everything
 
 GALLERY = [("cube", 27), ("five-side", 500), ("plane", 700), ("bridge-sharp", 500)]

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 
 import hexmend as hx
-from hexmend.cells import Cells
 from hexmend.errors import InstallationError, MeshError
+from hexmend.mesh.cells import Cells
 from tests.core.interop.meshes import GALLERY, assert_round_trip, of_gallery, with_all_data, with_sets
 from tests.core.io.kept import middles_are_in_the_middle, with_everything
 
