@@ -21,7 +21,7 @@ from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import amount, needed
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import Limits
-from hexmend.study.batch.columns import COLUMNS
+from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.state.scene import Scene
 from hexmend_app.state.scene.helps import helps
 from hexmend_app.state.scene.table import Key, keys

@@ -58,7 +58,7 @@ class Figures:
         names = runs.names(args, len(smoothers))
         style = _style(args)
         prepare_off_screen()
-        from hexmend.cli.command.memory import check_memory
+        from hexmend.cli.command.memory_check import check_memory
         from hexmend.cli.command.progress import Progress
         from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.report import made_folder

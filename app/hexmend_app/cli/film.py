@@ -21,7 +21,7 @@ class Film:
     help = "Run a method and write an animation of its iterations: MP4, GIF, WebP or PNG, by the suffix."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.memory import add_force
+        from hexmend.cli.command.memory_check import add_force
         from hexmend.cli.command.method import add_method
 
         looks.prepare(parser)
@@ -39,7 +39,7 @@ class Film:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.boundary.displacement import Moment, Movement
-        from hexmend.cli.command.memory import check_memory
+        from hexmend.cli.command.memory_check import check_memory
         from hexmend.cli.command.method import chosen
         from hexmend.cli.command.progress import follow
         from hexmend.io import read

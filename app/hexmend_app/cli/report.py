@@ -30,7 +30,7 @@ class Report:
     def run(self, args: argparse.Namespace) -> int:
         from dataclasses import replace
 
-        from hexmend.cli.command.memory import check_memory
+        from hexmend.cli.command.memory_check import check_memory
         from hexmend.cli.command.progress import Progress
         from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
         from hexmend.figures import printable

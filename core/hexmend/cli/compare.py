@@ -29,7 +29,7 @@ class Compare:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.limits import given_limits, limits
-        from hexmend.cli.command.memory import check_memory
+        from hexmend.cli.command.memory_check import check_memory
         from hexmend.cli.command.method import with_boundary
         from hexmend.cli.command.progress import Progress
         from hexmend.cli.command.rich_tables import print_table

@@ -18,7 +18,7 @@ class Smooth:
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         from hexmend.cli.command.files import add_mesh
-        from hexmend.cli.command.memory import add_force
+        from hexmend.cli.command.memory_check import add_force
         from hexmend.cli.command.method import add_method, add_surface
 
         add_mesh(parser)
@@ -39,7 +39,7 @@ class Smooth:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.cli.command.files import check_targets, say_diagnosis, say_left_out, say_notes
-        from hexmend.cli.command.memory import check_memory
+        from hexmend.cli.command.memory_check import check_memory
         from hexmend.cli.command.method import chosen, on_surface
         from hexmend.cli.command.progress import follow
         from hexmend.cli.process.interrupts import FinishesWriting

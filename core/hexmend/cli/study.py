@@ -20,7 +20,7 @@ class Study:
     help = "Run methods and lists of their values on many meshes, as a recipe says; or the thesis's experiments again."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.memory import add_force
+        from hexmend.cli.command.memory_check import add_force
 
         parser.add_argument(
             "study",
@@ -83,7 +83,7 @@ class Study:
         return self._thesis(args)
 
     def _thesis(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.memory import check_memory
+        from hexmend.cli.command.memory_check import check_memory
         from hexmend.cli.command.progress import Progress
         from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.parameters import from_strings

@@ -52,7 +52,7 @@ def _write(folder: Path, studied: Studied) -> None:
     from hexmend.cli.command.rich_tables import print_table
     from hexmend.errors import HexmendError
     from hexmend.report.batch import cases_table, write_many, write_parquet
-    from hexmend.study.batch.columns import COLUMNS
+    from hexmend.study.batch.table_columns import COLUMNS
     from hexmend.study.bench.sections import machine
 
     record = studied.record()

@@ -31,7 +31,7 @@ def add_method(parser: argparse.ArgumentParser) -> None:
 def add_settings(parser: argparse.ArgumentParser) -> None:
     """Declare the options that hold for several methods: parameters, boundary, limits, memory."""
     from hexmend.cli.command.limits import add_limits
-    from hexmend.cli.command.memory import add_force
+    from hexmend.cli.command.memory_check import add_force
 
     parser.add_argument(
         "--set",

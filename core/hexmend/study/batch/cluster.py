@@ -11,8 +11,8 @@ from uuid import uuid4
 
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.run.memory import available
-from hexmend.study.batch.columns import Status, answer
 from hexmend.study.batch.process import run_task
+from hexmend.study.batch.table_columns import Status, answer
 from hexmend.study.batch.task import Task
 
 if TYPE_CHECKING:

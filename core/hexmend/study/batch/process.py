@@ -13,8 +13,8 @@ from dataclasses import asdict
 from time import monotonic
 from typing import IO, Any
 
-from hexmend.study.batch.columns import Status, answer, is_answer
 from hexmend.study.batch.process_group import end_group
+from hexmend.study.batch.table_columns import Status, answer, is_answer
 from hexmend.study.batch.task import Task
 
 #: Seconds between looks at whether a task is still wanted.
@@ -50,7 +50,7 @@ def run_task(
     Returns
     -------
     dict or None
-        As `hexmend.study.batch.columns.answer`; None where it became unwanted.
+        As `hexmend.study.batch.table_columns.answer`; None where it became unwanted.
     """
     began = monotonic()
     own = dict.fromkeys(_THREADS, str(threads)) if threads else {}

@@ -14,9 +14,9 @@ from typing import Any, Protocol, TypeAlias
 from hexmend.errors import FileError
 from hexmend.io import writable_suffixes
 from hexmend.study.batch.case import Case
-from hexmend.study.batch.columns import PLACE, Status, answer
 from hexmend.study.batch.plan import Plan
 from hexmend.study.batch.store import Store
+from hexmend.study.batch.table_columns import PLACE, Status, answer
 from hexmend.study.batch.task import Task, content_hash
 
 #: A mesh as it was named, and the name of a case.
@@ -66,7 +66,7 @@ class Studied:
     ----------
     plan : Plan
     rows : tuple of dict
-        `hexmend.study.batch.columns.COLUMNS` of each task that was done, mesh after mesh, in the order of the cases.
+        `hexmend.study.batch.table_columns.COLUMNS` of each task that was done, mesh after mesh, in the order of the cases.
     count : Count
     interrupted : bool
         Whether the user ended it; rows that are missing are left for another time.

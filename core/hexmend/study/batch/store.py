@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.io.storage.atomic import replacing
-from hexmend.study.batch.columns import Status, is_answer
+from hexmend.study.batch.table_columns import Status, is_answer
 from hexmend.study.batch.task import Task
 
 #: Bytes of a file; the message of a run is the only part that varies.

@@ -17,8 +17,8 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
 from hexmend.run import smooth
 from hexmend.study.batch.case import case_of
-from hexmend.study.batch.columns import CHANGING, Status, answer
 from hexmend.study.batch.process_group import end_group
+from hexmend.study.batch.table_columns import CHANGING, Status, answer
 from hexmend.study.batch.task import Task, content_hash
 from hexmend.study.bench.section import peak_mb
 

@@ -7,9 +7,9 @@ import pytest
 
 from hexmend import __version__, gallery, io, smooth
 from hexmend.study.batch.case import Case
-from hexmend.study.batch.columns import is_answer
 from hexmend.study.batch.plan import plan_of
 from hexmend.study.batch.process import run_task
+from hexmend.study.batch.table_columns import is_answer
 from hexmend.study.batch.task import Task, content_hash
 
 

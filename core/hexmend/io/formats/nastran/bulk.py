@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import shown
-from hexmend.io.formats.nastran.columns import Lines, Stretch
+from hexmend.io.formats.nastran.card_blocks import Lines, Stretch
 
 #: The line, name and fields of a card.
 Card = tuple[int, str, list[str]]

@@ -13,7 +13,7 @@ from hexmend.io.base.cursor import shown, text_of
 from hexmend.io.base.numbering import places
 from hexmend.io.formats.nastran import ORDER
 from hexmend.io.formats.nastran.bulk import Bulk
-from hexmend.io.formats.nastran.columns import Stretch, wholes
+from hexmend.io.formats.nastran.card_blocks import Stretch, wholes
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 

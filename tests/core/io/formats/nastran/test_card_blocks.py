@@ -5,7 +5,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.formats.nastran.columns import Lines, wholes
+from hexmend.io.formats.nastran.card_blocks import Lines, wholes
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
