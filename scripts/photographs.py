@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QAbstractButton, QComboBox
 
 from hexmend.gallery import make
 from hexmend.io import write
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
@@ -152,7 +152,7 @@ def cut(window: Window, normal: tuple[float, float, float] = (1, 0, 0), crinkle:
 
 def set_method(window: Window, name: str, **limits: float) -> None:
     """Have a method at hand, with its defaults, and limits of its run."""
-    window.session.order.choose(Stage(METHODS[name](), Stop(**limits)))
+    window.session.order.choose(Stage(METHODS[name](), StoppingCriteria(**limits)))
     window.refresh()
 
 

@@ -14,13 +14,13 @@ from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin
 
 from hexmend.io import FORMATS
-from hexmend.io.base.format import Holds
-from hexmend.iteration import Stop
+from hexmend.io.base.format import Capability
+from hexmend.iteration import StoppingCriteria
 from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import amount, needed
 from hexmend.smoothers import METHODS
-from hexmend.study.batch.case import Limits
+from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.state.scene import Scene
 from hexmend_app.state.scene.helps import helps
@@ -69,7 +69,7 @@ def meanings() -> str:
 
 def stops() -> str:
     """When a stage of a recipe ends."""
-    return parameters(Stop)
+    return parameters(StoppingCriteria)
 
 
 def formats() -> str:
@@ -78,11 +78,11 @@ def formats() -> str:
         (one.title, ", ".join(f"`{suffix}`" for suffix in one.suffixes), " or ".join(one.encodings) or "not written")
         for one in FORMATS.values()
     )
-    alike: dict[frozenset[Holds], list[str]] = {}
+    alike: dict[frozenset[Capability], list[str]] = {}
     for one in sorted(FORMATS.values(), key=lambda one: one.title.lower()):
         if one.write:
             alike.setdefault(frozenset(one.holds), []).append(one.title)
-    held = ((thing.value, *("yes" if thing in holds else "no" for holds in alike)) for thing in Holds)
+    held = ((thing.value, *("yes" if thing in holds else "no" for holds in alike)) for thing in Capability)
     first = table(("format", "suffix", "written as"), all_of_them)
     return f"{first}\n\n{table(('', *map(', '.join, alike.values())), held)}"
 
@@ -166,7 +166,7 @@ def _default(one: Key) -> str:
 
 def task() -> str:
     """What a study's task may take."""
-    return parameters(Limits)
+    return parameters(TaskLimits)
 
 
 def study() -> str:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from hexmend.notebook import view
     from hexmend.parameters import parameter
     from hexmend.quality import METRICS, Summary, measure, summarise
-    from hexmend.run import Run, Stop, iterate, smooth
+    from hexmend.run import Run, StoppingCriteria, iterate, smooth
     from hexmend.run.recipe import Recipe, Stage
     from hexmend.run.recipe_files import read_recipe, write_recipe
     from hexmend.smoothers import METHODS, Smoother, method
@@ -42,7 +42,7 @@ _HOMES = {
     "notebook": ("view",),
     "parameters": ("parameter",),
     "quality": ("METRICS", "Summary", "measure", "summarise"),
-    "run": ("Run", "Stop", "iterate", "smooth"),
+    "run": ("Run", "StoppingCriteria", "iterate", "smooth"),
     "run.recipe": ("Recipe", "Stage"),
     "run.recipe_files": ("read_recipe", "write_recipe"),
     "smoothers": ("METHODS", "Smoother", "method"),
@@ -68,7 +68,7 @@ __all__ = [
     "Smoother",
     "Stage",
     "Step",
-    "Stop",
+    "StoppingCriteria",
     "Summary",
     "advise",
     "compare",

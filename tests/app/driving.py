@@ -10,7 +10,7 @@ from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QPushButton, QWidget
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from tests.patience import PATIENCE
@@ -71,7 +71,7 @@ def key(window, key, *modifiers):
 
 def choose(window, method, stop=None, **values):
     """Have a method at hand, with its values and its limits."""
-    window.session.order.choose(Stage(METHODS[method](**values), stop or Stop()))
+    window.session.order.choose(Stage(METHODS[method](**values), stop or StoppingCriteria()))
     window.refresh()
 
 

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend_app.bench.windows import end_run
@@ -83,8 +83,8 @@ class Resetting:
         self._put_back()
         for method in METHODS.values():  # a form takes its time
             if session.order.values_of(method.name) not in ({}, method().values()):
-                session.order.choose(Stage(method(), Stop()))
-        session.order.choose(Stage(METHODS[DEFAULT_METHOD](), Stop()))
+                session.order.choose(Stage(method(), StoppingCriteria()))
+        session.order.choose(Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria()))
         session.order.begun = None
         while session.chain.stages:
             session.chain.remove(0)

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import hexmend as hx
-from hexmend.boundary import Skin, Sliding, Trees, boundary_of, classify
+from hexmend.boundary import ClosestPointTrees, SkinSurface, SlidingBoundary, boundary_of, classify
 from hexmend.energy import MeshEnergy, SlidingEnergy, energies
 from hexmend.errors import HexmendError
 from hexmend.mesh.edge_length import mean_edge_length
@@ -33,8 +33,8 @@ FIGURES = hx.measure(X, H)
 INSIDE = np.flatnonzero(MESH.free)
 FACES = MESH.topology.boundary_faces
 ENERGY = MeshEnergy(MESH)
-SKIN = Skin(X, FACES)
-SLIDING = Sliding(MESH)
+SKIN = SkinSurface(X, FACES)
+SLIDING = SlidingBoundary(MESH)
 SD = hx.LocalSteepestDescent()
 MATRIX = ENERGY.hessian(ENERGY.scaled(X)).assembled()
 SLIDING_HESSIAN = SlidingEnergy(SLIDING).hessian(ENERGY.scaled(X))
@@ -120,12 +120,12 @@ CALLS: dict[str, Callable[[object], object]] = {
     "wavefronts": MESH.topology.wavefronts,
     "levels": MESH.topology.levels,
     "ring_of": lambda v: MESH.topology.ring_of(v, 1),
-    "Skin, points": lambda v: Skin(v, FACES),
-    "Skin, faces": lambda v: Skin(X, v),
+    "Skin, points": lambda v: SkinSurface(v, FACES),
+    "Skin, faces": lambda v: SkinSurface(X, v),
     "Skin.closest": SKIN.closest,
     "Skin.with_points": SKIN.with_points,
-    "Trees": lambda v: Trees(X, v, np.zeros(3, int)),
-    "Trees, group": lambda v: Trees(X, FACES[:, :3], v),
+    "ClosestPointTrees": lambda v: ClosestPointTrees(X, v, np.zeros(3, int)),
+    "Trees, group": lambda v: ClosestPointTrees(X, FACES[:, :3], v),
     "classify": lambda v: classify(X, v),
     "boundary_of, corners": lambda v: boundary_of(MESH, corners=v),
     "boundary_of, sharp": lambda v: boundary_of(MESH, sharp=v),

@@ -24,16 +24,16 @@ def test_a_file_is_smoothed_with_settings_by_their_names(tmp_path):
     by_name = hx.smooth(str(tmp_path / "in.inp"), max_iterations=3, boundary="slide")
     assert by_name.parameters["boundary"] == "slide"
     assert by_name.iterations <= 3
-    whole = hx.smooth(hx.read(tmp_path / "in.inp"), hx.Mend(boundary="slide"), hx.Stop(max_iterations=3))
+    whole = hx.smooth(hx.read(tmp_path / "in.inp"), hx.Mend(boundary="slide"), hx.StoppingCriteria(max_iterations=3))
     np.testing.assert_array_equal(by_name.mesh.points, whole.mesh.points)
 
 
 def test_settings_go_before_what_the_method_and_the_limits_say():
-    method, stop = hx.LocalSteepestDescent(p=4, order="natural"), hx.Stop(max_iterations=9, tolerance=0)
+    method, stop = hx.LocalSteepestDescent(p=4, order="natural"), hx.StoppingCriteria(max_iterations=9, tolerance=0)
     run = hx.iterate(MESH, method, stop, p=3, max_iterations=2)
     assert (run.smoother.p, run.smoother.order) == (3, "natural")
     assert [it.number for it in run] == [1, 2]
-    assert run.result().stages[0].stop == hx.Stop(max_iterations=2, tolerance=0)
+    assert run.result().stages[0].stop == hx.StoppingCriteria(max_iterations=2, tolerance=0)
     assert (method.p, stop.max_iterations) == (4, 9)
 
 

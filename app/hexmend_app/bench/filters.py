@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.gallery import make
-from hexmend.study.bench.section import Section, peak_mb
+from hexmend.study.bench.section import BenchSection, peak_mb
 from hexmend_app.bench.windows import draw, measured, report, turning_ms
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def _lines(row: dict[str, Any]) -> Iterator[str]:
     yield f"  a frame while the view turns: {row['turning_ms']:.1f} ms; memory at most {row['memory_mb']:,.0f} MB"
 
 
-filters = Section(
+filters = BenchSection(
     "filters",
     f"The viewer: a change of what is hidden, and turning (medians of {_CHANGES})",
     _measure,

@@ -186,13 +186,15 @@ def _look_around(window: Window) -> None:
 
 
 def _smooth(window: Window, method: str) -> None:
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
     from hexmend.run.recipe import Stage
     from hexmend.smoothers import METHODS
 
     smoothing, errors = window.session.smoothing, []
     told = smoothing.failed.connect(errors.append)
-    window.session.commands.run(Stage(METHODS[method](), Stop(max_iterations=_ITERATIONS, max_seconds=_SECONDS)))
+    window.session.commands.run(
+        Stage(METHODS[method](), StoppingCriteria(max_iterations=_ITERATIONS, max_seconds=_SECONDS))
+    )
     until(lambda: not smoothing.busy)
     smoothing.failed.disconnect(told)
     _raise(errors)

@@ -14,7 +14,7 @@ from statistics import median
 from typing import Any
 
 from hexmend.errors import HexmendError
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 
 _TIMES = 5
 _PATIENCE = 120.0  # seconds for a start
@@ -101,4 +101,4 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     ]
 
 
-start = Section("start", f"Start of the viewer, warm (median of {_TIMES})", _measure, _lines)
+start = BenchSection("start", f"Start of the viewer, warm (median of {_TIMES})", _measure, _lines)

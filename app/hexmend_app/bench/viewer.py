@@ -12,7 +12,7 @@ import numpy as np
 
 from hexmend.errors import HexmendError
 from hexmend.gallery import make
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 from hexmend_app.bench.windows import draw, end_run, measured, report, turn
 
 if TYPE_CHECKING:
@@ -70,11 +70,11 @@ def _while_running(window: Window) -> dict[str, Any]:
     """Run local-sd in the window with a crinkle cut: frames a second, and how late timers fire."""
     from PySide6.QtCore import QTimer
 
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
     from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 
     window.session.document.preview(window.session.document.start)
-    window.session.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
+    window.session.smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=1_000_000))
     while window.session.smoothing.phase.value != "running":
         turn(0.1)
     beats: list[float] = []
@@ -110,7 +110,7 @@ def _lines(row: dict[str, Any]) -> Iterator[str]:
     )
 
 
-viewer = Section(
+viewer = BenchSection(
     "viewer",
     f"The viewer: frames with points and colours changing (median of {_FRAMES})",
     _measure,

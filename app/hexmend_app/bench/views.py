@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.gallery import make
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 from hexmend_app.bench.windows import draw, measured, report, turn, turning_ms
 
 if TYPE_CHECKING:
@@ -64,4 +64,6 @@ def _lines(row: dict[str, Any]) -> Iterator[str]:
     yield f"  dragging the wipe  {row['wiping_ms']:6.1f} ms; another view opens in {row['opening_ms']:.0f} ms"
 
 
-views = Section("views", "The viewer: several views side by side (medians)", _measure, partial(report, lines=_lines))
+views = BenchSection(
+    "views", "The viewer: several views side by side (medians)", _measure, partial(report, lines=_lines)
+)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.gallery import make
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 from hexmend_app.bench.windows import draw, measured, report, turn
 
 if TYPE_CHECKING:
@@ -50,11 +50,11 @@ def _row(window: Window) -> dict[str, Any]:
 
 def _run(window: Window, iterations: int) -> float:
     """Make iterations of the fastest method, which fills the history soonest; seconds."""
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
     from hexmend.smoothers.laplacian.laplacian import Laplacian
 
     began = perf_counter()
-    window.session.smoothing.start(Laplacian(), Stop(tolerance=0, max_iterations=iterations))
+    window.session.smoothing.start(Laplacian(), StoppingCriteria(tolerance=0, max_iterations=iterations))
     while window.session.smoothing.busy:
         turn(0.1)
     return perf_counter() - began
@@ -73,11 +73,11 @@ def _scrub(window: Window, numbers: np.ndarray) -> float:
 
 def _stop(window: Window) -> tuple[float, float]:
     """Milliseconds from the wish to stop local-sd to its end, and those of one iteration."""
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
     from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 
     window.session.document.preview(window.session.document.start)
-    window.session.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=1_000_000))
+    window.session.smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=1_000_000))
     while window.session.smoothing.record.newest < 3:
         turn(0.05)
     ended: list[float] = []
@@ -102,6 +102,6 @@ def _lines(row: dict[str, Any]) -> list[str]:
     ]
 
 
-watching = Section(
+watching = BenchSection(
     "watching", "Watching: the timeline, and how soon a run stops", _measure, partial(report, lines=_lines)
 )

@@ -38,7 +38,7 @@ class Film:
         add_force(parser)
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.boundary.displacement import Moment, Movement
+        from hexmend.boundary.displacement import Displacement, Moment
         from hexmend.cli.command.memory_check import check_memory
         from hexmend.cli.command.method import chosen
         from hexmend.cli.command.progress import follow
@@ -67,7 +67,7 @@ class Film:
         follow(run, lambda iteration: history.add(record, iteration))
         numbers = shown(history, record, most)
         start = Moment(mesh.points, run.start.figures, "before the run")
-        movement = Movement(mesh, start, mesh.points, run.start.figures) if args.arrows else None
+        movement = Displacement(mesh, start, mesh.points, run.start.figures) if args.arrows else None
         taken = shots(record, numbers, lambda number: history.state(Shown(record, number), mesh))
         frames = pictures(taken, look, size, view=view, movement=movement, chart=args.histogram)
         write_film(path, [*frames], rate)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from hexmend_app.cli import looks
 
 if TYPE_CHECKING:
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
     from hexmend.run.recipe import Recipe
     from hexmend.smoothers import Smoother
     from hexmend_app.state.scene import Scene
@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     looks.add_arguments(parser)
 
 
-def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], Stop]:
+def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], StoppingCriteria]:
     """The methods, and the limits of each."""
     from hexmend.cli.command.limits import given_limits, limits
     from hexmend.cli.command.method import with_boundary
@@ -78,12 +78,12 @@ def words(args: argparse.Namespace, without: Collection[str] = ()) -> list[str]:
 def method_words(args: argparse.Namespace) -> list[str]:
     """Those that say which methods are run, for commands that draw nothing; empty where none is."""
     from hexmend.parameters import declared
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
     from hexmend.smoothers import DEFAULT_METHOD
 
     if args.methods == NONE:
         return []
-    known = ("set", "boundary", *(limit.name for limit in declared(Stop)))
+    known = ("set", "boundary", *(limit.name for limit in declared(StoppingCriteria)))
     return ["--methods", args.methods or DEFAULT_METHOD, *_said({name: getattr(args, name) for name in known})]
 
 

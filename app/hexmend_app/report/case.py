@@ -11,11 +11,11 @@ from time import perf_counter
 from typing import Any
 
 from hexmend.advice import Advice, advise
-from hexmend.energy.norm import SQUARES, Power
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.errors import FileError
 from hexmend.figures import printable
 from hexmend.io import read
-from hexmend.iteration import Result, Stop
+from hexmend.iteration import Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
 from hexmend.run import Run
@@ -63,7 +63,7 @@ class Version:
     row : Row, optional
         What the method tells; None for the mesh as it was given.
     history : sequence of mapping
-        Rows of the run that led to it, as `hexmend.optimise.Result.history` has them.
+        Rows of the run that led to it, as `hexmend.iteration.Result.history` has them.
     advice : Advice, optional
         Why that run ended, and what would help.
     """
@@ -83,7 +83,7 @@ class Version:
         told = (result.history, advise(result)) if result is not None else ()
         return cls(name, mesh, figures, summarise(mesh, figures), row, *told)
 
-    def record(self, power: Power = SQUARES) -> dict[str, Any]:
+    def record(self, power: ObjectiveNorm = SQUARES) -> dict[str, Any]:
         """Its figures, as tables take them; the objective by the p and offset that a table compares by."""
         if self.row is not None:
             return self.row.record(power)
@@ -103,7 +103,7 @@ class Case:
         The first is the mesh as it was given.
     failed : tuple of Row
         Of methods that left no mesh.
-    stop : Stop
+    stop : StoppingCriteria
         Limits of each method's run.
     interrupted : bool
         Whether the user ended it before the last method was done.
@@ -113,11 +113,11 @@ class Case:
     source: Source | None
     versions: tuple[Version, ...]
     failed: tuple[Row, ...] = ()
-    stop: Stop = Stop()  # noqa: RUF009 it is immutable
+    stop: StoppingCriteria = StoppingCriteria()  # noqa: RUF009 it is immutable
     interrupted: bool = False
 
     @property
-    def power(self) -> Power:
+    def power(self) -> ObjectiveNorm:
         """p and offset of the objective by which its tables compare methods."""
         return common_power(one.row for one in self.versions if one.row is not None)
 
@@ -144,7 +144,7 @@ def run_methods(
     mesh: Mesh,
     source: Source | None,
     methods: Iterable[Smoother | Recipe],
-    stop: Stop,
+    stop: StoppingCriteria,
     names: Sequence[str] = (),
     watch: Watch | None = None,
 ) -> Case:
@@ -155,7 +155,7 @@ def run_methods(
     mesh : Mesh
     source : Source, optional
     methods : iterable of Smoother or Recipe
-    stop : Stop
+    stop : StoppingCriteria
         Limits of each run; a recipe has its own.
     names : sequence of str
         What the mesh as given and the results are called, in this order; those that are missing have their own names.

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexmend.boundary.displacement import Movement
+from hexmend.boundary.displacement import Displacement
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend_app.state.look import Look
@@ -24,7 +24,7 @@ class Frame:
     mesh : Mesh
     figures : ElementQuality
         Of the mesh.
-    movement : Movement, optional
+    movement : Displacement, optional
         What colours and arrows of a movement show; None where nothing of a movement is looked at.
     look : Look
     original : (n, 3) float64, optional
@@ -36,7 +36,7 @@ class Frame:
 
     mesh: Mesh
     figures: ElementQuality
-    movement: Movement | None = None
+    movement: Displacement | None = None
     look: Look = field(default_factory=Look)
     original: np.ndarray | None = None
     kinds: np.ndarray | None = None

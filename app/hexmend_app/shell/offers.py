@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QLin
 
 from hexmend.boundary.displacement import MOVEMENTS
 from hexmend.quality import METRICS
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel
@@ -68,7 +68,7 @@ def panels_in(docks: Docks, panels: Iterable[Panel]) -> Iterator[Entry]:
 
 def choices(session: Session) -> Iterator[Entry]:
     """The methods, to be chosen for the next run with what was last set for them, and metrics to colour by."""
-    order, stop = session.order, session.order.stage.stop if session.order.stage is not None else Stop()
+    order, stop = session.order, session.order.stage.stop if session.order.stage is not None else StoppingCriteria()
     if session.editable:
         for method in METHODS.values():
             stage = Stage(order.smoother_of(method.name), stop)

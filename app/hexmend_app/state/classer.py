@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.boundary import Kind, boundary_of, freed_by_sliding, sliding_boundary
+from hexmend.boundary import NodeClass, boundary_of, freed_by_sliding, sliding_boundary
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
 from hexmend_app.state.newest import Newest
 from hexmend_app.state.task import Task
 
-#: Kinds beside `Kind`: nodes of sharp edges that are no curve, of a chain that ends amid a patch; and pinned ones.
+#: Kinds beside `NodeClass`: nodes of sharp edges that are no curve, of a chain that ends amid a patch; and pinned ones.
 WHISKER, PIN = 4, 5
 
 
@@ -53,9 +53,9 @@ def node_kinds(mesh: Mesh, degrees: float) -> np.ndarray:
     boundary = sliding_boundary(mesh, degrees)
     sharp = np.zeros(mesh.n_nodes, dtype=bool)
     sharp[boundary_of(mesh.with_points(mesh.surface), degrees, whisker=0).segments] = True
-    kinds = np.where(sharp & (boundary.kind == Kind.PATCH), WHISKER, boundary.kind).astype(np.uint8)
+    kinds = np.where(sharp & (boundary.kind == NodeClass.PATCH), WHISKER, boundary.kind).astype(np.uint8)
     if mesh.pinned is not None:
-        kinds[mesh.pinned & (kinds != Kind.INSIDE)] = PIN
+        kinds[mesh.pinned & (kinds != NodeClass.INSIDE)] = PIN
     return kinds
 
 

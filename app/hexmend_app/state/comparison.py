@@ -9,7 +9,7 @@ from typing import Any
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.quality import measure
-from hexmend.run import Run, Stop
+from hexmend.run import Run, StoppingCriteria
 from hexmend.smoothers import Smoother
 from hexmend.study import compare
 from hexmend.study.table_row import Row, run_one
@@ -41,7 +41,7 @@ class ComparisonData:
     """What a session keeps: what the comparison began with, its limits, how many methods were asked, the results."""
 
     initial: State | None
-    stop: Stop
+    stop: StoppingCriteria
     asked: int
     results: tuple[Compared, ...]
 
@@ -79,7 +79,7 @@ class Progress:
 class _Work:
     """Methods one after another on one mesh; what is done is in `done`, in their order."""
 
-    def __init__(self, state: State, smoothers: Sequence[Smoother], stop: Stop):
+    def __init__(self, state: State, smoothers: Sequence[Smoother], stop: StoppingCriteria):
         self.task = Task("smoother comparison", self._run, yields=True)
         self.done: list[Compared] = []
         self.progress = Progress(smoothers[0].name, 0, len(smoothers))
@@ -125,7 +125,7 @@ class Comparison(QObject):
         super().__init__(parent)
         self._document = document
         self._work: _Work | None = None
-        self._stop = Stop()
+        self._stop = StoppingCriteria()
         self._asked = 0
         self.initial: State | None = None
         self.results: tuple[Compared, ...] = ()
@@ -145,7 +145,7 @@ class Comparison(QObject):
         return self._work and self._work.progress
 
     @property
-    def stop(self) -> Stop:
+    def stop(self) -> StoppingCriteria:
         """The limits of the work that was begun last."""
         return self._stop
 
@@ -159,7 +159,7 @@ class Comparison(QObject):
         """Whether the user ended the work before the last method was done."""
         return not self.busy and self.given().interrupted
 
-    def start(self, smoothers: Sequence[Smoother], stop: Stop) -> None:
+    def start(self, smoothers: Sequence[Smoother], stop: StoppingCriteria) -> None:
         """Run these on the document's mesh as it is now, one after another; what was compared before is forgotten."""
         if self.busy or not self._document.is_open or not smoothers:
             return
@@ -199,7 +199,7 @@ class Comparison(QObject):
 
     def _empty(self) -> None:
         self.shut_down()
-        self.initial, self.results, self._asked, self._stop = None, (), 0, Stop()
+        self.initial, self.results, self._asked, self._stop = None, (), 0, StoppingCriteria()
         self.changed.emit()
 
     def _look(self) -> None:

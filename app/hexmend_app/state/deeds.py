@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hexmend.boundary.displacement import Movement
+from hexmend.boundary.displacement import Displacement
 from hexmend_app.state.document import State
 from hexmend_app.state.record import Record
 
@@ -121,7 +121,7 @@ class Tabled:
     title: str | None = None
 
 
-def moved_since(movement: Movement | None, opened: State) -> dict[str, Any]:
+def moved_since(movement: Displacement | None, opened: State) -> dict[str, Any]:
     """What functions that draw take of a movement that is shown, and of the mesh as it was opened."""
     if movement is None:
         return {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.displacement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Movement
+from hexmend.boundary.displacement import MENDED, NEWLY_INVERTED, STILL_INVERTED, Displacement
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked
 
@@ -14,7 +14,7 @@ _MOVED = {"newly inverted": NEWLY_INVERTED, "still inverted": STILL_INVERTED, "m
 KINDS = ("inverted", "locked", *_MOVED)
 
 
-def of_kind(kind: str, mesh: Mesh, figures: ElementQuality, movement: Movement | None = None) -> np.ndarray:
+def of_kind(kind: str, mesh: Mesh, figures: ElementQuality, movement: Displacement | None = None) -> np.ndarray:
     """The hexes of a kind, (k,) int64.
 
     Parameters
@@ -24,7 +24,7 @@ def of_kind(kind: str, mesh: Mesh, figures: ElementQuality, movement: Movement |
     mesh : Mesh
     figures : ElementQuality
         Of this mesh.
-    movement : Movement, optional
+    movement : Displacement, optional
         What tells apart the newly inverted, the still inverted and the mended; without it there are none.
 
     Raises

@@ -9,7 +9,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from hexmend.parameters import from_values
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 
@@ -58,7 +58,7 @@ class Order(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.method = DEFAULT_METHOD
-        self.stage: Stage | None = Stage(METHODS[DEFAULT_METHOD](), Stop())
+        self.stage: Stage | None = Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria())
         self.begun: Stage | None = None
         self.why = ""
         self._values: dict[str, dict[str, Any]] = {}
@@ -90,7 +90,7 @@ class Order(QObject):
 
     def given(self) -> OrderData:
         """What a session keeps; where a value is wrong, what was admitted last, with the usual limits."""
-        stage = self.stage or Stage(self.smoother_of(self.method), Stop())
+        stage = self.stage or Stage(self.smoother_of(self.method), StoppingCriteria())
         return OrderData(stage, self.why, {method: dict(values) for method, values in self._values.items()})
 
     def take(self, data: OrderData) -> None:

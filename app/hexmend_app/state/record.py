@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.advice import Advice
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import State
@@ -61,7 +61,7 @@ class Record:
         Why it ended and what to do, once it has.
     work : Smoother, Recipe or None
         What it does; None of a run that a session has kept.
-    stop : Stop or None
+    stop : StoppingCriteria or None
         Its limits; None of a recipe, which has its own.
     changes : list of (int, Stage)
         What was chosen on the way, with the number of the iteration after which it was.
@@ -81,7 +81,7 @@ class Record:
         self.pauses: dict[int, str] = {}
         self.advice: Advice | None = None
         self.work: Smoother | Recipe | None = None
-        self.stop: Stop | None = None
+        self.stop: StoppingCriteria | None = None
         self.changes: list[tuple[int, Stage]] = []
         self._moved = start.mesh.free  # so far: where the boundary slides, there are others than the free ones
         self._nodes = np.flatnonzero(self._moved).astype(np.int32)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hexmend.boundary.displacement import Moment, Movement
+from hexmend.boundary.displacement import Displacement, Moment
 from hexmend_app.state import history
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History
@@ -20,11 +20,11 @@ class References:
 
     def __init__(self, document: Document, records: History):
         self._document, self._history = document, records
-        self._last: tuple[tuple, Movement] | None = None
+        self._last: tuple[tuple, Displacement] | None = None
         self._before: tuple[State, Moment] | None = None
         self._measured: tuple[history.Moment, State] | None = None
 
-    def movement(self, since: Since) -> Movement:
+    def movement(self, since: Since) -> Displacement:
         """From then until what is shown now."""
         now = self._document.now
         shown = self._history.moment_of(now)
@@ -32,7 +32,7 @@ class References:
         if self._last is None or self._last[0] != asked:
             state, name = self._find(since, shown)
             before = self._moment(state, name)
-            self._last = asked, Movement(self._document.start.mesh, before, now.mesh.points, now.figures)
+            self._last = asked, Displacement(self._document.start.mesh, before, now.mesh.points, now.figures)
         return self._last[1]
 
     def _moment(self, state: State, name: str) -> Moment:

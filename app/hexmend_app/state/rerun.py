@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterable
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import Run, Stop, iterate
+from hexmend.run import Run, StoppingCriteria, iterate
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.document import State
@@ -18,7 +18,7 @@ def rerun(
     name: str,
     mesh: Mesh,
     work: Smoother | Recipe,
-    stop: Stop | None = None,
+    stop: StoppingCriteria | None = None,
     *,
     until: int | None = None,
     changes: Iterable[tuple[int, Stage]] = (),

@@ -11,7 +11,7 @@ from functools import partial
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.advice import Advice
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
@@ -93,7 +93,7 @@ class Smoothing(QObject):
         """Whether a run is under way, paused or not."""
         return self._worker is not None
 
-    def start(self, smoother: Smoother | Recipe, stop: Stop | None, iterations: float = math.inf) -> None:
+    def start(self, smoother: Smoother | Recipe, stop: StoppingCriteria | None, iterations: float = math.inf) -> None:
         """Begin a run on the document's mesh and make that many iterations of it; a recipe has limits of its own."""
         if self.busy or not self._document.is_open:
             return

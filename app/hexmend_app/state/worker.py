@@ -10,7 +10,7 @@ from hexmend.advice import Advice, advise
 from hexmend.iteration import Iteration, Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
-from hexmend.run import Run, Stop, iterate
+from hexmend.run import Run, StoppingCriteria, iterate
 from hexmend.run.breakpoints import Breakpoints, Hit
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
@@ -57,7 +57,7 @@ class Worker:
     ----------
     mesh : Mesh
     smoother : Smoother or Recipe
-    stop : Stop, optional
+    stop : StoppingCriteria, optional
         None for the recipe's own.
     keep : callable
         Called with every iteration, number 0 first, in the thread.
@@ -77,7 +77,13 @@ class Worker:
         Why the run ended and what to do, once it has.
     """
 
-    def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None, keep: Callable[[Iteration], object]):
+    def __init__(
+        self,
+        mesh: Mesh,
+        smoother: Smoother | Recipe,
+        stop: StoppingCriteria | None,
+        keep: Callable[[Iteration], object],
+    ):
         self.task = Task(f"smoother {smoother.name}", self._run, yields=True)
         self.mailbox = Mailbox()
         self.last: Frame | None = None

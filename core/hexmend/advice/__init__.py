@@ -1,8 +1,8 @@
 """Why a run ended, what it left, and what to try next, in words for engineers.
 
 >>> from hexmend.gallery import make
->>> from hexmend.run import Stop, smooth
->>> advice = advise(smooth(make("bridge-sharp", size=864), "laplacian", Stop(keep_last=True)))
+>>> from hexmend.run import StoppingCriteria, smooth
+>>> advice = advise(smooth(make("bridge-sharp", size=864), "laplacian", StoppingCriteria(keep_last=True)))
 >>> print(advice.why)
 Converged: in the last of 48 iterations no node moved further than 0.0001 mean edge lengths.
 >>> print(advice.left)

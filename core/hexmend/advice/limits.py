@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hexmend.advice.situation import Situation
-from hexmend.iteration import Outcome, Stop
+from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.smoothers.base_optimiser import Optimiser
 
 
-def raised_limits(now: Situation) -> tuple[Stop, str]:
+def raised_limits(now: Situation) -> tuple[StoppingCriteria, str]:
     """The limits of the run, raised where they ended it, and the sentence part that says so."""
     stop = now.stop
     if now.result.outcome is Outcome.MAX_ITERATIONS:
@@ -21,7 +21,7 @@ def raised_limits(now: Situation) -> tuple[Stop, str]:
     return stop, ""
 
 
-def keeping_last(now: Situation, stop: Stop) -> tuple[Stop, str]:
+def keeping_last(now: Situation, stop: StoppingCriteria) -> tuple[StoppingCriteria, str]:
     """The limits with `keep_last` for a method that descends, and the sentence that says so.
 
     Near its optimum the least q(H) goes up and down by a little while the objective falls. Where it happens to be high

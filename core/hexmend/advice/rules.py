@@ -13,7 +13,7 @@ import numpy as np
 from hexmend.advice.limits import keeping_last, raised_limits
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
-from hexmend.iteration import Outcome, Stop
+from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.smoothers import METHODS
 
 Mend, SequentialGETMe, SmartLaplacian = METHODS["mend"], METHODS["getme-sequential"], METHODS["smart-laplacian"]
@@ -133,7 +133,7 @@ def faster(now: Situation) -> Suggestion | None:
 
 def tighten(now: Situation) -> Suggestion | None:
     """An optimiser that was content early."""
-    usual = Stop().tolerance
+    usual = StoppingCriteria().tolerance
     if now.result.outcome is not Outcome.CONVERGED or not now.smoother.optimises or now.loose.size:
         return None
     if now.stop.tolerance <= usual or not now.improving:
@@ -184,7 +184,7 @@ def raise_p(now: Situation) -> Suggestion | None:
         f"Run Mend with p raised up to {HIGH_P:g}: the worst hexes rise at the expense of the mean.",
         "q_min",
         Mend(**now.objective, highest_p=HIGH_P),
-        Stop(max_iterations=max(500, now.stop.max_iterations)),
+        StoppingCriteria(max_iterations=max(500, now.stop.max_iterations)),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.boundary import freed_by_sliding
 from hexmend.boundary.features import DEGREES
 from hexmend.energy.norm import SQUARES
-from hexmend.iteration import Outcome, Result, Stop
+from hexmend.iteration import Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure, objective
 from hexmend.quality.measure import locked
@@ -33,7 +33,7 @@ class Situation:
         As the run left it.
     smoother : Smoother
         The method that was at work at the end.
-    stop : Stop
+    stop : StoppingCriteria
         Its limits.
     figures : ElementQuality
     locked, loose : (k,) int64
@@ -45,7 +45,7 @@ class Situation:
         self.result = result
         self.mesh: Mesh = result.mesh
         self.smoother: Smoother = METHODS[last.method](**last.parameters)
-        self.stop: Stop = last.stop
+        self.stop: StoppingCriteria = last.stop
         self.figures: ElementQuality = measure(self.mesh.points, self.mesh.hexes)
         held = locked(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.figures.inverted)
         self.locked = np.flatnonzero(held)

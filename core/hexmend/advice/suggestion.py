@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.smoothers import Smoother
 
 
@@ -25,7 +25,7 @@ class Suggestion:
         for the method's own p.
     smoother : Smoother
         The method to run, with its values.
-    stop : Stop
+    stop : StoppingCriteria
         Its limits.
     undo : bool
         Whether the run is to be taken back first: the method begins from the mesh as it was.
@@ -37,6 +37,6 @@ class Suggestion:
     text: str
     gain: str
     smoother: Smoother
-    stop: Stop = field(default_factory=Stop)
+    stop: StoppingCriteria = field(default_factory=StoppingCriteria)
     undo: bool = False
     unpin: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))

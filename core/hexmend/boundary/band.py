@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.boundary.comparison import Skin
+from hexmend.boundary.comparison import SkinSurface
 
 #: By what share of it a distance is off by rounding, and the least room, as a share of the diagonal.
 _ROUNDING = 1e-9
@@ -15,7 +15,7 @@ NOBODY = np.empty(0, dtype=np.int64)
 
 
 @dataclass(frozen=True, eq=False)
-class Off:
+class Deviations:
     """Places where boundary and surface are apart.
 
     Parameters
@@ -39,7 +39,7 @@ class Off:
     weights: np.ndarray
 
 
-class Room:
+class Band:
     """How far a boundary and the surface that it slides on are from each other, both ways.
 
     Nodes are on the surface, but what lies between them cuts off its bends.
@@ -51,25 +51,27 @@ class Room:
     faces : (k, 4) int32
     start : (n, 3) float64
         Where it is before it slides, its nodes on the surface.
-    target : Skin or None
+    target : SkinSurface or None
         The surface; None where it is the boundary as it was.
     room : float
         How far the two may be from each other, in the mesh's unit; 0 for no further than rounding leaves them apart.
     """
 
-    def __init__(self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: Skin | None, room: float):
+    def __init__(
+        self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: SkinSurface | None, room: float
+    ):
         self.points, self._faces, self._start, self._given = points, faces, start, target
         corners = points[faces.ravel()]
         size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
         self.room = max(room, _ROUNDING * size)
 
     @cached_property
-    def skin(self) -> Skin:
+    def skin(self) -> SkinSurface:
         """The boundary as it was, as a whole."""
-        return Skin(self.points, self._faces)
+        return SkinSurface(self.points, self._faces)
 
     @property
-    def target(self) -> Skin:
+    def target(self) -> SkinSurface:
         """The surface, as a whole."""
         return self._given or self.skin
 
@@ -85,7 +87,7 @@ class Room:
         moved[nodes] = True
         return np.flatnonzero(moved[self.middles].any(axis=1))
 
-    def off(self, points: np.ndarray, which: np.ndarray, room: float | np.ndarray = 0.0) -> Off:
+    def off(self, points: np.ndarray, which: np.ndarray, room: float | np.ndarray = 0.0) -> Deviations:
         """Those of some `middles` that are further than a room from the surface.
 
         Parameters
@@ -104,9 +106,9 @@ class Room:
         far, away = _apart(x, self.target.closest(x, max(float(room.min(initial=np.inf)), 0.0)))
         out = far > room
         nodes = self.middles[which[out]]
-        return Off(which[out], far[out], away[out], nodes, np.full(nodes.shape, 0.25))
+        return Deviations(which[out], far[out], away[out], nodes, np.full(nodes.shape, 0.25))
 
-    def behind(self, points: np.ndarray, which: np.ndarray | None = None, room: float | np.ndarray = 0.0) -> Off:
+    def behind(self, points: np.ndarray, which: np.ndarray | None = None, room: float | np.ndarray = 0.0) -> Deviations:
         """Those of the surface's nodes and middles that are further than a room from the boundary as it is now.
 
         Parameters
@@ -125,12 +127,12 @@ class Room:
         may = first[which] + np.linalg.norm(moved, axis=1) > np.maximum(room, 0.0)
         which, room = which[may], room[may]
         if not which.size:
-            return Off(which, np.empty(0), np.empty((0, 3)), nodes[which], weights[which])
+            return Deviations(which, np.empty(0), np.empty((0, 3)), nodes[which], weights[which])
         x = self._samples[which]
         places, nodes, weights = self.skin.with_points(points).closest_on(x, max(float(room.min(initial=np.inf)), 0.0))
         far, away = _apart(x, places)
         out = far > room
-        return Off(which[out], far[out], away[out], nodes[out], weights[out])
+        return Deviations(which[out], far[out], away[out], nodes[out], weights[out])
 
     def beyond(self, points: np.ndarray) -> np.ndarray:
         """The nodes at which the boundary has left its room, further than it was at first, (k,) int.

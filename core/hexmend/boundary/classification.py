@@ -7,7 +7,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from hexmend.boundary.edges import Edges, chains, components
+from hexmend.boundary.edges import SurfaceEdges, chains, components
 from hexmend.boundary.features import DEGREES, WHISKER, feature_edges, given_corners, given_edges, turns
 from hexmend.errors import MeshError
 from hexmend.mesh.fields import members
@@ -15,7 +15,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_faces, as_points, check_node_numbers, whole_numbers
 
 
-class Kind(IntEnum):
+class NodeClass(IntEnum):
     """What a node of a mesh is to its boundary."""
 
     INSIDE = 0
@@ -31,7 +31,7 @@ class Boundary:
     Parameters
     ----------
     kind : (n,) uint8
-        One of `Kind` for each node.
+        One of `NodeClass` for each node.
     part : (n,) int32
         The curve of a curve node, the patch of a patch node, -1 of others; both counted from 0.
     faces : (k, 4) or (k, 3) int32
@@ -59,7 +59,7 @@ class Boundary:
         """Number of curves."""
         return int(self.curve_of_segment.max(initial=-1)) + 1
 
-    def count(self, kind: Kind) -> int:
+    def count(self, kind: NodeClass) -> int:
         """Number of nodes of a kind."""
         return int(np.count_nonzero(self.kind == kind))
 
@@ -90,7 +90,7 @@ def boundary_of(
     --------
     >>> from hexmend.gallery import make
     >>> cube = boundary_of(make("cube", size=27))
-    >>> [cube.count(kind) for kind in Kind], cube.n_curves, cube.n_patches
+    >>> [cube.count(kind) for kind in NodeClass], cube.n_curves, cube.n_patches
     ([8, 8, 24, 24], 12, 6)
     """
     sharp = given_edges(mesh) if sharp is None else sharp
@@ -122,7 +122,7 @@ def classify(
     n = len(points)
     faces, kept = as_faces(faces, n), np.zeros(n, dtype=bool)
     kept[members([] if corners is None else corners, "corners", n)] = True
-    edges = Edges(faces, n)
+    edges = SurfaceEdges(faces, n)
     given = np.isin(edges.key, edges.keys_of(_edges([] if sharp is None else sharp, n)))
     feature = feature_edges(points, edges, degrees, given, kept, whisker)
     segments = edges.nodes[feature]
@@ -133,10 +133,10 @@ def classify(
     patch_of_face = components(len(faces), edges.neighbours[~feature & (edges.count == 2)])
 
     kind, part = np.zeros(n, dtype=np.uint8), np.full(n, -1, dtype=np.int32)
-    kind[faces], part[faces] = Kind.PATCH, patch_of_face[:, None]
-    kind[segments], part[segments] = Kind.CURVE, curve_of_segment[:, None]
-    corner &= kind != Kind.INSIDE
-    kind[corner], part[corner] = Kind.CORNER, -1
+    kind[faces], part[faces] = NodeClass.PATCH, patch_of_face[:, None]
+    kind[segments], part[segments] = NodeClass.CURVE, curve_of_segment[:, None]
+    corner &= kind != NodeClass.INSIDE
+    kind[corner], part[corner] = NodeClass.CORNER, -1
     return Boundary(kind, part, faces, patch_of_face, segments, curve_of_segment)
 
 

@@ -17,7 +17,7 @@ FARTHEST = 1e150
 
 
 @dataclass(frozen=True, eq=False)
-class Closest:
+class ClosestPoints:
     """Closest points.
 
     Parameters
@@ -34,7 +34,7 @@ class Closest:
     weights: np.ndarray
 
 
-class Trees:
+class ClosestPointTrees:
     """Triangles and segments in groups, each group with a tree.
 
     Parameters
@@ -48,7 +48,7 @@ class Trees:
     Attributes
     ----------
     order : (k,) int64
-        Where each piece, as `Closest.pieces` counts them, was in `pieces`.
+        Where each piece, as `ClosestPoints.pieces` counts them, was in `pieces`.
     points, pieces, boxes, links, roots
         What `hexmend.kernels.closest` takes.
 
@@ -72,14 +72,14 @@ class Trees:
         within, self.boxes, self.links, self.roots = closest.trees(points, pieces, start)
         self.points, self.pieces, self.order = points, np.ascontiguousarray(pieces[within]), order[within]
 
-    def with_points(self, points: np.ndarray) -> Trees:
+    def with_points(self, points: np.ndarray) -> ClosestPointTrees:
         """The same pieces with their points (n, 3) elsewhere; the nearer to where they were, the faster it is."""
         other, points = copy.copy(self), points_like(points, self.points.shape)
         other.points, other.boxes = points, np.empty_like(self.boxes)
         closest.refit(points, self.pieces, self.links, other.boxes)
         return other
 
-    def closest(self, x: np.ndarray, group: np.ndarray, enough: float = 0.0) -> Closest:
+    def closest(self, x: np.ndarray, group: np.ndarray, enough: float = 0.0) -> ClosestPoints:
         """The point closest to each of x in a group.
 
         Parameters
@@ -104,7 +104,7 @@ class Trees:
         if len(piece) and piece.min() < 0:
             wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
             raise MeshError(f"nothing is closest to the point {wrong}: expected finite numbers, below {FARTHEST:g}")
-        return Closest(places, piece, weights)
+        return ClosestPoints(places, piece, weights)
 
 
 def triangulated(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

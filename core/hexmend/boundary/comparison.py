@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.boundary.classification import boundary_of
-from hexmend.boundary.closest_point import Trees, triangulated
-from hexmend.boundary.edges import Edges
+from hexmend.boundary.closest_point import ClosestPointTrees, triangulated
+from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.features import DEGREES, angles
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
@@ -87,7 +87,7 @@ class SurfaceChange:
         return {name: getattr(self, name) for name in names}
 
 
-class Skin:
+class SkinSurface:
     """A boundary as the surface that it is, without patches: what others are compared with.
 
     Parameters
@@ -101,7 +101,7 @@ class Skin:
     ----------
     nodes : (b,) int64
         Nodes of the faces, ascending.
-    edges : Edges
+    edges : SurfaceEdges
 
     Raises
     ------
@@ -113,10 +113,10 @@ class Skin:
         points = as_points(points)
         faces = as_faces(faces, len(points))
         self.points, self.faces, self.name = points, faces, name
-        self.nodes, self.edges = np.unique(faces), Edges(faces, len(points))
+        self.nodes, self.edges = np.unique(faces), SurfaceEdges(faces, len(points))
         self._trees = _one_tree(points, faces)
 
-    def with_points(self, points: np.ndarray) -> Skin:
+    def with_points(self, points: np.ndarray) -> SkinSurface:
         """The same faces with their nodes elsewhere, at points (n, 3) float64."""
         other, points = copy.copy(self), points_like(points, self.points.shape)
         vertices, _, _ = triangulated(points, self.faces)
@@ -179,12 +179,12 @@ class Skin:
         return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
 
 
-def _one_tree(points: np.ndarray, faces: np.ndarray) -> Trees:
+def _one_tree(points: np.ndarray, faces: np.ndarray) -> ClosestPointTrees:
     vertices, triangles, _ = triangulated(points, faces)
-    return Trees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
+    return ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
 
 
-def distances(one: Skin, other: Skin) -> tuple[np.ndarray, np.ndarray]:
+def distances(one: SkinSurface, other: SkinSurface) -> tuple[np.ndarray, np.ndarray]:
     """How far samples of each of two boundaries are from the other, of the first and of the second: (s,), (t,)."""
     return other.distances(one.samples()), one.distances(other.samples())
 
@@ -215,7 +215,7 @@ def surface_change(before: Mesh, after: Mesh, degrees: float = DEGREES) -> Surfa
     if before.n_nodes != after.n_nodes or not np.array_equal(before.hexes, after.hexes):
         raise MeshError(f"{before.n_hexes} and {after.n_hexes} hexes that are not the same: expected one mesh, moved")
     before = before.with_points(before.surface)
-    old = Skin(before.points, before.topology.boundary_faces)
+    old = SkinSurface(before.points, before.topology.boundary_faces)
     new = old.with_points(after.points)
     ways = distances(after.target or old, new)
     was, now = old.points[old.nodes], new.points[old.nodes]

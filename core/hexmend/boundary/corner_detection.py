@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.classification import Boundary, Kind, boundary_of
+from hexmend.boundary.classification import Boundary, NodeClass, boundary_of
 from hexmend.boundary.features import DEGREES, given_corners
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
@@ -38,7 +38,7 @@ def kept_bends(mesh: Mesh, boundary: Boundary) -> np.ndarray:
     hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
     ahead = _keys(boundary.faces, np.roll(boundary.faces, -1, axis=1), mesh.n_nodes)
     on_curve = np.isin(ahead, _keys(*boundary.segments.T, mesh.n_nodes))
-    at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.kind[boundary.faces] == Kind.CURVE)
+    at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.kind[boundary.faces] == NodeClass.CURVE)
     face, place = np.nonzero(at)
     sigma = corner_determinants(mesh.points, mesh.hexes, hexes[face])
     corner = FACES[sides[face], place]

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.boundary import Skin
+from hexmend.boundary import SkinSurface
 from hexmend.kernels import corner_values
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
@@ -31,19 +31,19 @@ class Change(ElementFigure):
     since : str
         What it is called before "since" and the earlier moment.
     of : callable
-        Gives the values, (m,) float64, of a `Movement`.
+        Gives the values, (m,) float64, of a `Displacement`.
     """
 
     label: str
     since: str
-    of: Callable[[Movement], np.ndarray]
+    of: Callable[[Displacement], np.ndarray]
 
 
-def _moved(movement: Movement, of_corners: Callable[..., None]) -> np.ndarray:
+def _moved(movement: Displacement, of_corners: Callable[..., None]) -> np.ndarray:
     return _of_nodes(movement, movement.distances, of_corners)
 
 
-def _of_nodes(movement: Movement, distances: np.ndarray, of_corners: Callable[..., None]) -> np.ndarray:
+def _of_nodes(movement: Displacement, distances: np.ndarray, of_corners: Callable[..., None]) -> np.ndarray:
     """What becomes of distances of nodes, (n,) in the unit of the mesh, in each hex, (m,) in mean edge lengths."""
     values = np.empty(movement.mesh.n_hexes)
     of_corners(movement.mesh.hexes, distances / movement.unit, values)
@@ -113,7 +113,7 @@ MOVEMENTS: dict[str, Change] = {
     )
 }
 
-#: What the colours of `q-change` set apart, in this order: numbers of `Movement.kinds`.
+#: What the colours of `q-change` set apart, in this order: numbers of `Displacement.kinds`.
 NEWLY_INVERTED, STILL_INVERTED, MENDED = 1, 2, 3
 
 
@@ -137,17 +137,17 @@ class Moment:
     points: np.ndarray
     figures: ElementQuality
     name: str
-    _skins: dict[str, Skin] = field(default_factory=dict)
+    _skins: dict[str, SkinSurface] = field(default_factory=dict)
 
-    def skin(self, mesh: Mesh) -> Skin:
+    def skin(self, mesh: Mesh) -> SkinSurface:
         """The boundary of the mesh as it was; found once."""
         if "whole" not in self._skins:
-            self._skins["whole"] = Skin(self.points, mesh.topology.boundary_faces)
+            self._skins["whole"] = SkinSurface(self.points, mesh.topology.boundary_faces)
         return self._skins["whole"]
 
 
 @dataclass(frozen=True, eq=False)
-class Movement:
+class Displacement:
     """What lies between two moments of one mesh; each figure is worked out once, when it is asked for.
 
     Parameters
@@ -171,9 +171,9 @@ class Movement:
         for points in (self.before.points, self.points):
             points_like(points, self.mesh.points.shape)
 
-    def until(self, points: np.ndarray, figures: ElementQuality) -> Movement:
+    def until(self, points: np.ndarray, figures: ElementQuality) -> Displacement:
         """From the same moment to where the nodes are elsewhere, (n, 3) float64."""
-        return Movement(self.mesh, self.before, points, figures)
+        return Displacement(self.mesh, self.before, points, figures)
 
     def title(self, name: str) -> str:
         """What colours show under one of the names of `MOVEMENTS`, in short."""

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 
-class Edges:
+class SurfaceEdges:
     """The edges of faces, each once.
 
     Parameters

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.edges import Edges, chains, components
+from hexmend.boundary.edges import SurfaceEdges, chains, components
 from hexmend.mesh.mesh import Mesh
 
 #: Faces that meet at a larger angle, in degrees, meet in a feature edge.
@@ -17,14 +17,14 @@ _THIN = 1e-6
 
 
 def feature_edges(
-    points: np.ndarray, edges: Edges, degrees: float, given: np.ndarray, kept: np.ndarray, whisker: float
+    points: np.ndarray, edges: SurfaceEdges, degrees: float, given: np.ndarray, kept: np.ndarray, whisker: float
 ) -> np.ndarray:
     """Which edges are features, (e,) bool.
 
     Parameters
     ----------
     points : (n, 3) float64
-    edges : Edges
+    edges : SurfaceEdges
     degrees : float
     given : (e,) bool
         Edges that are features whatever their angle.
@@ -56,7 +56,7 @@ def _light(group: np.ndarray, weight: np.ndarray, counts: np.ndarray, least: flo
     return ((sums < least) & (np.bincount(group, counts) > 0))[group]
 
 
-def angles(points: np.ndarray, edges: Edges) -> np.ndarray:
+def angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
     """Angle between the normals of the two faces of each edge, in degrees, 0 where a face has none; (e,) float64."""
     normals = face_normals(points, edges.faces)
     one, other = (normals[edges.neighbours[:, side]] for side in (0, 1))
@@ -94,7 +94,7 @@ def given_edges(mesh: Mesh) -> np.ndarray:
     found = [np.empty((0, 2), dtype=np.int32)]
     for cells in mesh.cells:
         if cells.kind == "quad" and "medit:ref" in cells.data:
-            edges, side = Edges(cells.nodes, mesh.n_nodes), np.asarray(cells.data["medit:ref"])
+            edges, side = SurfaceEdges(cells.nodes, mesh.n_nodes), np.asarray(cells.data["medit:ref"])
             found.append(edges.nodes[side[edges.neighbours[:, 0]] != side[edges.neighbours[:, 1]]])
         for flag in ("medit:ridge", "medit:required"):
             if cells.kind == "line" and flag in cells.data:

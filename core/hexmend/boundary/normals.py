@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.classification import Boundary, Kind
+from hexmend.boundary.classification import Boundary, NodeClass
 
 
 def triangle_normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -49,7 +49,7 @@ def curve_tangents(points: np.ndarray, boundary: Boundary) -> np.ndarray:
     own = segment_tangents(points, boundary.segments)
     tangents = np.repeat(own[:, None], 2, axis=1)
     ends = boundary.segments.ravel()
-    at = np.flatnonzero(boundary.kind[ends] == Kind.CURVE)
+    at = np.flatnonzero(boundary.kind[ends] == NodeClass.CURVE)
     at = at[np.argsort(ends[at], kind="stable")].reshape(-1, 2)
     chord = unit(points[ends[at[:, 1] ^ 1]] - points[ends[at[:, 0] ^ 1]])
     for end in at.T:

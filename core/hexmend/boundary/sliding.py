@@ -7,9 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.boundary.band import NOBODY, Room
-from hexmend.boundary.classification import Kind, classify
-from hexmend.boundary.closest_point import FARTHEST, Closest, triangulated
+from hexmend.boundary.band import NOBODY, Band
+from hexmend.boundary.classification import NodeClass, classify
+from hexmend.boundary.closest_point import FARTHEST, ClosestPoints, triangulated
 from hexmend.boundary.comparison import NEAR
 from hexmend.boundary.corner_detection import sliding_boundary
 from hexmend.boundary.features import DEGREES, given_corners
@@ -18,7 +18,7 @@ from hexmend.boundary.surface import Surface
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding as kernels
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology import Rows
+from hexmend.mesh.topology import CSR
 from hexmend.mesh.validation import as_points, points_like
 
 #: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
@@ -26,7 +26,7 @@ from hexmend.mesh.validation import as_points, points_like
 _INNER = 1e-3
 
 
-class Sliding(Room):
+class SlidingBoundary(Band):
     """A mesh whose boundary nodes slide: those of curves along them, those of patches on them; corners stay.
 
     Parameters
@@ -44,7 +44,7 @@ class Sliding(Room):
     boundary : Boundary
     surface : Surface
     kind : (n,) uint8
-        What each node is to the surface that it slides on, one of `Kind`.
+        What each node is to the surface that it slides on, one of `NodeClass`.
     mesh : Mesh
         The same, of whose nodes only corners, pinned ones and those that no hex uses are fixed; on a target those that
         slide have been put on it.
@@ -61,9 +61,9 @@ class Sliding(Room):
             whole = Surface(target.points, classify(target.points, target.faces, degrees))
             self.surface = whole.attached(mesh.surface, self.boundary, NEAR * mesh.mean_edge_length)
         self.kind = self.surface.kind
-        slides = self.kind >= Kind.CURVE
+        slides = self.kind >= NodeClass.CURVE
         self.nodes = np.flatnonzero(slides)
-        self.yields = self.boundary.kind == Kind.CORNER
+        self.yields = self.boundary.kind == NodeClass.CORNER
         self.yields[given_corners(mesh)] = False
         self._group = self.surface.group_of(self.nodes)
         self._number = np.full(mesh.n_nodes, -1, dtype=np.int64)
@@ -102,11 +102,11 @@ class Sliding(Room):
         """
         of, found = self.nodes if nodes is None else nodes, self._closest(x, nodes)
         weights = found.weights.copy()
-        weights[self.kind[of] == Kind.CURVE, 2] = 1.0  # a segment has two
+        weights[self.kind[of] == NodeClass.CURVE, 2] = 1.0  # a segment has two
         inner = weights.min(axis=1, keepdims=True) > _INNER
         along = np.where(inner, self.surface.directions(found, smooth=False), self.surface.directions(found))
         bases = np.zeros((len(of), 3, 3))
-        curve = self.kind[of] == Kind.CURVE
+        curve = self.kind[of] == NodeClass.CURVE
         bases[curve, :, 0] = along[curve]
         bases[~curve, :, :2] = _across(along[~curve])
         return bases
@@ -138,18 +138,18 @@ class Sliding(Room):
         return unit(normals[:, :2].mean(axis=1).reshape(len(faces), 4, 3).mean(axis=1))
 
     @cached_property
-    def rings(self) -> Rows:
+    def rings(self) -> CSR:
         """Edge neighbours of each node, of those that slide only the ones on their own curve or patch, and its ends."""
         kind, whole = self.kind, self.mesh.topology.rings
         node = np.repeat(np.arange(self.mesh.n_nodes), np.diff(whole.start))
         ways = [np.stack([node, whole.items], axis=1)[self._number[node] < 0]]
-        for of, along in (Kind.CURVE, self.boundary.segments), (Kind.PATCH, self.skin.edges.nodes):
+        for of, along in (NodeClass.CURVE, self.boundary.segments), (NodeClass.PATCH, self.skin.edges.nodes):
             both = np.concatenate([along, along[:, ::-1]])
             ways.append(both[kind[both[:, 0]] == of])
         ways = np.concatenate(ways)
         ways = ways[np.lexsort((ways[:, 1], ways[:, 0]))]
         start = np.searchsorted(ways[:, 0], np.arange(self.mesh.n_nodes + 1))
-        return Rows(start.astype(np.int32), np.ascontiguousarray(ways[:, 1], dtype=np.int32))
+        return CSR(start.astype(np.int32), np.ascontiguousarray(ways[:, 1], dtype=np.int32))
 
     def turned(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
         """Faces of the boundary that are turned over after a step and were not before, (k,) int.
@@ -213,7 +213,7 @@ class Sliding(Room):
         points[self.nodes] = self.put_back(points[self.nodes])
         return points
 
-    def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> Closest:
+    def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> ClosestPoints:
         x = as_points(x, "places of sliding nodes")
         try:
             return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])

@@ -6,8 +6,8 @@ import copy
 
 import numpy as np
 
-from hexmend.boundary.classification import Boundary, Kind
-from hexmend.boundary.closest_point import Closest, Trees, triangulated
+from hexmend.boundary.classification import Boundary, NodeClass
+from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulated
 from hexmend.boundary.normals import curve_tangents, segment_tangents, triangle_normals, vertex_normals
 from hexmend.errors import MeshError
 
@@ -32,7 +32,7 @@ class Surface:
     ----------
     kind, part
         Those of the nodes that slide on it, as in `Boundary`: of its own boundary, or as `attached` says.
-    trees : Trees
+    trees : ClosestPointTrees
         Patch i is group i, curve i is group `n_patches` + i.
 
     Examples
@@ -42,7 +42,7 @@ class Surface:
     >>> cube = make("cube", size=27)
     >>> boundary = boundary_of(cube)
     >>> surface = Surface(cube.points, boundary)
-    >>> sliding = np.flatnonzero(boundary.kind == Kind.PATCH)
+    >>> sliding = np.flatnonzero(boundary.kind == NodeClass.PATCH)
     >>> found = surface.trees.closest(cube.points[sliding] + 0.1, surface.group_of(sliding))
     >>> sorted(set(np.abs(surface.directions(found)).sum(axis=1).tolist()))
     [1.0]
@@ -53,7 +53,7 @@ class Surface:
         self.n_patches, self.n_curves = boundary.n_patches, boundary.n_curves
         vertices, triangles, face = triangulated(points, boundary.faces)
         patch, segments = boundary.patch_of_face[face], boundary.segments
-        self.trees = Trees(
+        self.trees = ClosestPointTrees(
             vertices,
             np.concatenate([triangles, segments[:, [0, 1, 1]]]),
             np.concatenate([patch, self.n_patches + boundary.curve_of_segment]),
@@ -72,13 +72,13 @@ class Surface:
             For a node that slides on nothing: one of the inside, or a corner.
         """
         kind = self.kind[nodes]
-        stays = np.flatnonzero(kind < Kind.CURVE)
+        stays = np.flatnonzero(kind < NodeClass.CURVE)
         if len(stays):
-            node, name = int(np.asarray(nodes)[stays[0]]), Kind(kind[stays[0]]).name
+            node, name = int(np.asarray(nodes)[stays[0]]), NodeClass(kind[stays[0]]).name
             raise MeshError(f"node {node} (counted from 0) is of kind {name}: expected CURVE or PATCH, which slide")
-        return self.part[nodes] + np.where(kind == Kind.CURVE, np.int32(self.n_patches), np.int32(0))
+        return self.part[nodes] + np.where(kind == NodeClass.CURVE, np.int32(self.n_patches), np.int32(0))
 
-    def directions(self, found: Closest, smooth: bool = True) -> np.ndarray:
+    def directions(self, found: ClosestPoints, smooth: bool = True) -> np.ndarray:
         """Normals of patches and tangents of curves at places that `trees` found, (k, 3) float64.
 
         They are of length 1, normals to the outside, tangents of either sense; 0 on a triangle or segment that has no
@@ -86,7 +86,7 @@ class Surface:
 
         Parameters
         ----------
-        found : Closest
+        found : ClosestPoints
         smooth : bool
             Interpolate between vertices; else they are those of the triangle or segment.
         """
@@ -112,18 +112,21 @@ class Surface:
         """
         kind, part = boundary.kind.copy(), np.full(len(boundary.kind), -1, dtype=np.int32)
         curve = self._group >= self.n_patches
-        nearest = Trees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
+        nearest = ClosestPointTrees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
         if not self.n_curves:
-            kind[kind == Kind.CURVE] = Kind.PATCH
-        for of, other, most in (Kind.CURVE, Kind.PATCH, reach / 4), (Kind.PATCH, Kind.CORNER, reach):
+            kind[kind == NodeClass.CURVE] = NodeClass.PATCH
+        for of, other, most in (
+            (NodeClass.CURVE, NodeClass.PATCH, reach / 4),
+            (NodeClass.PATCH, NodeClass.CORNER, reach),
+        ):
             nodes = np.flatnonzero(kind == of)
             if not nodes.size:
                 continue
-            found = nearest.closest(points[nodes], np.full(len(nodes), int(of == Kind.CURVE)))
+            found = nearest.closest(points[nodes], np.full(len(nodes), int(of == NodeClass.CURVE)))
             near = np.linalg.norm(found.places - points[nodes], axis=1) <= most
             kind[nodes[~near]] = other
             group = self._group[nearest.order[found.pieces[near]]]
-            part[nodes[near]] = group - (self.n_patches if of == Kind.CURVE else 0)
+            part[nodes[near]] = group - (self.n_patches if of == NodeClass.CURVE else 0)
         other = copy.copy(self)
         other.kind, other.part = kind, part
         return other

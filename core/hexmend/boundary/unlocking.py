@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.boundary.classification import Boundary
 from hexmend.boundary.features import DEGREES
-from hexmend.boundary.sliding import Sliding
+from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants
@@ -33,7 +33,7 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = DEGREES) -
     where = np.flatnonzero(locked)
     if not where.size:
         return freed
-    sliding = Sliding(mesh, degrees)
+    sliding = SlidingBoundary(mesh, degrees)
     tetrahedra = mesh.hexes[where][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
     held = sliding.mesh.fixed[tetrahedra].all(axis=2)
     for nodes, most in _straight(mesh, sliding.boundary):

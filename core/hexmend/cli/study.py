@@ -7,13 +7,13 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hexmend.study.thesis.experiment_result import Measured
+    from hexmend.study.thesis.experiment_result import ExperimentResult
 
 _OF_THE_THESIS = ("--quick", "--max-seconds", "--only", "--force")
 _OF_A_RECIPE = ("--jobs", "--scheduler", "--again", "--write-meshes")
 
 
-class Study:
+class StudyCommand:
     """Chapter 4, and what 5.2 hopes for, on the gallery's meshes; or any methods on any meshes."""
 
     name = "study"
@@ -89,23 +89,23 @@ class Study:
         from hexmend.parameters import from_strings
         from hexmend.report import made_folder, write_experiment, write_outlook, write_study
         from hexmend.report.thesis import VERDICTS
-        from hexmend.run import Stop
+        from hexmend.run import StoppingCriteria
         from hexmend.study.bench.sections import machine
-        from hexmend.study.outlook.experiments import Tried
+        from hexmend.study.outlook.experiments import TrialResult
         from hexmend.study.thesis.experiments import load
         from hexmend.study.thesis.mesh_figures import draw_figures
         from hexmend.study.thesis.runner import chosen_tables, planned, run_experiments
 
         thesis = chosen_tables(load(), args.only) if args.only else load()
         if args.max_seconds is not None:
-            limit = from_strings(Stop, {"max_seconds": args.max_seconds}, owner="the run")
+            limit = from_strings(StoppingCriteria, {"max_seconds": args.max_seconds}, owner="the run")
             thesis = thesis.limited(limit.max_seconds)
         for works, hexes in planned(thesis, args.quick):
             check_memory(args, works, hexes, "do fewer tables (--only)", "do it in small (--quick)")
         folder = made_folder(args.output)
 
-        def done(one: Measured | Tried) -> None:
-            if isinstance(one, Tried):
+        def done(one: ExperimentResult | TrialResult) -> None:
+            if isinstance(one, TrialResult):
                 said, paths = f"Section {one.outlook.section}, {one.outlook.mesh}", write_outlook(folder, one.record())
             else:
                 said = f"Table {one.experiment.table}, {one.experiment.thesis_mesh}"
@@ -128,4 +128,4 @@ class Study:
         return progress.signals.status if study.interrupted else 0
 
 
-command = Study()
+command = StudyCommand()

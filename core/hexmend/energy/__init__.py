@@ -2,12 +2,12 @@
 
 from hexmend.energy.hex_energy import energies, objective
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
-from hexmend.energy.norm import SQUARES, Power
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.regularisation import POLICIES, AdaptiveDelta, DeltaPolicy, FixedDelta
 from hexmend.energy.sliding_energy import SlidingEnergy
-from hexmend.energy.sparsity import Couplings
+from hexmend.energy.sparsity import BlockSparsity
 
 __all__ = [
-    "POLICIES", "SQUARES", "AdaptiveDelta", "Couplings", "DeltaPolicy", "FixedDelta", "Hessian", "MeshEnergy",
-    "Power", "SlidingEnergy", "energies", "objective",
+    "POLICIES", "SQUARES", "AdaptiveDelta", "BlockSparsity", "DeltaPolicy", "FixedDelta", "Hessian", "MeshEnergy",
+    "ObjectiveNorm", "SlidingEnergy", "energies", "objective",
 ]  # fmt: skip

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexmend.energy.linear_operator import SymmetricOperator
-from hexmend.energy.sparsity import Couplings
+from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import conjugate_gradients as kernels
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ _SMALL = 1e-25
 
 
 @dataclass(frozen=True, eq=False)
-class Solved:
+class CGResult:
     """What conjugate gradients reached.
 
     Parameters
@@ -35,14 +35,14 @@ class Solved:
     negative_curvature: bool
 
 
-class Assembled(SymmetricOperator):
+class AssembledHessian(SymmetricOperator):
     """A symmetric matrix of 3 x 3 blocks, (3 k, 3 k), and a system to be solved.
 
     Vectors are in the order of the free nodes by number, as those of `Hessian` are.
 
     Parameters
     ----------
-    couplings : Couplings
+    couplings : BlockSparsity
     off : (blocks + 1, 9) float32 or float64
         Blocks above the diagonal, by rows; the last is no block (see `conjugate_gradients`).
     diagonal : (k, 6) of the same
@@ -51,13 +51,13 @@ class Assembled(SymmetricOperator):
         The matrix is 2^exponent times what the blocks hold.
     """
 
-    def __init__(self, couplings: Couplings, off: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
+    def __init__(self, couplings: BlockSparsity, off: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
         super().__init__(3 * couplings.nodes.size)
         self.couplings, self.off, self.diagonal, self.exponent = couplings, off, diagonal, exponent
         self.order = couplings.order
         self._work = np.empty(64 * couplings.nodes.size + 16, off.dtype)
 
-    def cleared(self) -> Assembled:
+    def cleared(self) -> AssembledHessian:
         """The same room for another matrix, all zero; this one is gone."""
         self.off.fill(0)
         self.diagonal.fill(0)
@@ -65,7 +65,7 @@ class Assembled(SymmetricOperator):
         return self
 
     @classmethod
-    def zero(cls, couplings: Couplings, dtype: type) -> Assembled:
+    def zero(cls, couplings: BlockSparsity, dtype: type) -> AssembledHessian:
         """A matrix of that pattern, all zero."""
         off = np.zeros((couplings.blocks + 1, 9), dtype)
         return cls(couplings, off, np.zeros((couplings.nodes.size, 6), dtype))
@@ -74,11 +74,11 @@ class Assembled(SymmetricOperator):
         """Whether the blocks are so small that single precision rounds them or loses them."""
         return float(np.abs(self.diagonal).max(initial=0.0)) < _SMALL
 
-    def normalised(self, dtype: type) -> Assembled:
+    def normalised(self, dtype: type) -> AssembledHessian:
         """The same matrix with blocks of another precision, the largest number on the diagonal between 1/2 and 1."""
         exponent = int(np.frexp(np.abs(self.diagonal).max(initial=0.0))[1])
         off, diagonal = (np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off, self.diagonal))
-        return Assembled(self.couplings, off, diagonal, self.exponent + exponent)
+        return AssembledHessian(self.couplings, off, diagonal, self.exponent + exponent)
 
     def _product(self, v: np.ndarray) -> np.ndarray:
         x = v.reshape(-1, 3)
@@ -92,7 +92,7 @@ class Assembled(SymmetricOperator):
         x[self.order, :3] = v.reshape(-1, 3)
         return x
 
-    def solve(self, right: np.ndarray, tolerance: float, iterations: int, damping: float = 0.0) -> Solved:
+    def solve(self, right: np.ndarray, tolerance: float, iterations: int, damping: float = 0.0) -> CGResult:
         """Solution by conjugate gradients, preconditioned by symmetric Gauss-Seidel.
 
         What has been reached before a direction of negative curvature is returned, or, if it is the first, that
@@ -120,7 +120,7 @@ class Assembled(SymmetricOperator):
         right = self._vector(right, "the right-hand side")
         size = float(np.abs(right).max(initial=0.0))
         if size == 0 or not np.isfinite(size):
-            return Solved(np.zeros(right.size), 0, False)
+            return CGResult(np.zeros(right.size), 0, False)
         exponent = int(np.frexp(size)[1])
         b = self._slotted(np.ldexp(right, -exponent))  # scaled by a power of two, x keeps its bits
         x = np.empty_like(b)
@@ -129,7 +129,7 @@ class Assembled(SymmetricOperator):
         )
         with np.errstate(over="ignore"):
             solution = np.ldexp(x[self.order, :3].astype(np.float64).ravel(), exponent - self.exponent)
-        return Solved(solution, count, end == kernels.NEGATIVE_CURVATURE)
+        return CGResult(solution, count, end == kernels.NEGATIVE_CURVATURE)
 
     @property
     def own_blocks(self) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.energy.norm import SQUARES, Power
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.errors import MeshError
 from hexmend.kernels import objective as kernels
 from hexmend.mesh.validation import as_hexes, as_points
@@ -28,7 +28,7 @@ def energies(
     left_out : (m,) uint8, optional
         Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
     offset : float
-        See `Power`.
+        See `ObjectiveNorm`.
 
     Returns
     -------
@@ -64,7 +64,7 @@ def corners_left_out(left_out: np.ndarray | None, hexes: int) -> np.ndarray:
     return np.ascontiguousarray(left_out)
 
 
-def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: Power = SQUARES) -> float:
+def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: ObjectiveNorm = SQUARES) -> float:
     """(sum eta(H)^p)^(1/p) over all hexes, (3.3).
 
     Examples

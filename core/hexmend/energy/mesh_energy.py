@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.arrays import dot
-from hexmend.energy.assembled_hessian import Assembled
+from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.hex_energy import corners_left_out, energies
 from hexmend.energy.linear_operator import SymmetricOperator
-from hexmend.energy.norm import SQUARES, Power
-from hexmend.energy.sparsity import Couplings
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
+from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import assembly, reach, threads
 from hexmend.kernels import objective as kernels
 from hexmend.mesh.mesh import Mesh
@@ -28,7 +28,7 @@ class MeshEnergy:
     Parameters
     ----------
     mesh : Mesh
-    power : Power
+    power : ObjectiveNorm
         p and offset.
     left_out : (m,) uint8, optional
         Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
@@ -53,7 +53,7 @@ class MeshEnergy:
     #: Whether it has bends, those of a surface of triangles, at which Newton's method is slow.
     faceted = False
 
-    def __init__(self, mesh: Mesh, power: Power = SQUARES, left_out: np.ndarray | None = None):
+    def __init__(self, mesh: Mesh, power: ObjectiveNorm = SQUARES, left_out: np.ndarray | None = None):
         self.mesh = mesh
         self.power = power
         self.left_out = corners_left_out(left_out, mesh.n_hexes)
@@ -69,23 +69,23 @@ class MeshEnergy:
         return slot[self.mesh.hexes]
 
     @cached_property
-    def couplings(self) -> Couplings:
+    def couplings(self) -> BlockSparsity:
         """Which free nodes share a hex."""
-        return Couplings(self.mesh)
+        return BlockSparsity(self.mesh)
 
     @property
     def least(self) -> float:
         """What `value` is where all hexes are cubes and delta is zero."""
         return self.power.least * self.mesh.n_hexes
 
-    def but(self, power: Power, left_out: np.ndarray) -> MeshEnergy:
+    def but(self, power: ObjectiveNorm, left_out: np.ndarray) -> MeshEnergy:
         """The energy with another power and other corners left out; what depends on the mesh alone is shared.
 
         Both may be used by several threads at once.
 
         Parameters
         ----------
-        power : Power
+        power : ObjectiveNorm
         left_out : (m,) uint8
             As of `MeshEnergy`.
         """
@@ -183,7 +183,7 @@ class Hessian(SymmetricOperator):
             product += self.shift * v
         return product.ravel()
 
-    def assembled(self, dtype: type = np.float32, room: Assembled | None = None) -> Assembled:
+    def assembled(self, dtype: type = np.float32, room: AssembledHessian | None = None) -> AssembledHessian:
         """The same matrix, assembled: many products, and a system to be solved.
 
         Parameters
@@ -191,21 +191,21 @@ class Hessian(SymmetricOperator):
         dtype : numpy.float32 or numpy.float64
             Of the blocks. Where single precision cannot hold numbers so small (near the optimum of a high p), the
             matrix is assembled in double precision and scaled before it is rounded.
-        room : Assembled, optional
+        room : AssembledHessian, optional
             Another matrix that is not needed any more: this one takes its place if its pattern and precision are the
             same. Memory that has been touched before is faster.
         """
         couplings = self.energy.couplings
         fits = room is not None and room.couplings is couplings and room.off.dtype == dtype
-        matrix = room.cleared() if fits else Assembled.zero(couplings, dtype)
+        matrix = room.cleared() if fits else AssembledHessian.zero(couplings, dtype)
         self._assemble(matrix)
         if dtype == np.float32 and matrix.too_small():
-            wide = Assembled.zero(couplings, np.float64)
+            wide = AssembledHessian.zero(couplings, np.float64)
             self._assemble(wide)
             return wide.normalised(dtype)
         return matrix
 
-    def _assemble(self, matrix: Assembled) -> None:
+    def _assemble(self, matrix: AssembledHessian) -> None:
         """Add this Hessian to a matrix of zeros."""
         energy, shares = self.energy, self.energy.couplings.shares(threads())
         assembly.assemble(self.x, self.delta, energy.power, energy.left_out, *shares, matrix.off, matrix.diagonal)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-class Power(NamedTuple):
+class ObjectiveNorm(NamedTuple):
     """eta(H)^p with eta(H) = mean of eta(T) minus offset.
 
     Parameters
@@ -26,7 +26,7 @@ class Power(NamedTuple):
     def least(self) -> float:
         """What a cube contributes.
 
-        >>> Power(2.0, 1.0).least, Power(3.0, 0.0).least
+        >>> ObjectiveNorm(2.0, 1.0).least, ObjectiveNorm(3.0, 0.0).least
         (0.0, 1.0)
         """
         return self.of(0.0)
@@ -34,7 +34,7 @@ class Power(NamedTuple):
     def of(self, eta: float) -> float:
         """What a hex of this eta(H), as (B.20) has it, contributes.
 
-        >>> Power(2.0, 1.0).of(1.0), Power(2.0, 0.0).of(1.0)
+        >>> ObjectiveNorm(2.0, 1.0).of(1.0), ObjectiveNorm(2.0, 0.0).of(1.0)
         (1.0, 4.0)
         """
         return (eta + 1 - self.offset) ** self.p
@@ -43,8 +43,8 @@ class Power(NamedTuple):
     def formula(self) -> str:
         """The objective as tables and charts write it.
 
-        >>> Power().formula, Power(4.0, 0.0).formula, Power(1.5).formula, Power(1.0).formula
-        ('Σ η²', 'Σ η⁴, offset 0', 'Σ η^1.5', 'Σ η')
+        >>> ObjectiveNorm().formula, ObjectiveNorm(4.0, 0.0).formula, ObjectiveNorm(1.5).formula
+        ('Σ η²', 'Σ η⁴, offset 0', 'Σ η^1.5')
         """
         number = f"{self.p:g}"
         power = "" if number == "1" else number.translate(_RAISED) if number.isdigit() else f"^{number}"
@@ -52,4 +52,4 @@ class Power(NamedTuple):
 
 
 #: The sum of squares of (B.20).
-SQUARES = Power()
+SQUARES = ObjectiveNorm()

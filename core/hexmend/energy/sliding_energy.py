@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.boundary import Sliding
-from hexmend.energy.assembled_hessian import Assembled, full
+from hexmend.boundary import SlidingBoundary
+from hexmend.energy.assembled_hessian import AssembledHessian, full
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
-from hexmend.energy.norm import SQUARES, Power
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
 
 #: How far nodes are led to see where that is, in mean edge lengths.
 _NEAR = 1e-5
@@ -24,14 +24,14 @@ class SlidingEnergy(MeshEnergy):
 
     Parameters
     ----------
-    sliding : Sliding
+    sliding : SlidingBoundary
     power, left_out
         See `MeshEnergy`.
     """
 
     faceted = True
 
-    def __init__(self, sliding: Sliding, power: Power = SQUARES, left_out: np.ndarray | None = None):
+    def __init__(self, sliding: SlidingBoundary, power: ObjectiveNorm = SQUARES, left_out: np.ndarray | None = None):
         super().__init__(sliding.mesh, power, left_out)
         self.sliding = sliding
         self._rows = np.searchsorted(self.nodes, sliding.nodes)
@@ -117,7 +117,7 @@ class SlidingHessian(Hessian):
         product[rows] = np.einsum("kij,kj->ki", along, product[rows]) + off
         return product.ravel()
 
-    def assembled(self, dtype: type = np.float32, room: Assembled | None = None) -> Assembled:
+    def assembled(self, dtype: type = np.float32, room: AssembledHessian | None = None) -> AssembledHessian:
         matrix = super().assembled(dtype, room)
         energy = self.energy
         slots = matrix.order[energy._rows]

@@ -15,7 +15,7 @@ from hexmend.mesh.size_limits import MOST_ITEMS, too_many
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
 
 
-class Couplings:
+class BlockSparsity:
     """Pattern of the blocks of a Hessian: free nodes in slots, neighbours near each other, and who shares a hex.
 
     Depends on the mesh alone, not on the number of threads.

@@ -1,8 +1,8 @@
 """Side sets as data of the hexes, for grids that have no sets of faces.
 
 The data of a side set "inlet" are named "sides:inlet": bit k of a hex's number (1, 2, 4, 8, 16, 32) marks its face k of
-`hexmend.mesh.hexahedron.FACES`, which is also face k of VTK's hexahedron. Such data stay right where cells are left out or
-put in another order.
+`hexmend.mesh.hexahedron.FACES`, which is also face k of VTK's hexahedron. Such data stay right where cells are left
+out or put in another order.
 """
 
 from __future__ import annotations

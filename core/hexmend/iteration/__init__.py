@@ -1,6 +1,6 @@
 """Records of iterations: steps, results, stopping criteria and the figures of a history."""
 
-from hexmend.iteration.result import Iteration, Limits, Outcome, Result, StageResult, Step
-from hexmend.iteration.stopping import Stop
+from hexmend.iteration.result import ActiveSet, Iteration, Outcome, Result, StageResult, Step
+from hexmend.iteration.stopping import StoppingCriteria
 
-__all__ = ["Iteration", "Limits", "Outcome", "Result", "StageResult", "Step", "Stop"]
+__all__ = ["ActiveSet", "Iteration", "Outcome", "Result", "StageResult", "Step", "StoppingCriteria"]

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from hexmend.boundary import SurfaceChange
-from hexmend.energy.norm import SQUARES, Power
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.html_repr import html_of
-from hexmend.iteration.stopping import Stop
+from hexmend.iteration.stopping import StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, objective, regressions
 
@@ -39,7 +39,7 @@ class Outcome(Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class Limits:
+class ActiveSet:
     """What lets the least of a figure of corners rise no further.
 
     Parameters
@@ -74,9 +74,9 @@ class Step:
         `measure(points, hexes)`, where the method has needed it itself.
     detour : bool
         True where nodes are further than the method may leave them: such an iterate is no result.
-    limits : Limits, optional
+    limits : ActiveSet, optional
         What lets the method go no further, where it has found that out.
-    power : Power, optional
+    power : ObjectiveNorm, optional
         p and offset of the objective that this step was to lower, where it is another than the smoother's `power`.
     """
 
@@ -86,8 +86,8 @@ class Step:
     more: bool = False
     figures: ElementQuality | None = None
     detour: bool = False
-    limits: Limits | None = None
-    power: Power | None = None
+    limits: ActiveSet | None = None
+    power: ObjectiveNorm | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +108,7 @@ class Iteration:
         Of any node in this step, in mean edge lengths of the initial mesh: what Algorithm A.1 looks at.
     notes : mapping
         From the step, and "stage" (the number of the recipe's, from 1) and "method" (the name of the one at work).
-    power : Power
+    power : ObjectiveNorm
         p and offset of the objective that is recorded: the one that the step was to lower, or, where the step names
         none, the smoother's `power`. Number 0 has that of the first smoother.
     """
@@ -119,7 +119,7 @@ class Iteration:
     seconds: float
     largest_move: float
     notes: Mapping[str, Any] = field(default_factory=dict)
-    power: Power = SQUARES
+    power: ObjectiveNorm = SQUARES
 
     @property
     def objective(self) -> float | None:
@@ -157,7 +157,7 @@ class StageResult:
         Of the recipe, from 1; two in a row have the same where the method was changed within the stage.
     method : str
     parameters : mapping
-    stop : Stop
+    stop : StoppingCriteria
         The limits of the stage.
     outcome : Outcome
     first : int
@@ -169,7 +169,7 @@ class StageResult:
     stage: int
     method: str
     parameters: Mapping[str, Any]
-    stop: Stop
+    stop: StoppingCriteria
     outcome: Outcome
     first: int
     iterations: int
@@ -216,7 +216,7 @@ class Result:
         of a run whose method was changed on the way.
     surface : SurfaceChange or None
         How far the boundary has left where it was; None where no method let it slide.
-    limits : Limits or None
+    limits : ActiveSet or None
         What let the last method go no further, where it has found that out.
     """
 
@@ -234,7 +234,7 @@ class Result:
     history: tuple[dict[str, float | int | str | None], ...]
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
-    limits: Limits | None = None
+    limits: ActiveSet | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:

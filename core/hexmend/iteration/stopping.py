@@ -8,7 +8,7 @@ from hexmend.parameters import Parametrised, parameter
 
 
 @dataclass(frozen=True)
-class Stop(Parametrised):
+class StoppingCriteria(Parametrised):
     """When a run ends by itself, and which of its iterates is kept."""
 
     max_iterations: int = parameter(300, low=0, high=1_000_000, help="Most iterations of a run.")

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.kernels import large_patches as kernels
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology import Rows
+from hexmend.mesh.topology import CSR
 from hexmend.parameters import Parameter
 
 _SIZES = tuple(Parameter(name, int, 1, low, 2**31 - 1, None, "", "") for name, low in (("size", 1), ("overlap", 0)))
@@ -20,15 +20,15 @@ class Patches:
 
     Parameters
     ----------
-    nodes : Rows
+    nodes : CSR
         The nodes of each patch, ascending. Every free node is in one; with overlap in several.
-    chosen : Rows
+    chosen : CSR
         The hexes at the nodes of each patch.
     hexes : (t, 8) int32
         Corners of those hexes, one patch after another.
     slots : (t, 8) int32
         Where each corner is among the patch's nodes; -1 if it stays.
-    colours : Rows
+    colours : CSR
         The patches in groups, so that two of one group share no hex.
 
     Examples
@@ -39,11 +39,11 @@ class Patches:
     (8, 8)
     """
 
-    nodes: Rows
-    chosen: Rows
+    nodes: CSR
+    chosen: CSR
     hexes: np.ndarray
     slots: np.ndarray
-    colours: Rows
+    colours: CSR
 
 
 def grown(mesh: Mesh, size: int, overlap: int) -> Patches:
@@ -63,5 +63,5 @@ def grown(mesh: Mesh, size: int, overlap: int) -> Patches:
     node_start, nodes, hex_start, chosen, slots = kernels.grow(
         mesh.hexes, corners.start, corners.items, mesh.free, size, overlap
     )
-    colours = Rows(*kernels.colours(hex_start, chosen, mesh.n_hexes))
-    return Patches(Rows(node_start, nodes), Rows(hex_start, chosen), mesh.hexes[chosen], slots, colours)
+    colours = CSR(*kernels.colours(hex_start, chosen, mesh.n_hexes))
+    return Patches(CSR(node_start, nodes), CSR(hex_start, chosen), mesh.hexes[chosen], slots, colours)

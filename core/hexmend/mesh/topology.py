@@ -17,7 +17,7 @@ from hexmend.mesh.validation import as_bools, as_hexes
 
 
 @dataclass(frozen=True)
-class Rows:
+class CSR:
     """Rows of different lengths in one array: row i is `items[start[i]:start[i + 1]]`.
 
     Parameters
@@ -41,11 +41,11 @@ class Rows:
         before = np.cumsum(count) - count
         return self.items[np.arange(count.sum()) + np.repeat(self.start[rows] - before, count)]
 
-    def without(self, left_out: np.ndarray) -> Rows:
+    def without(self, left_out: np.ndarray) -> CSR:
         """The same rows without the items i of which left_out[i]; (n,) bool."""
         kept = ~left_out[self.items]
         start = np.concatenate([[0], np.cumsum(kept)])[self.start]
-        return Rows(start.astype(np.int32), self.items[kept])
+        return CSR(start.astype(np.int32), self.items[kept])
 
 
 class Topology:
@@ -73,9 +73,9 @@ class Topology:
         self.hexes = as_immutable(self.hexes)  # arrays that come out of a pickle are writable
 
     @cached_property
-    def node_corners(self) -> Rows:
+    def node_corners(self) -> CSR:
         """Corners of hexes at each node: items are 8 * hex + corner."""
-        return Rows(*incidence.node_corners(self.hexes, self.n))
+        return CSR(*incidence.node_corners(self.hexes, self.n))
 
     @cached_property
     def used(self) -> np.ndarray:
@@ -144,11 +144,11 @@ class Topology:
         return incidence.parts(self.hexes, self.used)
 
     @cached_property
-    def rings(self) -> Rows:
+    def rings(self) -> CSR:
         """Edge neighbours of each node, ascending."""
         rows = self.node_corners
         with too_many("neighbours of nodes"):
-            return Rows(*incidence.node_rings(self.hexes, rows.start, rows.items, MOST_ITEMS))
+            return CSR(*incidence.node_rings(self.hexes, rows.start, rows.items, MOST_ITEMS))
 
     @cached_property
     def _edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -196,7 +196,7 @@ class Topology:
         nodes, meeting = np.unique(self.edges[self.irregular_edges], return_counts=True)
         return nodes[(meeting != 2) & ~self.boundary[nodes]].astype(np.int64)
 
-    def colouring(self, chosen: np.ndarray) -> Rows:
+    def colouring(self, chosen: np.ndarray) -> CSR:
         """The chosen nodes in groups, one a colour, so that no hex holds two nodes of one colour.
 
         Nodes of a group can move at the same time without knowing of each other.
@@ -213,9 +213,9 @@ class Topology:
         rows, chosen = self.node_corners, as_bools(chosen, "chosen", self.n)
         colour = incidence.greedy_colours(rows.start, rows.items, chosen)
         count = int(colour.max(initial=-1)) + 1
-        return Rows(*incidence.grouped(colour, count))
+        return CSR(*incidence.grouped(colour, count))
 
-    def wavefronts(self, sequence: np.ndarray) -> Rows:
+    def wavefronts(self, sequence: np.ndarray) -> CSR:
         """The nodes of a sequence in groups, so that no hex holds two nodes of one group, and that group after group
         those that share a hex are in the order of the sequence.
 
@@ -232,7 +232,7 @@ class Topology:
             For a node that does not exist.
         """
         rows, nodes = self.node_corners, members(sequence, "sequence", self.n)
-        return Rows(*visiting.wavefronts(rows.start, rows.items, np.ascontiguousarray(nodes, np.int32)))
+        return CSR(*visiting.wavefronts(rows.start, rows.items, np.ascontiguousarray(nodes, np.int32)))
 
     def levels(self, start: np.ndarray) -> np.ndarray:
         """How many edges lie between each node and the nearest of some, breadth first, (n,) int32.

@@ -5,7 +5,7 @@
 
 from hexmend.node_step import getme, laplacian
 from hexmend.node_step.explain import explain
-from hexmend.node_step.record import NodeStep, Pull, Trial, Verdict
+from hexmend.node_step.record import NodeStep, Pull, StepStatus, Trial
 from hexmend.node_step.sweep import Sweep
 
-__all__ = ["NodeStep", "Pull", "Sweep", "Trial", "Verdict", "explain", "getme", "laplacian"]
+__all__ = ["NodeStep", "Pull", "StepStatus", "Sweep", "Trial", "explain", "getme", "laplacian"]

@@ -10,7 +10,7 @@ from hexmend.mesh.validation import number
 from hexmend.node_step.global_step import whole_step
 from hexmend.node_step.local import local_step
 from hexmend.node_step.mean_step import straight_step
-from hexmend.node_step.record import NodeStep, Verdict
+from hexmend.node_step.record import NodeStep, StepStatus
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.global_.base import GlobalDescent
 from hexmend.smoothers.local.single_node import LocalDescent
@@ -56,7 +56,7 @@ def explained(smoother: Smoother, mesh: Mesh, node: int) -> NodeStep:
     steps.close()
     after = mesh.points[node].copy() if step is None else step.points[node].copy()
     notes = {} if step is None else step.notes
-    stays = Verdict.FINISHED if step is None else Verdict.STAYS
+    stays = StepStatus.FINISHED if step is None else StepStatus.STAYS
     return straight_step(smoother, mesh, node, after, stays=stays, notes=notes)
 
 

@@ -11,7 +11,7 @@ from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.explain import explained
 from hexmend.node_step.mean_step import straight_step
-from hexmend.node_step.record import NodeStep, Pull, Verdict
+from hexmend.node_step.record import NodeStep, Pull, StepStatus
 from hexmend.quality import measure
 from hexmend.smoothers.base import Smoother
 from hexmend.smoothers.general import General
@@ -35,7 +35,7 @@ def _(smoother: SequentialGETMe, mesh: Mesh, node: int) -> NodeStep:
     pulls = tuple(Pull("hex", h, place, None) for h, place in zip(hexes.tolist(), places, strict=True))
     step = _next(smoother, mesh)
     after = step.points[node].copy()
-    return straight_step(smoother, mesh, node, after, pulls=pulls, stays=Verdict.STAYS, notes=step.notes)
+    return straight_step(smoother, mesh, node, after, pulls=pulls, stays=StepStatus.STAYS, notes=step.notes)
 
 
 @explained.register

@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.energy import MeshEnergy
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.patch import Patch, reach_of
-from hexmend.node_step.record import NodeStep, Trial, Verdict
+from hexmend.node_step.record import NodeStep, StepStatus, Trial
 from hexmend.optimise.descent import descend
 from hexmend.optimise.line_search import BackLineSearch
 from hexmend.quality import measure
@@ -50,17 +50,17 @@ def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     }  # fmt: skip
     taken = descend(energy, x, delta, smoother.direction(), search)
     if taken is None:
-        return NodeStep(**known, after=before, energy=np.inf, energy_after=np.inf, verdict=Verdict.INFINITE)
+        return NodeStep(**known, after=before, energy=np.inf, energy_after=np.inf, verdict=StepStatus.INFINITE)
     row = int(np.searchsorted(energy.nodes, node))
     if not taken.slope < 0:
-        return NodeStep(**known, after=before, energy=taken.value, energy_after=taken.value, verdict=Verdict.FLAT)
+        return NodeStep(**known, after=before, energy=taken.value, energy_after=taken.value, verdict=StepStatus.FLAT)
     curve = np.empty((PLACES, 2))
     curve[:, 0] = np.linspace(0, reach_of(smoother.first_step, taken.alpha), PLACES)
     curve[:, 1] = [energy.value(energy.moved(x, taken.found.p, float(alpha)), delta) for alpha in curve[:, 0]]
     return NodeStep(
         **known,
         after=energy.placed(taken.x)[node] if taken.alpha > 0 else before,
-        verdict=Verdict.MOVED if taken.alpha > 0 else Verdict.NO_DESCENT,
+        verdict=StepStatus.MOVED if taken.alpha > 0 else StepStatus.NO_DESCENT,
         energy=taken.value,
         energy_after=search.trials[-1].energy if taken.alpha > 0 else taken.value,
         direction=taken.found.p[row] * energy.unit,

@@ -7,14 +7,14 @@ import numpy as np
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.patch import Patch, reach_of
-from hexmend.node_step.record import NodeStep, Trial, Verdict
+from hexmend.node_step.record import NodeStep, StepStatus, Trial
 from hexmend.smoothers.local.single_node import LocalDescent
 
 _VERDICTS = {
-    local.MOVED: Verdict.MOVED,
-    local.NO_DESCENT: Verdict.NO_DESCENT,
-    local.FLAT: Verdict.FLAT,
-    local.INFINITE: Verdict.INFINITE,
+    local.MOVED: StepStatus.MOVED,
+    local.NO_DESCENT: StepStatus.NO_DESCENT,
+    local.FLAT: StepStatus.FLAT,
+    local.INFINITE: StepStatus.INFINITE,
 }
 
 

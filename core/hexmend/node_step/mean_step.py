@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.patch import MORE, Patch
-from hexmend.node_step.record import NodeStep, Pull, Verdict
+from hexmend.node_step.record import NodeStep, Pull, StepStatus
 from hexmend.quality import measure
 from hexmend.smoothers.base import Smoother
 
@@ -24,7 +24,7 @@ def straight_step(
     after: np.ndarray,
     target: np.ndarray | None = None,
     pulls: tuple[Pull, ...] = (),
-    stays: Verdict = Verdict.TAKEN_BACK,
+    stays: StepStatus = StepStatus.TAKEN_BACK,
     notes: Mapping[str, Any] | None = None,
 ) -> NodeStep:
     """The record of a step whose end is known.
@@ -35,7 +35,7 @@ def straight_step(
         Where the method puts the node.
     target : (3,) float64, optional
         Where it would go if nothing stood in the way; without it, `after`.
-    stays : Verdict
+    stays : StepStatus
         Why the node stays, if it does.
     """
     before = mesh.points[node].copy()
@@ -47,9 +47,11 @@ def straight_step(
     way, gone = target - before, after - before
     far = float(way @ way)
     alpha = float(gone @ way) / far if far > 0 else 0.0
-    verdict = Verdict.THERE if far == 0 and wanted else stays
+    verdict = StepStatus.THERE if far == 0 and wanted else stays
     if gone.any():
-        verdict = Verdict.MOVED if np.allclose(after, target, rtol=0, atol=1e-9 * patch.unit) else Verdict.SHORTENED
+        verdict = (
+            StepStatus.MOVED if np.allclose(after, target, rtol=0, atol=1e-9 * patch.unit) else StepStatus.SHORTENED
+        )
     direction = way / patch.unit if patch.unit else way
     return NodeStep(
         smoother.name, node, hexes, before, after, verdict, patch.unit, power, delta, patch.energy, patch.gradient,

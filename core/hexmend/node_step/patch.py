@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.energy import Power
+from hexmend.energy import ObjectiveNorm
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 
@@ -22,7 +22,7 @@ class Patch:
     points : (n, 3) float64
         Of all nodes.
     node : int
-    power : Power
+    power : ObjectiveNorm
     delta : float
     unit : float, optional
         The length that is taken for 1; without it, the mean edge length of the patch.
@@ -37,7 +37,7 @@ class Patch:
     """
 
     def __init__(
-        self, mesh: Mesh, points: np.ndarray, node: int, power: Power, delta: float, unit: float | None = None
+        self, mesh: Mesh, points: np.ndarray, node: int, power: ObjectiveNorm, delta: float, unit: float | None = None
     ):
         star = mesh.topology.node_corners[node]
         self.hexes = star // 8

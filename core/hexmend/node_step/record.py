@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from hexmend.energy import Power
+from hexmend.energy import ObjectiveNorm
 
 
-class Verdict(Enum):
+class StepStatus(Enum):
     """What became of the node, as a sentence."""
 
     MOVED = "Moved."
@@ -66,11 +66,11 @@ class NodeStep:
         The node's patch: the hexes that it is a corner of.
     before, after : (3,) float64
         Where the node is, and where the method puts it.
-    verdict : Verdict
+    verdict : StepStatus
     unit : float
         The length that the energy takes for 1: the mean edge length of the patch, or, where the energy is that of the
         whole mesh, of the mesh.
-    power : Power
+    power : ObjectiveNorm
         p and offset of the energy, (3.3).
     delta : float
         Of the energy, in the cube of `unit`.
@@ -108,9 +108,9 @@ class NodeStep:
     hexes: np.ndarray
     before: np.ndarray
     after: np.ndarray
-    verdict: Verdict
+    verdict: StepStatus
     unit: float
-    power: Power
+    power: ObjectiveNorm
     delta: float
     energy: float
     gradient: np.ndarray

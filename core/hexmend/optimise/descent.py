@@ -10,7 +10,7 @@ from hexmend.arrays import norm
 from hexmend.energy import MeshEnergy, energies
 from hexmend.kernels.reach import shorten
 from hexmend.optimise.line_search import BackLineSearch
-from hexmend.optimise.search_direction import Direction, Found, steepest_descent
+from hexmend.optimise.search_direction import Direction, SearchDirection, steepest_descent
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +25,7 @@ class Descent:
         Energy before the step, and its slope along the direction.
     gradient_norm : float
         Before the step.
-    found : Found
+    found : SearchDirection
         The direction.
     alpha : float
         Step length; 0 where none descends, and x is where it was.
@@ -37,7 +37,7 @@ class Descent:
     value: float
     slope: float
     gradient_norm: float
-    found: Found
+    found: SearchDirection
     alpha: float
     cuts: int
 
@@ -79,7 +79,7 @@ def descend(
     if not np.isfinite(length):
         return None
     if perfect(energy, value, delta):
-        return Descent(x, value, 0.0, length, Found(np.zeros_like(gradient)), 0.0, 0)
+        return Descent(x, value, 0.0, length, SearchDirection(np.zeros_like(gradient)), 0.0, 0)
     hessian = energy.hessian(x, delta)
     found = find(value, gradient, hessian)  # A.2, A.3, A.4
     if not np.isfinite(found.p).all():

@@ -9,13 +9,13 @@ import numpy as np
 
 from hexmend.arrays import norm
 from hexmend.energy import Hessian
-from hexmend.energy.assembled_hessian import Assembled, full
+from hexmend.energy.assembled_hessian import AssembledHessian, full
 from hexmend.optimise.blas_threads import one_blas_thread
 from hexmend.optimise.linear_solvers import LinearSolver
 
 
 @dataclass(frozen=True)
-class Found:
+class SearchDirection:
     """A search direction.
 
     Parameters
@@ -35,14 +35,14 @@ class Found:
 class Direction(Protocol):
     """Finds a search direction for sum eta^p."""
 
-    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         """Search direction at a point of this value, gradient (k, 3) and Hessian."""
 
 
-def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
     """Algorithm A.2: p_k = -grad f of (3.3), f being the p-th root of the sum."""
     p = hessian.energy.power.p
-    return Found(-(value ** (1 / p - 1) / p) * gradient)  # (C.2)
+    return SearchDirection(-(value ** (1 / p - 1) / p) * gradient)  # (C.2)
 
 
 @dataclass(frozen=True)
@@ -51,9 +51,9 @@ class Newton:
 
     solver: LinearSolver
 
-    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         p, count = self.solver(hessian, -gradient.ravel())
-        return Found(p.reshape(-1, 3), count, hessian.shift)
+        return SearchDirection(p.reshape(-1, 3), count, hessian.shift)
 
 
 #: What is left of the first gradient where a solution is as good as rounding lets it be.
@@ -84,9 +84,9 @@ class TruncatedNewton:
         self.iterations, self.loosest, self.tightest = iterations, loosest, tightest
         self._first = self._last = np.inf
         self._damping = 0.0
-        self._matrix: Assembled | None = None
+        self._matrix: AssembledHessian | None = None
 
-    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         matrix = self._matrix = hessian.assembled(room=self._matrix)
         right, tolerance = -gradient.ravel(), self._tolerance(gradient)
         solved = matrix.solve(right, tolerance, self.iterations, self._damping)
@@ -100,7 +100,7 @@ class TruncatedNewton:
         self._damping = damping if damping > self._damping else damping / FALL
         if self._damping < FIRST:
             self._damping = 0.0
-        return Found(solved.x.reshape(-1, 3), count, damping)
+        return SearchDirection(solved.x.reshape(-1, 3), count, damping)
 
     def _tolerance(self, gradient: np.ndarray) -> float:
         length = norm(gradient)
@@ -119,7 +119,7 @@ class ModifiedNewton:
 
     solver: LinearSolver
 
-    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> Found:
+    def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
         least, greatest = extreme_eigenvalues(hessian)
         if least < 0.001 * greatest:
             hessian = hessian.shifted(0.001 * greatest - least)

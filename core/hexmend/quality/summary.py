@@ -126,7 +126,7 @@ def objective(figures: ElementQuality, p: float = 2.0, offset: float = 1.0) -> f
     ----------
     figures : ElementQuality
     p, offset : float
-        See `hexmend.energy.Power`; the defaults are those of `Summary.objective`.
+        See `hexmend.energy.ObjectiveNorm`; the defaults are those of `Summary.objective`.
 
     Returns
     -------

@@ -29,7 +29,7 @@ def write_many(folder: Path, study: Mapping[str, Any], machine: Mapping[str, Any
     ----------
     folder : Path
     study : mapping
-        `hexmend.study.batch.runner.Studied.record`.
+        `hexmend.study.batch.runner.StudyResult.record`.
     machine : mapping
         Where it was asked for, as `hexmend.study.bench.sections.machine` tells it.
     """

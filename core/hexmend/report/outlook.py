@@ -34,7 +34,7 @@ def write_outlook(folder: Path, outlook: Mapping[str, Any]) -> list[Path]:
     ----------
     folder : Path
     outlook : mapping
-        `hexmend.study.outlook.experiments.Tried.record`.
+        `hexmend.study.outlook.experiments.TrialResult.record`.
     """
     return write_documents(folder, outlook_stem(outlook), outlook_table(outlook), outlook["runs"], outlook)
 

@@ -57,7 +57,7 @@ def write_convergence(
     ----------
     path : Path
     histories : mapping
-        Rows of iterations (`hexmend.optimise.Result.history`), by what the curve is called.
+        Rows of iterations (`hexmend.iteration.Result.history`), by what the curve is called.
     title : str
     width_mm : float
 

@@ -31,7 +31,7 @@ def write_experiment(folder: Path, experiment: Mapping[str, Any]) -> list[Path]:
     ----------
     folder : Path
     experiment : mapping
-        `hexmend.study.thesis.experiment_result.Measured.record`.
+        `hexmend.study.thesis.experiment_result.ExperimentResult.record`.
     """
     published = experiment["published"]
     rows = [

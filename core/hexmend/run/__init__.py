@@ -8,20 +8,20 @@ from collections.abc import Callable
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.iteration import Iteration, Result, Stop
+from hexmend.iteration import Iteration, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import declared, hint
 from hexmend.run.recipe import Recipe
 from hexmend.run.run import Run
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 
-__all__ = ["Run", "Stop", "iterate", "smooth"]
+__all__ = ["Run", "StoppingCriteria", "iterate", "smooth"]
 
 
 def iterate(
     mesh: Mesh | str | os.PathLike[str],
     smoother: Smoother | Recipe | str = DEFAULT_METHOD,
-    stop: Stop | None = None,
+    stop: StoppingCriteria | None = None,
     **settings: Any,
 ) -> Run:
     """Run a smoother or a recipe step by step.
@@ -32,10 +32,11 @@ def iterate(
         A mesh, which stays as it is, or the file of one.
     smoother : Smoother, Recipe or str
         A smoother, or the name of one to be used with its defaults; or a recipe.
-    stop : Stop, optional
+    stop : StoppingCriteria, optional
         For a recipe: in place of the limits of every stage.
     **settings
-        Parameters of the method and limits of `Stop` by their names, in place of those of `smoother` and `stop`:
+        Parameters of the method and limits of `StoppingCriteria` by their names, in place of those of `smoother` and
+        `stop`:
         `boundary="slide", max_iterations=50`. Of a recipe only limits, which hold for every stage.
 
     Returns
@@ -46,7 +47,7 @@ def iterate(
     Raises
     ------
     ParameterError
-        For a name that neither the method nor `Stop` has, and for a value out of bounds.
+        For a name that neither the method nor `StoppingCriteria` has, and for a value out of bounds.
     FileError, MeshError
         Where the file cannot be read.
 
@@ -67,7 +68,7 @@ def iterate(
 def smooth(
     mesh: Mesh | str | os.PathLike[str],
     smoother: Smoother | Recipe | str = DEFAULT_METHOD,
-    stop: Stop | None = None,
+    stop: StoppingCriteria | None = None,
     *,
     watch: Callable[[Iteration], Any] | None = None,
     **settings: Any,
@@ -111,14 +112,14 @@ def _read(mesh: Mesh | str | os.PathLike[str]) -> Mesh:
 
 
 def _configured(
-    smoother: Smoother | Recipe | str, stop: Stop | None, settings: dict[str, Any]
-) -> tuple[Smoother | Recipe, Stop | None]:
+    smoother: Smoother | Recipe | str, stop: StoppingCriteria | None, settings: dict[str, Any]
+) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
     """A smoother or recipe and its limits, with settings in place of some of their values."""
     if isinstance(smoother, str):
         smoother = METHODS[smoother]()
     if not isinstance(smoother, Smoother | Recipe):
         raise TypeError(f"{type(smoother).__name__} is no method: expected a hexmend.Smoother, a Recipe or a name")
-    limits = {one.name for one in declared(Stop)}
+    limits = {one.name for one in declared(StoppingCriteria)}
     own = [] if isinstance(smoother, Recipe) else [one.name for one in declared(smoother)]
     for name in settings:
         if name not in limits and name not in own:
@@ -129,4 +130,4 @@ def _configured(
         smoother = dataclasses.replace(smoother, **values)
     if wanted and isinstance(smoother, Recipe) and stop is None:
         return smoother.limited(**wanted), None
-    return smoother, dataclasses.replace(stop or Stop(), **wanted) if wanted else stop
+    return smoother, dataclasses.replace(stop or StoppingCriteria(), **wanted) if wanted else stop

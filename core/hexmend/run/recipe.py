@@ -24,7 +24,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 from hexmend.errors import ParameterError
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.parameters import from_values, hint
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.smoothers.sliding_smoother import UNLIMITED
@@ -41,7 +41,7 @@ class Stage:
     """A method and when it ends."""
 
     smoother: Smoother
-    stop: Stop = field(default_factory=Stop)
+    stop: StoppingCriteria = field(default_factory=StoppingCriteria)
 
     def values(self) -> dict[str, Any]:
         """The stage as data: `method`, `parameters` and `stop`, every value of them."""
@@ -93,7 +93,7 @@ class Recipe:
         return cls(title or "; then ".join(stage.smoother.title for stage in stages), stages)
 
     def limited(self, **limits: Any) -> Recipe:
-        """The same with these limits of `Stop` for every stage, in place of its own."""
+        """The same with these limits of `StoppingCriteria` for every stage, in place of its own."""
         return replace(self, stages=tuple(replace(stage, stop=replace(stage.stop, **limits)) for stage in self.stages))
 
     def values(self) -> dict[str, Any]:
@@ -181,7 +181,7 @@ def read_stage(number: int, data: Mapping[str, Any]) -> Stage:
             raise ParameterError('it has no method: expected a line such as  method = "mend"')
         cls = METHODS[str(data["method"])]
         smoother = from_values(cls, table_in(data, "parameters"), owner=cls.name)
-        return Stage(smoother, from_values(Stop, table_in(data, "stop"), owner="stop"))
+        return Stage(smoother, from_values(StoppingCriteria, table_in(data, "stop"), owner="stop"))
     except ParameterError as error:
         raise ParameterError(f"stage {number}: {error}") from None
 

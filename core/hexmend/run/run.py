@@ -7,12 +7,12 @@ from itertools import pairwise
 
 from hexmend.boundary import SurfaceChange, surface_change
 from hexmend.boundary.features import DEGREES
-from hexmend.iteration import Iteration, Outcome, Result, Stop
+from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, measure, regressions, summarise, worse_in_words
 from hexmend.run.messages import changes, iterations, kept
 from hexmend.run.recipe import Recipe, Stage
-from hexmend.run.stage_run import Leg
+from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import METHODS, Smoother
 
 
@@ -26,7 +26,7 @@ class Run(Iterator[Iteration]):
     ----------
     mesh : Mesh
     smoother : Smoother or Recipe
-    stop : Stop, optional
+    stop : StoppingCriteria, optional
         The defaults for a smoother; for a recipe, in place of the limits of every stage.
 
     Attributes
@@ -39,7 +39,7 @@ class Run(Iterator[Iteration]):
         The newest.
     reached : Iteration
         The one that is the run's result: the best of the stage at hand by the rank of the method at work, of equals
-        the last; the last in any case under `Stop.keep_last`.
+        the last; the last in any case under `StoppingCriteria.keep_last`.
     history : list of dict
         `Iteration.row` of every iteration so far, number 0 first.
     outcome : Outcome or None
@@ -48,7 +48,7 @@ class Run(Iterator[Iteration]):
         What was decided on the way, in sentences.
     """
 
-    def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: Stop | None = None):
+    def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria | None = None):
         self.mesh = mesh
         self.smoother = smoother
         self._stages = _stages(smoother, stop)
@@ -58,7 +58,7 @@ class Run(Iterator[Iteration]):
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
-        self._legs = [Leg(mesh, self._stages[0], 1, self.start, self.start)]
+        self._legs = [StageRun(mesh, self._stages[0], 1, self.start, self.start)]
         self._settle()
 
     def __next__(self) -> Iteration:
@@ -76,7 +76,7 @@ class Run(Iterator[Iteration]):
                 return iteration
         raise StopIteration
 
-    def go_on_with(self, smoother: Smoother | str, stop: Stop | None = None) -> None:
+    def go_on_with(self, smoother: Smoother | str, stop: StoppingCriteria | None = None) -> None:
         """Do the rest of the stage at hand by another method, with other values or under other limits.
 
         It goes on from the newest iteration, where the nodes are. A stage that has just ended goes on too, if its new
@@ -85,7 +85,7 @@ class Run(Iterator[Iteration]):
         Parameters
         ----------
         smoother : Smoother or str
-        stop : Stop, optional
+        stop : StoppingCriteria, optional
             Limits of the stage as a whole, counted from where it began; its own so far if None.
 
         Raises
@@ -103,7 +103,7 @@ class Run(Iterator[Iteration]):
         if new.smoother == old.smoother and old.outcome is None:
             old.limit(new.stop)
         else:
-            leg = Leg(self.mesh, new, old.number, old.at, self.last, old)
+            leg = StageRun(self.mesh, new, old.number, old.at, self.last, old)
             if old.outcome is None:
                 old.end(Outcome.STOPPED)
             self._legs.append(leg)
@@ -220,7 +220,7 @@ class Run(Iterator[Iteration]):
         return summarise(self.mesh, self.start.figures), summarise(mesh, self.reached.figures)
 
     @property
-    def _leg(self) -> Leg:
+    def _leg(self) -> StageRun:
         return self._legs[-1]
 
     @property
@@ -232,7 +232,7 @@ class Run(Iterator[Iteration]):
         kept = f" Kept of it is iteration {reached.number}." if reached is not last else ""
         count = iterations(last.number - done.since.number)
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
-        self._legs.append(Leg(self.mesh, self._to_come[0], done.number + 1, reached, last))
+        self._legs.append(StageRun(self.mesh, self._to_come[0], done.number + 1, reached, last))
         self._settle()
 
     def _settle(self) -> None:
@@ -242,7 +242,7 @@ class Run(Iterator[Iteration]):
             self.outcome = over
 
 
-def _stages(smoother: Smoother | Recipe, stop: Stop | None) -> Sequence[Stage]:
+def _stages(smoother: Smoother | Recipe, stop: StoppingCriteria | None) -> Sequence[Stage]:
     if isinstance(smoother, Recipe):
         return (smoother if stop is None else smoother.limited(**stop.values())).stages
-    return (Stage(smoother, stop or Stop()),)
+    return (Stage(smoother, stop or StoppingCriteria()),)

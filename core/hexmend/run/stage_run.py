@@ -9,7 +9,7 @@ from time import perf_counter
 import numpy as np
 
 from hexmend.arrays import as_immutable
-from hexmend.iteration import Iteration, Limits, Outcome, StageResult, Stop
+from hexmend.iteration import ActiveSet, Iteration, Outcome, StageResult, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
 from hexmend.quality import measure, objective
@@ -23,7 +23,7 @@ log = logging.getLogger(__name__)
 _FALLING, _WORTH = 1e-3, 1e-2
 
 
-class Leg:
+class StageRun:
     """A smoother at work from one iteration on, until a limit is reached or it has no further step.
 
     Parameters
@@ -37,7 +37,7 @@ class Leg:
         Where the nodes are as it begins.
     after : Iteration
         The run's newest: numbers and seconds go on from it.
-    before : Leg, optional
+    before : StageRun, optional
         The one whose stage it takes over: limits count and iterates are ranked from where that stage began.
 
     Attributes
@@ -53,12 +53,12 @@ class Leg:
     setup_seconds : float
     decision : str
         What the method decided at its newest step.
-    limits : Limits or None
+    limits : ActiveSet or None
         What lets the method go no further, as far as it has said so.
     """
 
     def __init__(
-        self, mesh: Mesh, stage: Stage, number: int, start: Iteration, after: Iteration, before: Leg | None = None
+        self, mesh: Mesh, stage: Stage, number: int, start: Iteration, after: Iteration, before: StageRun | None = None
     ):
         self.stage, self.number = stage, number
         self.start, self.after = start, after
@@ -66,7 +66,7 @@ class Leg:
         self.last, self.at = after, start
         self.outcome: Outcome | None = None
         self.decision = ""
-        self.limits: Limits | None = None
+        self.limits: ActiveSet | None = None
         self._hexes, self._unit = mesh.hexes, mesh.mean_edge_length or 1.0
         self._origin = start if before is None else before._origin
         self._best = start if before is None else before._best
@@ -133,7 +133,7 @@ class Leg:
         """What A.1 compares with the tolerance."""
         return length if self.stage.stop.move == "length" else float(np.abs(moves).max()) / self._unit
 
-    def limit(self, stop: Stop) -> None:
+    def limit(self, stop: StoppingCriteria) -> None:
         """Go on under other limits."""
         self.stage = Stage(self.smoother, stop)
         self._end_at_a_limit()

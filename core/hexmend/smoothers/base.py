@@ -9,7 +9,7 @@ from typing import Any, ClassVar, TypeAlias, TypeVar
 
 import numpy as np
 
-from hexmend.energy.norm import SQUARES, Power
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
@@ -47,7 +47,7 @@ class Smoother(Parametrised, ABC):
         super().__post_init__()
 
     @property
-    def power(self) -> Power:
+    def power(self) -> ObjectiveNorm:
         """p and offset of the objective that its runs end at the minimum of.
 
         It is recorded of every step that names no other (`Step.power`). A method that minimises nothing has the default

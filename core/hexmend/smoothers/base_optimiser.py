@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend.energy import POLICIES, Power
+from hexmend.energy import POLICIES, ObjectiveNorm
 from hexmend.parameters import parameter
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 
 
 @dataclass(frozen=True)
-class Objective(SlidingSmoother):
+class ObjectiveSmoother(SlidingSmoother):
     """A method that lowers (3.3)."""
 
     optimises = True
@@ -26,13 +26,13 @@ class Objective(SlidingSmoother):
     )
 
     @property
-    def power(self) -> Power:
+    def power(self) -> ObjectiveNorm:
         """p and offset of the objective that it minimises."""
-        return Power(self.p, self.offset)
+        return ObjectiveNorm(self.p, self.offset)
 
 
 @dataclass(frozen=True)
-class Optimiser(Objective):
+class Optimiser(ObjectiveSmoother):
     """One that untangles by a barrier softened by delta."""
 
     delta: float = parameter(

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Smoother
@@ -51,11 +51,11 @@ class SlidingSmoother(Smoother):
         sliding = self.sliding(mesh)
         return mesh.free if sliding is None else sliding.mesh.free
 
-    def sliding(self, mesh: Mesh) -> Sliding | None:
+    def sliding(self, mesh: Mesh) -> SlidingBoundary | None:
         """What the nodes of a mesh's boundary slide on; None where they stay."""
         if not self.slides:
             return None
-        return Sliding(mesh, self.feature_angle, self.room(mesh))
+        return SlidingBoundary(mesh, self.feature_angle, self.room(mesh))
 
     def room(self, mesh: Mesh) -> float:
         """How far the boundary may leave the surface, in the mesh's unit of length."""
@@ -70,13 +70,13 @@ class Sweeps:
 
     Parameters
     ----------
-    sliding : Sliding or None
+    sliding : SlidingBoundary or None
         None where the boundary stays: a sweep is a sweep.
     n : int
         Number of nodes.
     """
 
-    def __init__(self, sliding: Sliding | None, n: int):
+    def __init__(self, sliding: SlidingBoundary | None, n: int):
         self.sliding, self._often = sliding, np.zeros(n, dtype=np.int64)
 
     def __call__(self, points: np.ndarray, sweep: Callable[[np.ndarray, np.ndarray], T]) -> tuple[np.ndarray, T]:

@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology import Rows
+from hexmend.mesh.topology import CSR
 from hexmend.quality import measure
 
 #: The free nodes in the order of a sweep, (k,) int32: of the places of all nodes (n, 3) as it begins, and its number
@@ -98,9 +98,9 @@ class Visits:
         self.sequence = ORDERS[order](mesh)
         self._mesh = mesh
         self._nodes: np.ndarray | None = None
-        self._groups: Rows | None = None
+        self._groups: CSR | None = None
 
-    def groups(self, points: np.ndarray, sweep: int) -> Rows:
+    def groups(self, points: np.ndarray, sweep: int) -> CSR:
         """The nodes of a sweep in groups that share no hex: one group after another does what the sequence does.
 
         Parameters

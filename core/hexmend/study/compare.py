@@ -8,7 +8,7 @@ from typing import Any
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import Row, Watch, common_power, initial_record, run_one
@@ -23,7 +23,7 @@ class Comparison:
     mesh : Mesh
         As given.
     initial : Summary
-    stop : Stop
+    stop : StoppingCriteria
     rows : tuple of Row
         A row a method, in the order of running; methods that an interruption left out have none.
     interrupted : bool
@@ -32,7 +32,7 @@ class Comparison:
 
     mesh: Mesh
     initial: Summary
-    stop: Stop
+    stop: StoppingCriteria
     rows: tuple[Row, ...]
     interrupted: bool = False
 
@@ -54,7 +54,7 @@ class Comparison:
 def compare(
     mesh: Mesh,
     methods: Iterable[Smoother | Recipe | str] = METHODS,
-    stop: Stop | None = None,
+    stop: StoppingCriteria | None = None,
     *,
     watch: Watch | None = None,
 ) -> Comparison:
@@ -69,7 +69,7 @@ def compare(
     methods : iterable of Smoother, Recipe or str
         Names stand for methods with their defaults; `hexmend.study.method_spec` takes settings in words. All that are
         registered if not given.
-    stop : Stop, optional
+    stop : StoppingCriteria, optional
         Limits of each method's run; a recipe has its own.
     watch : callable, optional
         See `Watch`.
@@ -77,13 +77,13 @@ def compare(
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> answer = compare(make("bridge-sharp", size=864), ["laplacian", "local-sd"], Stop(keep_last=True))
+    >>> answer = compare(make("bridge-sharp", size=864), ["laplacian", "local-sd"], StoppingCriteria(keep_last=True))
     >>> [row.after.inverted > 0 for row in answer.rows]
     [True, False]
     >>> answer.rows[0].worse
     ('inverted', 'q_min', 'scaled_jacobian')
     """
-    stop = stop or Stop()
+    stop = stop or StoppingCriteria()
     smoothers = [METHODS[one]() if isinstance(one, str) else one for one in methods]
     rows: list[Row] = []
     interrupted = False

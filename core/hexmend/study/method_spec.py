@@ -42,7 +42,7 @@ def chosen(
         `key` is for every one of the methods that declares it, `method.key` for that one alone, and goes before;
         recipes have values of their own.
     limits : mapping, optional
-        Limits of `Stop` for the stages of recipes, in place of their own.
+        limits of `StoppingCriteria` for the stages of recipes, in place of their own.
 
     Raises
     ------

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from hexmend.boundary import SurfaceChange
-from hexmend.energy.norm import SQUARES, Power
+from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Result, StageResult
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, measure, objective, summarise
-from hexmend.run import Run, Stop, iterate
+from hexmend.run import Run, StoppingCriteria, iterate
 from hexmend.run.recipe import Recipe
 from hexmend.signal_guard import uninterrupted
 from hexmend.smoothers import METHODS, Smoother
@@ -82,7 +82,7 @@ class Row:
         return per_iteration / nodes if per_iteration is not None and nodes else None
 
     @property
-    def power(self) -> Power | None:
+    def power(self) -> ObjectiveNorm | None:
         """p and offset of the objective that the method minimises; None of a method that minimises nothing.
 
         Of a recipe those of its last stage that minimises something.
@@ -90,16 +90,16 @@ class Row:
         runs = [one for one in self.stages or (self,) if one.method in METHODS and METHODS[one.method].optimises]
         return METHODS[runs[-1].method](**runs[-1].parameters).power if runs else None
 
-    def objective_by(self, power: Power) -> float | None:
+    def objective_by(self, power: ObjectiveNorm) -> float | None:
         """The objective of the smoothed mesh by some p and offset, at delta = 0; None while any hex is inverted."""
         return objective_of(self.mesh, self.after, power) if self.after else None
 
-    def record(self, power: Power = SQUARES) -> dict[str, Any]:
+    def record(self, power: ObjectiveNorm = SQUARES) -> dict[str, Any]:
         """The row for other programs: the method, its run, and the figures of `Summary` at its end.
 
         Parameters
         ----------
-        power : Power
+        power : ObjectiveNorm
             p and offset of the objective, which rows of one table have in common: `common_power`.
         """
         figures = self.after.to_dict() if self.after else dict.fromkeys(Summary.__dataclass_fields__)
@@ -122,7 +122,7 @@ class Row:
         } | ({"stages": [stage.to_dict() for stage in self.stages]} if self.stages else {})
 
 
-def common_power(rows: Iterable[Row]) -> Power:
+def common_power(rows: Iterable[Row]) -> ObjectiveNorm:
     """p and offset of the one objective by which a table compares methods: those of the first that minimises one.
 
     The default ones where no method minimises anything.
@@ -130,7 +130,7 @@ def common_power(rows: Iterable[Row]) -> Power:
     return next((power for row in rows if (power := row.power) is not None), SQUARES)
 
 
-def objective_of(mesh: Mesh, summary: Summary, power: Power) -> float | None:
+def objective_of(mesh: Mesh, summary: Summary, power: ObjectiveNorm) -> float | None:
     """The objective of a mesh by some p and offset, at delta = 0; None while any hex is inverted.
 
     Parameters
@@ -138,18 +138,20 @@ def objective_of(mesh: Mesh, summary: Summary, power: Power) -> float | None:
     mesh : Mesh
     summary : Summary
         Of this mesh.
-    power : Power
+    power : ObjectiveNorm
     """
     return summary.objective if power == SQUARES else objective(measure(mesh.points, mesh.hexes), *power)
 
 
-def initial_record(mesh: Mesh, summary: Summary, power: Power = SQUARES) -> dict[str, Any]:
+def initial_record(mesh: Mesh, summary: Summary, power: ObjectiveNorm = SQUARES) -> dict[str, Any]:
     """The mesh that the methods of a table began with, as `Row.record` has what they made of it."""
     own = {"objective": objective_of(mesh, summary, power), "objective_formula": power.formula}
     return summary.to_dict() | own | {"distribution": distribution(mesh)}
 
 
-def run_one(mesh: Mesh, smoother: Smoother | Recipe, stop: Stop, watch: Watch | None = None) -> tuple[Row, bool]:
+def run_one(
+    mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria, watch: Watch | None = None
+) -> tuple[Row, bool]:
     """Run one method to its end, or a recipe, under the limits of its own.
 
     Returns

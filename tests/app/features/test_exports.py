@@ -9,7 +9,7 @@ from PIL import Image
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QLabel
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.state.run import Phase
 from hexmend_app.widgets.export_dialog import ExportDialog
@@ -18,7 +18,7 @@ from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
-SHORT = Stop(max_iterations=3)
+SHORT = StoppingCriteria(max_iterations=3)
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from hexmend import gallery
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.report.case import Case, run_methods
 from tests.browsers import SOFTWARE, chromium
@@ -27,7 +27,7 @@ _FRAMES = (
 def case() -> Case:
     """A mesh with inverted hexes, and what two methods made of it."""
     mesh = gallery.make("bridge-sharp", size=864, scramble=0.4, seed=1)
-    return run_methods(mesh, None, [METHODS["laplacian"](), METHODS["mend"]()], Stop(max_iterations=20))
+    return run_methods(mesh, None, [METHODS["laplacian"](), METHODS["mend"]()], StoppingCriteria(max_iterations=20))
 
 
 class Opened:

@@ -7,7 +7,7 @@ import pytest
 
 from hexmend import gallery
 from hexmend.cli.process.interrupts import EndsAfterIteration
-from hexmend.run import Run, Stop
+from hexmend.run import Run, StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.report import case
 from hexmend_app.report.case import run_methods
@@ -22,7 +22,7 @@ def test_an_interrupt_between_two_methods_keeps_those_that_are_done(monkeypatch)
     whole = case.run_one
     monkeypatch.setattr(case, "run_one", run_one)
     mesh = gallery.make("cube", size=27, scramble=0.3)
-    done = run_methods(mesh, None, [METHODS["laplacian"](), METHODS["local-sd"]()], Stop(max_iterations=3))
+    done = run_methods(mesh, None, [METHODS["laplacian"](), METHODS["local-sd"]()], StoppingCriteria(max_iterations=3))
     assert done.interrupted
     assert [one.name for one in done.versions][1:] == ["laplacian"]
 
@@ -44,6 +44,6 @@ def test_a_second_signal_after_the_last_iteration_keeps_what_the_run_reached(mon
     monkeypatch.setattr(owner, name, interrupted)
     mesh = gallery.make("cube", size=27, scramble=0.3)
     with EndsAfterIteration() as signals:
-        done = run_methods(mesh, None, methods, Stop(max_iterations=1), watch=ask)
+        done = run_methods(mesh, None, methods, StoppingCriteria(max_iterations=1), watch=ask)
     assert done.interrupted
     assert [one.name for one in done.versions] == ["initial", "laplacian"]

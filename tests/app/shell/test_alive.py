@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QDialogButtonBox
 from hexmend import gallery, io
 from hexmend.errors import FileError
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state import mesh_repairer, mesh_saver
@@ -62,7 +62,7 @@ def told(window):
 
 def smooth(window, qtbot):
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
-        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2, tolerance=0)))
+        window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, tolerance=0)))
     window.refresh()
 
 
@@ -186,7 +186,7 @@ def test_a_mesh_is_repaired_while_the_window_is_alive(tangled, qtbot, gate, told
     assert tangled.busy.text() == "Repairing the mesh…"
     assert not session.editable
     assert not session.commands.repair()
-    session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
+    session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
     assert not session.smoothing.busy
     key(tangled, Qt.Key.Key_N)
     assert (session.document.now, session.document.undo_title, told) == (before, None, [])
@@ -233,7 +233,7 @@ def test_what_ends_a_run_is_done_after_its_iteration(window, qtbot, what, mesh_f
             yield step
 
     monkeypatch.setattr(method, "steps", slow)
-    stage = Stage(method(), Stop(max_iterations=30, tolerance=0))
+    stage = Stage(method(), StoppingCriteria(max_iterations=30, tolerance=0))
     session.commands.run(stage)
     qtbot.waitUntil(going.is_set, timeout=PATIENCE)
     start, first = session.document.now, session.smoothing.record

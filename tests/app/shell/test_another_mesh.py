@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
 from hexmend import gallery, io
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
@@ -61,26 +61,26 @@ def filter_and_peel(window, qtbot):
 
 
 def explain_a_node(window, qtbot):
-    window.session.order.choose(Stage(METHODS["local-sd"](), Stop()))
+    window.session.order.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
     key(window, Qt.Key.Key_D)
     qtbot.waitUntil(lambda: window.canvas.viewport.extras.selection.node_step is not None, timeout=PATIENCE)
 
 
 def begin_a_sweep(window, qtbot):
-    window.session.order.choose(Stage(METHODS["local-sd"](), Stop()))
+    window.session.order.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
     key(window, Qt.Key.Key_F11)
     assert window.session.stepping.sweep is not None
 
 
 def run_and_pause(window, qtbot):
-    window.session.order.choose(Stage(METHODS["laplacian"](), Stop(max_iterations=50, tolerance=0)))
+    window.session.order.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=50, tolerance=0)))
     key(window, Qt.Key.Key_F10)
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
 
 
 def run_and_go_back(window, qtbot):
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
-        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=3, tolerance=0)))
+        window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0)))
     window.session.timeline.go(window.session.history.records[-1], 1)
     window.session.view.change(
         scale=ColourScale("q-change"), traces=Traces(arrows=Arrows.ALL), structure=Structure(original=True)
@@ -94,7 +94,9 @@ def break_at_the_last(window, qtbot):
 
 def compare(window, qtbot):
     with qtbot.waitSignal(window.session.comparison.changed, timeout=PATIENCE):
-        window.session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], Stop(max_iterations=40))
+        window.session.comparison.start(
+            [METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=40)
+        )
     window.show_panel("compare")
 
 

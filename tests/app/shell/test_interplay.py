@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QComboBox, QTableWidget
 from hexmend import io
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
@@ -40,7 +40,7 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
         window.refresh()
         assert not any(window.window_actions[id].isEnabled() for id in ("run", "step", "reset", "undo"))
         assert not window.features["smooth"].panel.isEnabled()
-        window.features["smooth"].panel.run_requested.emit(Stage(METHODS["laplacian"](), Stop()))
+        window.features["smooth"].panel.run_requested.emit(Stage(METHODS["laplacian"](), StoppingCriteria()))
         window.session.commands.tag("late", [8])
         window.session.commands.undo()
         assert window.session.document.now is before

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary import Kind, boundary_of
+from hexmend.boundary import NodeClass, boundary_of
 from hexmend.quality import measure
 from hexmend_app.state.classer import PIN, WHISKER, Classer, classed, node_kinds
 from tests.core.boundary.solids import ball, slid
@@ -40,7 +40,7 @@ def test_sharp_edges_that_are_left_out_are_whiskers():
     assert (kinds == WHISKER).any()
     on_top = mesh.points[kinds == WHISKER][:, 2] >= 8
     assert on_top.all()
-    assert (boundary_of(mesh).kind[kinds == WHISKER] == Kind.PATCH).all()
+    assert (boundary_of(mesh).kind[kinds == WHISKER] == NodeClass.PATCH).all()
 
 
 def test_locked_hexes_are_counted_with_those_that_sliding_frees():

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.run import Stop, iterate
+from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend_app.state.document import State
 from hexmend_app.state.history import History, Moment
@@ -21,7 +21,7 @@ def recorded(history, iterations=20, start=None):
     """A run of local-sd, kept; the record and the iterations as they were."""
     start = start or State.of(MESH)
     record = history.begin("Local steepest descent", start)
-    run = iterate(start.mesh, "local-sd", Stop(max_iterations=iterations, tolerance=0))
+    run = iterate(start.mesh, "local-sd", StoppingCriteria(max_iterations=iterations, tolerance=0))
     history.add(record, run.start)
     seen = [run.start]
     for iteration in run:
@@ -49,7 +49,7 @@ def test_a_boundary_that_slides_is_there_at_every_iteration():
     history = History()
     boundary = SLANTED.topology.boundary
     record = history.begin("Mend", State.of(SLANTED))
-    run = iterate(SLANTED, METHODS["local-sd"](boundary="slide"), Stop(max_iterations=5, tolerance=0))
+    run = iterate(SLANTED, METHODS["local-sd"](boundary="slide"), StoppingCriteria(max_iterations=5, tolerance=0))
     seen = [run.start, *run]
     for iteration in seen:
         history.add(record, iteration)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hexmend import gallery
-from hexmend.run import Stop, iterate
+from hexmend.run import StoppingCriteria, iterate
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend_app.state.document import State
@@ -21,7 +21,7 @@ MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
 
 @pytest.fixture(scope="module")
 def run():
-    run = iterate(MESH, "laplacian", Stop(max_iterations=15, tolerance=0))
+    run = iterate(MESH, "laplacian", StoppingCriteria(max_iterations=15, tolerance=0))
     return [run.start, *run]
 
 
@@ -38,7 +38,7 @@ def test_a_run_pauses_at_the_iteration_and_not_before_or_after(session, run, qtb
     smoothing.break_at(Breakpoints(inverts=True))
     pauses = [b.number for a, b in pairwise(run) if Breakpoints(inverts=True).hit(a, b, 1.0)]
     with qtbot.waitSignal(smoothing.hit, timeout=PATIENCE) as hit:
-        smoothing.start(Laplacian(), Stop(max_iterations=15, tolerance=0))
+        smoothing.start(Laplacian(), StoppingCriteria(max_iterations=15, tolerance=0))
     assert hit.args[0].iteration.number == pauses[0]
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
     assert smoothing.record.newest == pauses[0] == session.timeline.moment.number
@@ -55,7 +55,7 @@ def test_a_run_pauses_at_the_iteration_and_not_before_or_after(session, run, qtb
 
 def test_break_points_can_be_set_while_it_runs(session, qtbot):
     session.document.replace(State.of(scrambled(grid(6), 0.4)), Path("b.vtu"))
-    session.smoothing.start(Laplacian(), Stop(max_iterations=10**6, tolerance=0))
+    session.smoothing.start(Laplacian(), StoppingCriteria(max_iterations=10**6, tolerance=0))
     qtbot.waitUntil(lambda: session.smoothing.phase is Phase.RUNNING, timeout=PATIENCE)
     node = int(np.flatnonzero(session.document.now.mesh.free)[0])
     with qtbot.waitSignal(session.smoothing.hit, timeout=5000):

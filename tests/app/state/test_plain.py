@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.state.look import (
@@ -64,7 +64,7 @@ def test_a_value_is_the_same_again_and_is_plain_on_the_way(value):
     (Look, {"clip": {"PlaneClip": {"planes": [], "crinkle": True, "notch": False}}}, "look.clip: a cut has no plane"),
     (Pair, {"first": [1]}, "look.first has 1 entries: expected 2"),
     (Pair, {"table": {"b": "c"}}, "look.table.b is of another kind: expected float"),
-    (Stop, {"max_iterations": -1}, "max_iterations = -1 is out of range"),
+    (StoppingCriteria, {"max_iterations": -1}, "max_iterations = -1 is out of range"),
 ])  # fmt: skip
 def test_what_does_not_fit_is_named_with_its_place(kind, change, said):
     plain = Plain({})

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.document import State
 from hexmend_app.state.look import Since
@@ -25,7 +25,7 @@ def session(qtbot):
 
 def run(qtbot, session):
     with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
-        session.smoothing.start(LocalSteepestDescent(), Stop(max_iterations=12, tolerance=0))
+        session.smoothing.start(LocalSteepestDescent(), StoppingCriteria(max_iterations=12, tolerance=0))
     return session.smoothing.record
 
 

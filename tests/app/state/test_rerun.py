@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from hexmend.gallery import make
-from hexmend.run import Stop, iterate
+from hexmend.run import StoppingCriteria, iterate
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.rerun import rerun
 
-SHORT = Stop(max_iterations=6, tolerance=0)
+SHORT = StoppingCriteria(max_iterations=6, tolerance=0)
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +29,7 @@ def test_it_has_the_rows_of_the_run_and_the_places_that_are_asked_for(mesh):
 
 @pytest.mark.parametrize("until", [0, 3])
 def test_it_ends_where_it_was_ended(mesh, until):
-    run = rerun("mine", mesh, METHODS["local-sd"](), Stop(max_iterations=10_000, tolerance=0), until=until)
+    run = rerun("mine", mesh, METHODS["local-sd"](), StoppingCriteria(max_iterations=10_000, tolerance=0), until=until)
     assert run.newest == until
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.iteration import Step
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state import measured
@@ -19,7 +19,7 @@ from tests.app.driving import turn
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
-SLOW = Stop(tolerance=0, max_iterations=100_000)
+SLOW = StoppingCriteria(tolerance=0, max_iterations=100_000)
 
 
 class Failing(Smoother):
@@ -54,7 +54,7 @@ def phase_is(smoothing, phase):
 def test_a_run_ends_where_the_command_line_ends(document, smoothing, qtbot):
     expected = smooth(document.now.mesh, LocalSteepestDescent())
     with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
-        smoothing.start(LocalSteepestDescent(), Stop())
+        smoothing.start(LocalSteepestDescent(), StoppingCriteria())
     (result,) = ended.args
     assert result.outcome is expected.outcome
     assert result.iterations == expected.iterations
@@ -149,7 +149,7 @@ def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing,
     frames = []
     smoothing.iterated.connect(frames.append)
     smoothing.want({"condition"})
-    smoothing.start(LocalSteepestDescent(), Stop(), iterations=1)
+    smoothing.start(LocalSteepestDescent(), StoppingCriteria(), iterations=1)
     qtbot.waitUntil(lambda: len(frames) == 1, timeout=PATIENCE)
     assert "condition" in measured.REMEMBERED[frames[0].state.figures]
     assert smoothing.record.name == "Local steepest descent"

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.commands import Commands
@@ -16,7 +16,7 @@ from hexmend_app.state.session import Session
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
-ENDLESS = Stop(tolerance=0, max_iterations=1_000_000)
+ENDLESS = StoppingCriteria(tolerance=0, max_iterations=1_000_000)
 
 
 @pytest.fixture
@@ -29,7 +29,9 @@ def session(qtbot):
 
 def run(qtbot, session, smoother=None, iterations=12):
     with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
-        session.smoothing.start(smoother or LocalSteepestDescent(), Stop(max_iterations=iterations, tolerance=0))
+        session.smoothing.start(
+            smoother or LocalSteepestDescent(), StoppingCriteria(max_iterations=iterations, tolerance=0)
+        )
     return session.smoothing.record
 
 
@@ -43,7 +45,7 @@ def test_no_iteration_is_lost_and_all_are_shown_in_order(session, qtbot):
     for _ in range(40):
         session.timeline.step(1)
     assert [moment.number for moment in shown] == list(range(41))
-    expected = smooth(start, LocalSteepestDescent(), Stop(max_iterations=17, tolerance=0))
+    expected = smooth(start, LocalSteepestDescent(), StoppingCriteria(max_iterations=17, tolerance=0))
     session.timeline.go(record, 17)
     np.testing.assert_allclose(session.document.now.mesh.points, expected.mesh.points, atol=1e-7)
 

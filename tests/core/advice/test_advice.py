@@ -6,7 +6,7 @@ import pytest
 from hexmend.advice import advise
 from hexmend.advice.situation import Situation
 from hexmend.gallery import make
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.quality import measure, objective
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
@@ -25,14 +25,14 @@ MESHES = {
     "plane": ("plane", {"size": 300}),
     "plane, tangled": ("plane", {"size": 300, "scramble": 0.4}),
 }
-LOOSE, SHORT = Stop(tolerance=1e-2), Stop(max_iterations=12)
+LOOSE, SHORT = StoppingCriteria(tolerance=1e-2), StoppingCriteria(max_iterations=12)
 RUNS = {
-    **{name: (name, Stop()) for name in METHODS if not name.startswith("global")},
+    **{name: (name, StoppingCriteria()) for name in METHODS if not name.startswith("global")},
     **{f"{name}, cut short": (name, SHORT) for name in METHODS if name != "global-nr"},
     **{f"{name}, soon content": (name, LOOSE) for name in ("local-sd", "local-mnr", "global-sd")},
-    "laplacian, last kept": ("laplacian", Stop(keep_last=True)),
-    "mend, raised": (METHODS["mend"](highest_p=16), Stop()),
-    "mend, p = 4": (METHODS["mend"](p=4), Stop()),
+    "laplacian, last kept": ("laplacian", StoppingCriteria(keep_last=True)),
+    "mend, raised": (METHODS["mend"](highest_p=16), StoppingCriteria()),
+    "mend, p = 4": (METHODS["mend"](p=4), StoppingCriteria()),
     "local-sd, p = 4": (METHODS["local-sd"](p=4), SHORT),
     "local-sd, no delta": (METHODS["local-sd"](delta=0.0), SHORT),
     "global-sd, no delta": (METHODS["global-sd"](delta=0.0), SHORT),
@@ -108,7 +108,7 @@ def test_every_kind_of_suggestion_is_made_somewhere():
     lifted = smooth(bridge, Recipe.of("mend", "getme-sequential")).mesh
     runs = [
         smooth(tangled, "local-sd", SHORT),
-        smooth(bridge, "laplacian", Stop(keep_last=True)),
+        smooth(bridge, "laplacian", StoppingCriteria(keep_last=True)),
         smooth(bridge, "local-sd", SHORT),
         smooth(bridge, "global-sd", LOOSE),
         smooth(bridge, "mend"),
@@ -182,9 +182,9 @@ def test_a_mesh_with_nothing_free_is_explained():
 
 
 @pytest.mark.parametrize(("stop", "said"), [
-    (Stop(max_iterations=3, tolerance=0), "Stopped at the limit of 3 iterations before it converged. The last one still"),
-    (Stop(max_seconds=1e-9, tolerance=0), "Stopped at the limit of 1e-09 s, after 1 iteration, before it converged."),
-    (Stop(tolerance=0.01), "no node moved further than 0.01 mean edge lengths."),
+    (StoppingCriteria(max_iterations=3, tolerance=0), "Stopped at the limit of 3 iterations before it converged. The last one still"),
+    (StoppingCriteria(max_seconds=1e-9, tolerance=0), "Stopped at the limit of 1e-09 s, after 1 iteration, before it converged."),
+    (StoppingCriteria(tolerance=0.01), "no node moved further than 0.01 mean edge lengths."),
 ])  # fmt: skip
 def test_why_it_ended_is_said_with_its_limits(stop, said):
     assert said in advise(smooth(make("bridge-sharp", size=500), "local-sd", stop)).why
@@ -230,14 +230,14 @@ def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
 
 def test_a_mend_cut_short_on_a_detour_is_begun_again():
     mesh = slid(ball(3), 0.6, seed=0)
-    result = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), Stop(max_iterations=7))
+    result = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), StoppingCriteria(max_iterations=7))
     advice = advise(result)
     assert result.kept < result.iterations
     assert "sliding has not freed these so far." in advice.left
     longer = next(one for one in advice.suggestions if one.title == "The same from before the run, longer")
     assert longer.undo
     assert longer.smoother == METHODS["mend"](goal="scaled-jacobian", boundary="slide")
-    assert longer.stop == Stop(max_iterations=100)
+    assert longer.stop == StoppingCriteria(max_iterations=100)
     after = smooth(mesh, longer.smoother, longer.stop)
     assert after.after.inverted < result.after.inverted
     stopped = iterate(mesh, longer.smoother)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary import Sliding, Surface
+from hexmend.boundary import SlidingBoundary, Surface
 from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
@@ -38,7 +38,7 @@ def wavy(mesh: Mesh, height: float, seed: int = 0) -> Mesh:
 
 def slid(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
     """Every node displaced at random by up to so many mean edge lengths, those of the boundary along it; corners stay."""
-    sliding = Sliding(mesh)
+    sliding = SlidingBoundary(mesh)
     shift = np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape) * mesh.mean_edge_length
     points = mesh.points + shift * sliding.mesh.free[:, None]
     points[sliding.nodes] = sliding.put_back(points[sliding.nodes])

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.band import Room
-from hexmend.boundary.comparison import Skin
+from hexmend.boundary.band import Band
+from hexmend.boundary.comparison import SkinSurface
 from tests.core.grids import grid
 
 
@@ -12,15 +12,15 @@ def room_of(shift=0.0, size=1.0, target=True):
     """The boundary of a cube of edge 2, and one that is shifted along x as its surface."""
     mesh, other = grid(2), grid(4)
     faces = mesh.topology.boundary_faces
-    surface = Skin(other.points / 2 + [shift, 0, 0], other.topology.boundary_faces) if target else None
-    return mesh, Room(mesh.points, faces, mesh.points, surface, size)
+    surface = SkinSurface(other.points / 2 + [shift, 0, 0], other.topology.boundary_faces) if target else None
+    return mesh, Band(mesh.points, faces, mesh.points, surface, size)
 
 
 def test_distances_at_first_are_those_from_samples_of_the_surface_to_the_boundary():
     mesh, room = room_of(0.25)
     far, nodes, weights = room.behind_at_first
     samples = room.target.samples()
-    boundary = Skin(mesh.points, mesh.topology.boundary_faces)
+    boundary = SkinSurface(mesh.points, mesh.topology.boundary_faces)
     assert far.shape == (len(samples),)
     np.testing.assert_allclose(far, boundary.distances(samples), atol=1e-12)
     assert far.max() == pytest.approx(0.25)
@@ -85,5 +85,5 @@ def test_a_room_is_no_narrower_than_rounding_of_the_size_of_the_boundary():
     mesh, room = room_of(size=0.0)
     assert room.room == pytest.approx(1e-9 * np.sqrt(12))
     assert room_of(size=0.5)[1].room == 0.5
-    nothing = Room(mesh.points, np.empty((0, 4), np.int32), mesh.points, None, 0.0)
+    nothing = Band(mesh.points, np.empty((0, 4), np.int32), mesh.points, None, 0.0)
     assert nothing.room == 0

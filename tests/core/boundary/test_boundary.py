@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.boundary import Kind, boundary_of, classify
+from hexmend.boundary import NodeClass, boundary_of, classify
 from hexmend.gallery import GALLERY, make
 from hexmend.io import read, write
 from hexmend.mesh.cells import Cells
@@ -17,7 +17,7 @@ REAL = ("bunny.vtk", "CAD4.vtk", "cap_in.mesh", "block_in.mesh", "bone.vtk")
 
 
 def counts(boundary):
-    return [boundary.count(kind) for kind in (Kind.CORNER, Kind.CURVE, Kind.PATCH)]
+    return [boundary.count(kind) for kind in (NodeClass.CORNER, NodeClass.CURVE, NodeClass.PATCH)]
 
 
 def check(mesh, boundary):
@@ -25,15 +25,15 @@ def check(mesh, boundary):
     kind, part = boundary.kind, boundary.part
     assert kind.dtype == np.uint8
     assert part.dtype == np.int32
-    np.testing.assert_array_equal(kind != Kind.INSIDE, mesh.topology.boundary)
-    np.testing.assert_array_equal(part >= 0, kind >= Kind.CURVE)
+    np.testing.assert_array_equal(kind != NodeClass.INSIDE, mesh.topology.boundary)
+    np.testing.assert_array_equal(part >= 0, kind >= NodeClass.CURVE)
     ends = boundary.segments.ravel()
     valence = np.bincount(ends, minlength=mesh.n_nodes)
-    assert (valence[kind == Kind.CURVE] == 2).all()
-    assert not valence[kind == Kind.PATCH].any()
-    on_curve = kind[ends] == Kind.CURVE
+    assert (valence[kind == NodeClass.CURVE] == 2).all()
+    assert not valence[kind == NodeClass.PATCH].any()
+    on_curve = kind[ends] == NodeClass.CURVE
     np.testing.assert_array_equal(part[ends][on_curve], np.repeat(boundary.curve_of_segment, 2)[on_curve])
-    on_patch = kind[boundary.faces] == Kind.PATCH
+    on_patch = kind[boundary.faces] == NodeClass.PATCH
     patches = np.broadcast_to(boundary.patch_of_face[:, None], on_patch.shape)
     np.testing.assert_array_equal(part[boundary.faces][on_patch], patches[on_patch])
     assert set(boundary.patch_of_face) == set(range(boundary.n_patches))
@@ -108,7 +108,7 @@ def test_cubes_that_touch_in_a_node_have_a_corner_there():
     mesh = touching(1)
     boundary = classify(mesh.points, mesh.topology.boundary_faces, degrees=100)
     (node,) = np.flatnonzero((mesh.points == 1).all(axis=1))
-    assert boundary.kind[node] == Kind.CORNER
+    assert boundary.kind[node] == NodeClass.CORNER
     assert (counts(boundary)[0], boundary.n_patches) == (1, 2)
 
 
@@ -117,7 +117,7 @@ def test_cubes_that_touch_in_an_edge_have_a_curve_there_however_large_the_angle(
     boundary = classify(mesh.points, mesh.topology.boundary_faces, degrees=100)
     edge = np.flatnonzero((mesh.points[:, :2] == 1).all(axis=1))
     assert boundary.segments.tolist() == [sorted(edge.tolist())]
-    assert (boundary.kind[edge] == Kind.CORNER).all()
+    assert (boundary.kind[edge] == NodeClass.CORNER).all()
 
 
 def dented(length):
@@ -133,14 +133,14 @@ def dented(length):
 def test_a_short_groove_in_a_patch_is_a_roughness():
     (flat, _), (short, groove) = dented(-1), dented(3)
     np.testing.assert_array_equal(boundary_of(short).kind, boundary_of(flat).kind)
-    assert (boundary_of(short, whisker=0).kind[groove] < Kind.PATCH).all()
+    assert (boundary_of(short, whisker=0).kind[groove] < NodeClass.PATCH).all()
 
 
 def test_a_long_groove_ends_in_corners():
     mesh, groove = dented(9)
     boundary = boundary_of(mesh)
     check(mesh, boundary)
-    assert boundary.kind[groove].tolist() == [Kind.CORNER, *8 * [Kind.CURVE], Kind.CORNER]
+    assert boundary.kind[groove].tolist() == [NodeClass.CORNER, *8 * [NodeClass.CURVE], NodeClass.CORNER]
 
 
 def test_given_edges_and_corners_are_taken_and_pinned_nodes_are_corners():
@@ -153,7 +153,7 @@ def test_given_edges_and_corners_are_taken_and_pinned_nodes_are_corners():
     assert given.n_patches == 7
     assert boundary_of(mesh, sharp=edges, corners=line[[2]]).n_curves == 12 + 2 + 2
     pinned = boundary_of(mesh.replace(pinned=side))
-    assert (pinned.kind[line] == Kind.CORNER).all()
+    assert (pinned.kind[line] == NodeClass.CORNER).all()
     assert pinned.n_patches == 6
 
 
@@ -165,7 +165,13 @@ def test_ridges_and_corners_of_a_medit_file_are_features(tmp_path, suffix):
     ridges = Cells("line", edges, {"medit:ridge": np.array([1, 1, 0, 0], np.uint8)})
     write(tmp_path / f"a{suffix}", mesh.replace(cells=(ridges,), node_sets={"corners": line[[3]]}))
     boundary = boundary_of(read(tmp_path / f"a{suffix}"))
-    assert boundary.kind[line].tolist() == [Kind.CORNER, Kind.CURVE, Kind.CORNER, Kind.CORNER, Kind.CURVE]
+    assert boundary.kind[line].tolist() == [
+        NodeClass.CORNER,
+        NodeClass.CURVE,
+        NodeClass.CORNER,
+        NodeClass.CORNER,
+        NodeClass.CURVE,
+    ]
 
 
 def test_where_references_of_a_file_s_sides_change_is_a_feature():
@@ -175,7 +181,7 @@ def test_where_references_of_a_file_s_sides_change_is_a_feature():
     boundary = boundary_of(mesh.replace(cells=(Cells("quad", faces, {"medit:ref": upper}),)))
     assert boundary.n_patches == 6 + 4
     ring = mesh.topology.boundary & (mesh.points[:, 2] == 2)
-    assert (boundary.kind[ring] < Kind.PATCH).all()
+    assert (boundary.kind[ring] < NodeClass.PATCH).all()
 
 
 def test_triangles_have_kinds_too():

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.boundary import Kind, Skin, Surface, boundary_of, distances, surface_change
+from hexmend.boundary import NodeClass, SkinSurface, Surface, boundary_of, distances, surface_change
 from hexmend.errors import MeshError
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
@@ -15,7 +15,7 @@ from tests.core.grids import grid
 
 
 def skin(mesh):
-    return Skin(mesh.points, mesh.topology.boundary_faces)
+    return SkinSurface(mesh.points, mesh.topology.boundary_faces)
 
 
 @settings(max_examples=5)
@@ -74,7 +74,7 @@ def test_flat_solids_keep_their_surface_and_volume_while_their_nodes_slide(seed)
     mesh = grid(5, 4, 3)
     boundary = boundary_of(mesh)
     surface = Surface(mesh.points, boundary)
-    nodes = np.flatnonzero(boundary.kind >= Kind.CURVE)
+    nodes = np.flatnonzero(boundary.kind >= NodeClass.CURVE)
     points = mesh.points.copy()
     random = np.random.default_rng(seed)
     points[nodes], _ = project(surface, points[nodes] + random.uniform(-0.4, 0.4, (len(nodes), 3)), nodes)

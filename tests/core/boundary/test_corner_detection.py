@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary import Kind, Sliding, boundary_of
+from hexmend.boundary import NodeClass, SlidingBoundary, boundary_of
 from hexmend.boundary.corner_detection import kept_bends
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
@@ -15,7 +15,7 @@ def test_bends_that_alone_hold_a_corner_open_are_kept():
     mesh = cylinder(16, 3)
     bends = kept_bends(mesh, boundary_of(mesh))
     assert len(bends) == 8  # four on each rim: there a square's corner has been made a bend of a circle
-    assert (Sliding(mesh).boundary.kind[bends] == Kind.CORNER).all()
+    assert (SlidingBoundary(mesh).boundary.kind[bends] == NodeClass.CORNER).all()
     assert not kept_bends(grid(3), boundary_of(grid(3))).size
     assert not kept_bends(ball(3), boundary_of(ball(3))).size
 
@@ -31,7 +31,7 @@ def test_bends_of_inverted_corners_slide():
 
 @pytest.mark.parametrize("name", ["local-nr", "global-sd", "mend"])
 def test_no_corner_is_flattened_on_a_straight_piece_of_its_curve(name):
-    result = smooth(slid(cylinder(16, 3), 0.3), METHODS[name](boundary="slide"), Stop(max_iterations=200))
+    result = smooth(slid(cylinder(16, 3), 0.3), METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=200))
     assert result.after.inverted == 0
     assert result.after.scaled_jacobian_min > 0.1
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Moment, Movement
+from hexmend.boundary.displacement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Displacement, Moment
 from hexmend.quality import measure
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid, scrambled
@@ -14,7 +14,7 @@ MESH = grid(5)
 def moved(points, before=None):
     then = MESH.points if before is None else before
     was = Moment(then, measure(then, MESH.hexes), "then")
-    return Movement(MESH, was, points, measure(points, MESH.hexes))
+    return Displacement(MESH, was, points, measure(points, MESH.hexes))
 
 
 def test_displacement_of_an_element_is_that_of_its_nodes_in_mean_edge_lengths():

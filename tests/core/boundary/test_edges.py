@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.boundary.edges import Edges
+from hexmend.boundary.edges import SurfaceEdges
 from tests.core.grids import grid
 
 
@@ -12,7 +12,7 @@ from tests.core.grids import grid
 def test_edges_are_those_of_the_faces_each_once_in_the_order_of_their_nodes(seed, n):
     random = np.random.default_rng(seed)
     faces = np.array([random.permutation(n)[:4] for _ in range(12)], dtype=np.int32)
-    edges = Edges(faces, n)
+    edges = SurfaceEdges(faces, n)
     pairs = [tuple(sorted(map(int, (face[k], face[(k + 1) % 4])))) for face in faces for k in range(4)]
     assert list(map(tuple, edges.nodes.tolist())) == sorted(set(pairs))
     assert edges.count.tolist() == [pairs.count(tuple(pair)) for pair in edges.nodes.tolist()]
@@ -23,7 +23,7 @@ def test_edges_are_those_of_the_faces_each_once_in_the_order_of_their_nodes(seed
 
 def test_faces_of_a_solid_run_through_their_edges_in_opposite_directions():
     mesh = grid(3)
-    edges = Edges(mesh.topology.boundary_faces, mesh.n_nodes)
+    edges = SurfaceEdges(mesh.topology.boundary_faces, mesh.n_nodes)
     assert (edges.count == 2).all()
     assert edges.opposed.all()
     assert (edges.neighbours[:, 0] != edges.neighbours[:, 1]).all()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.comparison import Skin
+from hexmend.boundary.comparison import SkinSurface
 from tests.core.grids import grid
 
 
@@ -13,7 +13,7 @@ def skin(request):
     faces = mesh.topology.boundary_faces
     if request.param == "triangles":
         faces = np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
-    return Skin(mesh.points, np.ascontiguousarray(faces))
+    return SkinSurface(mesh.points, np.ascontiguousarray(faces))
 
 
 def test_the_closest_place_is_made_of_the_nodes_of_one_face(skin):

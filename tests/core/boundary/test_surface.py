@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
-from hexmend.boundary import Kind, Surface, Trees, boundary_of, classify
+from hexmend.boundary import ClosestPointTrees, NodeClass, Surface, boundary_of, classify
 from hexmend.errors import MeshError
 from tests.core.boundary.solids import ball, cylinder, project, wavy
 from tests.core.grids import grid
@@ -46,7 +46,7 @@ def random_pieces(seed, n, k, degenerate):
 @given(st.integers(0, 2**31), st.integers(4, 12), st.integers(0, 30), st.booleans())
 def test_closest_points_are_those_of_brute_force(seed, n, k, degenerate):
     points, pieces, group, random = random_pieces(seed, n, k, degenerate)
-    trees = Trees(points, pieces, group)
+    trees = ClosestPointTrees(points, pieces, group)
     x, of = 2 * random.normal(size=(6, 3)), random.integers(0, 2, 6)
     found = trees.closest(x, of)
     for i in range(6):
@@ -66,7 +66,10 @@ def test_trees_whose_points_have_moved_find_what_new_ones_do_and_enough_is_enoug
     pieces, group = random.integers(0, 40, (60, 3)).astype(np.int32), np.sort(random.integers(0, 3, 60) % 3)
     group[:3] = 0, 1, 2
     x, of = random.normal(size=(50, 3)), random.integers(0, 3, 50)
-    new, refitted = Trees(moved, pieces, group).closest(x, of), Trees(points, pieces, group).with_points(moved)
+    new, refitted = (
+        ClosestPointTrees(moved, pieces, group).closest(x, of),
+        ClosestPointTrees(points, pieces, group).with_points(moved),
+    )
     far, found = (np.linalg.norm(one.places - x, axis=1) for one in (new, refitted.closest(x, of)))
     np.testing.assert_allclose(found, far, rtol=1e-12, atol=1e-12)
     rough = np.linalg.norm(refitted.closest(x, of, enough).places - x, axis=1)
@@ -80,12 +83,12 @@ def test_the_closest_point_sees_the_whole_triangle_at_a_right_angle_or_more(seed
     random, unit = np.random.default_rng(seed), 10.0**exponent
     points = unit * random.normal(size=(3, 3))
     x = unit * 3 * random.normal(size=(40, 3))
-    found = Trees(points, np.array([[0, 1, 2]], np.int32), np.zeros(1, int)).closest(x, np.zeros(40, int))
+    found = ClosestPointTrees(points, np.array([[0, 1, 2]], np.int32), np.zeros(1, int)).closest(x, np.zeros(40, int))
     away, ways = x - found.places, points[None] - found.places[:, None]
     assert np.einsum("ij,ikj->ik", away, ways).max() <= 1e-12 * unit**2 * 10
 
 
-def sliding(mesh, kinds=(Kind.CURVE, Kind.PATCH)):
+def sliding(mesh, kinds=(NodeClass.CURVE, NodeClass.PATCH)):
     boundary = boundary_of(mesh)
     return boundary, Surface(mesh.points, boundary), np.flatnonzero(np.isin(boundary.kind, kinds))
 
@@ -109,7 +112,7 @@ def test_nodes_of_a_box_stay_in_their_planes_and_on_their_edges(seed, far):
     held = (x == 0) | (x == upper)
     np.testing.assert_array_equal(places[held], x[held])
     np.testing.assert_allclose(places[~held], np.clip(moved, 0, upper)[~held], atol=1e-12)
-    on_patch = boundary.kind[nodes] == Kind.PATCH
+    on_patch = boundary.kind[nodes] == NodeClass.PATCH
     outward = np.where(x == 0, -1.0, np.where(x == upper, 1.0, 0.0))[on_patch]
     np.testing.assert_allclose(directions[on_patch], outward, atol=1e-14)
     np.testing.assert_allclose(np.abs(directions[~on_patch]), ~held[~on_patch], atol=1e-14)
@@ -139,7 +142,7 @@ def test_putting_back_twice_is_putting_back_once(seed):
 
 def test_a_node_goes_to_its_own_patch_though_another_is_nearer():
     mesh = grid(4, 4, 1)
-    _boundary, surface, nodes = sliding(mesh, (Kind.PATCH,))
+    _boundary, surface, nodes = sliding(mesh, (NodeClass.PATCH,))
     lower = nodes[mesh.points[nodes, 2] == 0]
     places, normals = project(surface, mesh.points[lower] + [0, 0, 0.9], lower)
     assert not places[:, 2].any()
@@ -148,7 +151,7 @@ def test_a_node_goes_to_its_own_patch_though_another_is_nearer():
 
 def test_nodes_of_a_loop_slide_around_it():
     mesh = cylinder(64, 4)
-    _, surface, nodes = sliding(mesh, (Kind.CURVE,))
+    _, surface, nodes = sliding(mesh, (NodeClass.CURVE,))
     upper = nodes[mesh.points[nodes, 2] == 1]
     x = mesh.points[upper]
     ahead = np.column_stack([-x[:, 1], x[:, 0], np.zeros(len(x))])
@@ -196,7 +199,9 @@ def test_any_number_of_threads_gives_the_same():
 def test_nodes_that_do_not_slide_and_places_that_are_none_are_refused():
     mesh = grid(3)
     boundary, surface, nodes = sliding(mesh)
-    (corner, *_), (inside, *_) = (np.flatnonzero(boundary.kind == kind) for kind in (Kind.CORNER, Kind.INSIDE))
+    (corner, *_), (inside, *_) = (
+        np.flatnonzero(boundary.kind == kind) for kind in (NodeClass.CORNER, NodeClass.INSIDE)
+    )
     with pytest.raises(MeshError, match=rf"node {corner} \(counted from 0\) is of kind CORNER"):
         project(surface, mesh.points[[nodes[0], corner]], np.array([nodes[0], corner]))
     with pytest.raises(MeshError, match="of kind INSIDE"):
@@ -222,7 +227,7 @@ def test_nodes_slide_on_the_surface_of_a_file(fine):
     surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary)
     np.testing.assert_array_equal(surface.kind, boundary.kind)
     own = Surface(mesh.points, boundary)
-    nodes = np.flatnonzero(boundary.kind >= Kind.CURVE)
+    nodes = np.flatnonzero(boundary.kind >= NodeClass.CURVE)
     x = mesh.points[nodes] + 0.3 * np.random.default_rng(0).normal(size=(len(nodes), 3))
     (places, there), (same, here) = project(surface, x, nodes), project(own, x, nodes)
     np.testing.assert_allclose(places, same, atol=1e-12)
@@ -234,7 +239,7 @@ def test_curve_nodes_slide_on_patches_where_a_surface_has_no_curve():
     points, triangles = as_triangles(ball(8))
     surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary_of(mesh))
     nodes = np.flatnonzero(mesh.topology.boundary)
-    assert (surface.kind[nodes] == Kind.PATCH).all()
+    assert (surface.kind[nodes] == NodeClass.PATCH).all()
     radius = np.linalg.norm(project(surface, mesh.points[nodes], nodes)[0], axis=1)
     assert radius.min() > 0.95
     assert radius.max() <= 1 + 1e-14

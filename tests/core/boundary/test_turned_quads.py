@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from tests.core.grids import grid
 
 
@@ -12,7 +12,7 @@ def folded():
     node = int(np.flatnonzero((mesh.points == [2, 2, 4]).all(axis=1))[0])
     after = mesh.points.copy()
     after[node, 0] += 2.5
-    return mesh, Sliding(mesh), node, after
+    return mesh, SlidingBoundary(mesh), node, after
 
 
 def test_nodes_of_turned_quads_stay_where_they_are():

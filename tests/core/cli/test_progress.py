@@ -11,7 +11,7 @@ from hexmend import gallery, io
 from hexmend.cli.command import progress
 from hexmend.cli.main import main
 from hexmend.quality import summarise
-from hexmend.run import Stop, iterate
+from hexmend.run import StoppingCriteria, iterate
 
 #: The program, which tells of every iteration, so that a test need not wait for the clock.
 TALKATIVE = (
@@ -67,7 +67,9 @@ def test_on_a_terminal_a_line_changes_and_vanishes(monkeypatch, capsys):
     monkeypatch.setenv("FORCE_COLOR", "1")  # rich takes this for a terminal
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr(progress, "AFTER", 0.0)
-    run = iterate(gallery.make("cube", size=64, scramble=0.3), "laplacian", Stop(max_iterations=4, tolerance=0))
+    run = iterate(
+        gallery.make("cube", size=64, scramble=0.3), "laplacian", StoppingCriteria(max_iterations=4, tolerance=0)
+    )
     progress.follow(run)
     said = capsys.readouterr()
     assert said.out == ""

@@ -8,7 +8,7 @@ import pytest
 
 from hexmend import gallery, io
 from hexmend.cli.main import main
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.quality import summarise
 from hexmend.run import smooth
 from hexmend.run.recipe import Recipe, Stage
@@ -27,7 +27,7 @@ def mesh(tmp_path):
 
 @pytest.fixture
 def recipe(tmp_path):
-    stages = [Stage(METHODS[name](), Stop(max_iterations=3, tolerance=0)) for name in ("getme", "local-sd")]
+    stages = [Stage(METHODS[name](), StoppingCriteria(max_iterations=3, tolerance=0)) for name in ("getme", "local-sd")]
     write_recipe(tmp_path / "two.toml", Recipe("Two", tuple(stages)))
     return tmp_path / "two.toml"
 
@@ -56,7 +56,7 @@ def test_what_is_run_is_saved_and_does_the_same_again(mesh, tmp_path):
     saved = tmp_path / "saved.toml"
     words = ["--method", "local-sd", "--set", "p=3", "--max-iterations", 4, "--save-recipe", saved]
     _, first = smoothed(mesh, *words)
-    assert read_recipe(saved) == Recipe.of(Stage(METHODS["local-sd"](p=3), Stop(max_iterations=4)))
+    assert read_recipe(saved) == Recipe.of(Stage(METHODS["local-sd"](p=3), StoppingCriteria(max_iterations=4)))
     _, second = smoothed(mesh, "--recipe", saved)
     assert second["after"] == first["after"]
     _, third = smoothed(mesh, "--recipe", saved, "--max-iterations", 2, "--save-recipe", saved)

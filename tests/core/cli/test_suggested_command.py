@@ -4,7 +4,7 @@ import numpy as np
 
 from hexmend.advice import Suggestion
 from hexmend.cli.command.suggested_command import command_of
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.smoothers import METHODS
 
 
@@ -14,7 +14,7 @@ def test_a_command_says_what_a_suggestion_says():
 
     assert command(METHODS["mend"](boundary="slide")) == "hexmend smooth out.vtk -o OUT --boundary slide"
     assert command(METHODS["getme"](), undo=True) == "hexmend smooth 'a b.vtk' -o OUT --method getme"
-    assert command(METHODS["mend"](), Stop(max_iterations=7, keep_last=True)).endswith(
+    assert command(METHODS["mend"](), StoppingCriteria(max_iterations=7, keep_last=True)).endswith(
         " OUT --max-iterations 7 --keep-last"
     )
     assert command(METHODS["mend"](), unpin=np.array([3])) == ""

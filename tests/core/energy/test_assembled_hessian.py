@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.boundary import Sliding
-from hexmend.energy import MeshEnergy, Power, SlidingEnergy
-from hexmend.energy.assembled_hessian import Assembled, full
-from hexmend.energy.sparsity import Couplings
+from hexmend.boundary import SlidingBoundary
+from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
+from hexmend.energy.assembled_hessian import AssembledHessian, full
+from hexmend.energy.sparsity import BlockSparsity
 from hexmend.errors import MeshError
 from hexmend.kernels import conjugate_gradients
 from hexmend.mesh.mesh import Mesh
@@ -20,7 +20,7 @@ exponents = st.sampled_from([1.0, 2.0, 3.5])
 
 
 def hessian_of(mesh, delta=0.0, p=2.0, left_out=None, shift=0.0):
-    energy = MeshEnergy(mesh, Power(p), left_out)
+    energy = MeshEnergy(mesh, ObjectiveNorm(p), left_out)
     return energy.hessian(energy.scaled(mesh.points), delta).shifted(shift)
 
 
@@ -31,7 +31,7 @@ def some_left_out(mesh, share, seed):
 
 def by_parts(hessian, parts):
     """The same matrix with another division of its slots."""
-    hessian.energy.couplings = Couplings(hessian.energy.mesh, parts)
+    hessian.energy.couplings = BlockSparsity(hessian.energy.mesh, parts)
     return hessian.assembled(np.float64)
 
 
@@ -97,7 +97,7 @@ def test_what_single_precision_cannot_hold_is_cut():
 @pytest.mark.parametrize(("parts", "made"), [(1, 1), (2, 2), (3, 3), (4, 4), (50, 4)])
 def test_parts_share_no_block_but_with_the_separators_between_them(parts, made):
     mesh = scrambled(grid(14, 3, 3), 0.1)
-    couplings = Couplings(mesh, parts)
+    couplings = BlockSparsity(mesh, parts)
     ends, slots = couplings.bounds, np.arange(couplings.nodes.size)
     assert ends.size == 2 * made
     assert ends[0] == 0
@@ -176,7 +176,7 @@ def test_how_a_solve_ended_is_told():
 
     def end(shift, most):
         assembled = hessian.shifted(shift).assembled()
-        assert isinstance(assembled, Assembled)
+        assert isinstance(assembled, AssembledHessian)
         right = np.ones((assembled.order.size, 4), np.float32) * np.float32([1, 1, 1, 0])
         return conjugate_gradients.solve(
             *assembled.couplings.pattern,
@@ -223,13 +223,13 @@ def test_the_solution_is_as_large_as_the_right_hand_side(size, precision):
 
 def test_a_solution_beyond_the_range_of_numbers_is_infinite_and_one_below_it_is_0():
     assembled = hessian_of(scrambled(grid(4), 0.15, 3)).assembled(np.float64)
-    tiny = Assembled(assembled.couplings, assembled.off, assembled.diagonal, -100)
+    tiny = AssembledHessian(assembled.couplings, assembled.off, assembled.diagonal, -100)
     assert np.isinf(tiny.solve(np.full(tiny.shape[0], 2.0**1000), 1e-3, 100).x).any()
-    huge = Assembled(assembled.couplings, assembled.off, assembled.diagonal, 1000)
+    huge = AssembledHessian(assembled.couplings, assembled.off, assembled.diagonal, 1000)
     assert not huge.solve(np.full(huge.shape[0], 2.0**-900), 1e-3, 100).x.any()
 
 
-@pytest.mark.parametrize("of", [MeshEnergy, lambda mesh: SlidingEnergy(Sliding(mesh))], ids=["free", "sliding"])
+@pytest.mark.parametrize("of", [MeshEnergy, lambda mesh: SlidingEnergy(SlidingBoundary(mesh))], ids=["free", "sliding"])
 @pytest.mark.parametrize("shape", [(3,), (30_000,), (1, 24), (8, 3)])
 def test_a_vector_of_another_length_is_refused_by_every_matrix(of, shape):
     mesh = grid(3)

@@ -8,14 +8,14 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from hexmend.energy import SQUARES, MeshEnergy, Power
+from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm
 from hexmend.kernels import objective
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)
-powers = st.builds(Power, st.sampled_from([1.0, 1.5, 2.0, 3.5]), st.sampled_from([1.0, 0.4, 0.0]))
+powers = st.builds(ObjectiveNorm, st.sampled_from([1.0, 1.5, 2.0, 3.5]), st.sampled_from([1.0, 0.4, 0.0]))
 
 
 def eta_of(x, delta, offset=1.0):
@@ -36,7 +36,7 @@ def energy_of(x, delta, offset=1.0):
     return eta[0]
 
 
-ETA = Power(1.0)
+ETA = ObjectiveNorm(1.0)
 
 
 def gradient_of(x, delta, power=ETA):
@@ -87,7 +87,7 @@ def test_gradient_of_a_hex_is_that_of_complex_steps(case, offset):
     assume(eta_of(x, delta, offset) > 1e-9)  # softened by delta it may be below zero, where it counts as zero
     assert energy_of(x, delta, offset) == pytest.approx(eta_of(x, delta, offset), rel=1e-10)
     np.testing.assert_allclose(
-        gradient_of(x, delta, Power(1.0, offset)), expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max()
+        gradient_of(x, delta, ObjectiveNorm(1.0, offset)), expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max()
     )
 
 
@@ -112,8 +112,8 @@ def test_what_softened_energy_falls_below_zero_counts_as_zero(seed, p):
     x = UNIT_CUBE + 0.01 * np.random.default_rng(seed).uniform(-1, 1, (8, 3))
     assert eta_of(x, 0.5) < 0
     assert energy_of(x, 0.5) == 0
-    assert (gradient_of(x, 0.5, Power(p)) == 0).all()
-    assert (product_of(x, np.ones((8, 3)), 0.5, Power(p)) == 0).all()
+    assert (gradient_of(x, 0.5, ObjectiveNorm(p)) == 0).all()
+    assert (product_of(x, np.ones((8, 3)), 0.5, ObjectiveNorm(p)) == 0).all()
 
 
 @given(seeds, powers, st.sampled_from([0.0, 0.05]))

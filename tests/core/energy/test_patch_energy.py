@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.energy import SQUARES, MeshEnergy, Power, energies
+from hexmend.energy import SQUARES, MeshEnergy, ObjectiveNorm, energies
 from hexmend.kernels import local
 from tests.core.grids import grid, scrambled
 
@@ -22,7 +22,7 @@ def value(mesh, star, scale, y, delta, power):
     return curve[0, 1]
 
 
-POWERS = st.builds(Power, st.sampled_from([1.0, 2.0, 3.5]), st.sampled_from([1.0, 0.0]))
+POWERS = st.builds(ObjectiveNorm, st.sampled_from([1.0, 2.0, 3.5]), st.sampled_from([1.0, 0.0]))
 CASES = st.tuples(st.integers(0, 2**32 - 1), st.sampled_from([0.1, 0.4, 0.9]), POWERS, st.booleans())
 
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.boundary import Kind, Sliding
-from hexmend.energy import Power, SlidingEnergy
+from hexmend.boundary import NodeClass, SlidingBoundary
+from hexmend.energy import ObjectiveNorm, SlidingEnergy
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
@@ -19,7 +19,7 @@ def along_the_surface(sliding, points, seed):
     step = random.uniform(-1, 1, mesh.points.shape) * mesh.free[:, None]
     nodes = sliding.nodes
     weights = sliding.surface.trees.closest(points[nodes], sliding.surface.group_of(nodes)).weights
-    weights[sliding.boundary.kind[nodes] == Kind.CURVE, 2] = 1
+    weights[sliding.boundary.kind[nodes] == NodeClass.CURVE, 2] = 1
     bases = sliding.bases(points[nodes])
     step[nodes] = np.einsum("kij,klj,kl->ki", bases, bases, step[nodes])
     step[nodes[weights.min(axis=1) < 0.01]] = 0
@@ -29,8 +29,8 @@ def along_the_surface(sliding, points, seed):
 def at(solid, seed, p):
     """The energy of a solid whose nodes have slid, their places in mean edge lengths, a step along the surface."""
     there = slid(SOLIDS[solid](), 0.2, seed)
-    sliding = Sliding(SOLIDS[solid]())
-    energy = SlidingEnergy(sliding, Power(p))
+    sliding = SlidingBoundary(SOLIDS[solid]())
+    energy = SlidingEnergy(sliding, ObjectiveNorm(p))
     return energy, energy.scaled(there.points), along_the_surface(sliding, there.points, seed)
 
 

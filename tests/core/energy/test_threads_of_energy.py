@@ -6,17 +6,17 @@ from threading import Barrier
 import numpy as np
 import pytest
 
-from hexmend.boundary import Sliding
-from hexmend.energy import MeshEnergy, Power, SlidingEnergy
+from hexmend.boundary import SlidingBoundary
+from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
 from hexmend.gallery import make
 
-POWERS = Power(2.0, 1.0), Power(4.0, 0.0)
+POWERS = ObjectiveNorm(2.0, 1.0), ObjectiveNorm(4.0, 0.0)
 
 
 def energies_of(kind):
     """Two energies of one mesh, the second of which shares with the first what depends on the mesh alone."""
     mesh = make("bridge-sharp", size=2000)
-    first = MeshEnergy(mesh, POWERS[0]) if kind == "fixed" else SlidingEnergy(Sliding(mesh), POWERS[0])
+    first = MeshEnergy(mesh, POWERS[0]) if kind == "fixed" else SlidingEnergy(SlidingBoundary(mesh), POWERS[0])
     return first, first.but(POWERS[1], first.left_out)
 
 

@@ -10,7 +10,7 @@ from hexmend.errors import ParameterError
 from hexmend.gallery import GALLERY, make
 from hexmend.parameters import declared
 from hexmend.quality import summarise
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 
 every = pytest.mark.parametrize("name", GALLERY)
 
@@ -38,12 +38,12 @@ def test_figures_are_near_those_of_the_thesis():
 def test_the_sharp_bridge_gains_by_optimising_and_is_inverted_by_laplacian_smoothing():
     bridge = make("bridge-sharp", size=4000)
     before = summarise(bridge)
-    after = smooth(bridge, "local-sd", Stop(max_iterations=40)).after
+    after = smooth(bridge, "local-sd", StoppingCriteria(max_iterations=40)).after
     assert after.inverted == 0
     assert after.q_min > before.q_min + 0.05
     assert after.q_mean > before.q_mean + 0.03
     assert after.q_norm > before.q_norm + 0.1
-    assert smooth(bridge, "laplacian", Stop(keep_last=True)).after.inverted > 0
+    assert smooth(bridge, "laplacian", StoppingCriteria(keep_last=True)).after.inverted > 0
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ from hexmend.gallery import make
 from hexmend.gallery.aeroplane import FUSELAGE, HALF_BOX, PARTS, TAILPLANE, WINGS, onto_aeroplane
 from hexmend.gallery.plane import BOX
 from hexmend.quality import measure, summarise
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 
 
 @pytest.fixture(scope="module")
@@ -97,7 +97,7 @@ def test_nodes_that_follow_further_invert_fewer_hexes():
 @pytest.mark.parametrize("size", [3000, 8000])
 def test_local_descent_mends_all(size):
     mesh = make("plane", size=size)
-    result = hx.smooth(mesh, "local-sd", Stop(max_iterations=60))
+    result = hx.smooth(mesh, "local-sd", StoppingCriteria(max_iterations=60))
     before, after = summarise(mesh), summarise(result.mesh)
     assert before.inverted > 20
     assert after.inverted == 0

@@ -9,14 +9,14 @@ from hypothesis.extra.numpy import arrays
 from hexmend import io
 from hexmend.gallery import make
 from hexmend.io import FORMATS
-from hexmend.io.base.format import Holds
+from hexmend.io.base.format import Capability
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid, scrambled
 
 WAYS = [(one.suffixes[0], encoding) for one in FORMATS.values() for encoding in one.encodings]
 EXACT = [(one.suffixes[0], encoding) for one in FORMATS.values() if one.exact for encoding in one.encodings]
-PINNED = [(one.suffixes[0], way) for one in FORMATS.values() if Holds.PINS in one.holds for way in one.encodings]
+PINNED = [(one.suffixes[0], way) for one in FORMATS.values() if Capability.PINS in one.holds for way in one.encodings]
 every_way = pytest.mark.parametrize(("suffix", "encoding"), WAYS)
 
 

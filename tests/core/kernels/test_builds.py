@@ -12,12 +12,12 @@ from hexmend import kernels
 PROGRAM = """
 import sys, numpy as np
 from hexmend import kernels, gallery
-from hexmend.energy import MeshEnergy, Power, energies
+from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
 from hexmend.kernels import elements, local
 from hexmend.quality import METRICS, measure
 assert kernels.BUILD == sys.argv[1]
 mesh = gallery.make("five-side", size=700, scramble=0.6)
-energy = MeshEnergy(mesh, Power(2.5))
+energy = MeshEnergy(mesh, ObjectiveNorm(2.5))
 x, v = energy.scaled(mesh.points), np.random.default_rng(0).normal(size=(energy.nodes.size, 3))
 sigma = np.empty((mesh.n_hexes, 8))
 elements.corner_determinants(mesh.points, mesh.hexes, sigma)
@@ -25,7 +25,7 @@ matrix = energy.hessian(x, 0.1).shifted(50.0).assembled(np.float64)
 corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
 swept = x.copy()
 local.sweep(
-    swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items, local.MODIFIED_NEWTON, 0.1, Power(), 1.0,
+    swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items, local.MODIFIED_NEWTON, 0.1, ObjectiveNorm(), 1.0,
     0.7, 1e-4, 60,
 )
 figures = measure(mesh.points, mesh.hexes)

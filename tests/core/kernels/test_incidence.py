@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
-from hexmend.energy.sparsity import Couplings
+from hexmend.energy.sparsity import BlockSparsity
 from hexmend.errors import MeshError
 from hexmend.kernels import couplings, incidence, structure
 from hexmend.mesh.hexahedron import EDGES, FACES
@@ -102,7 +102,7 @@ def test_more_than_64_colours_are_given_as_greedily_as_the_first():
 
 
 def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
-    at = Couplings(MESH, parts=2)
+    at = BlockSparsity(MESH, parts=2)
     _, rows, columns = at.pattern
     pairs = at.slots[:, [(a, b) for a in range(8) for b in range(8)]].reshape(-1, 2)
     pairs = pairs[(pairs[:, 0] >= 0) & (pairs[:, 1] > pairs[:, 0])]
@@ -169,7 +169,7 @@ def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_writt
             "neighbours of nodes, .* there are 40 items: .* divide",
         ),
         ("mesh.topology", 19, lambda: grid(2, 1, 1).topology.edges, "edges, .* there are 20 items"),
-        ("energy.sparsity", 27, lambda: Couplings(grid(3)), "pairs of free nodes .* there are 28 items"),
+        ("energy.sparsity", 27, lambda: BlockSparsity(grid(3)), "pairs of free nodes .* there are 28 items"),
     ],
 )
 def test_a_mesh_whose_neighbours_cannot_be_numbered_is_to_be_divided(monkeypatch, module, most, make, words):

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
-from hexmend.energy import SQUARES, Couplings, MeshEnergy, Power, energies
+from hexmend.energy import SQUARES, BlockSparsity, MeshEnergy, ObjectiveNorm, energies
 from hexmend.kernels import LANES, element_step, local, objective, plain, reach
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import measure
@@ -44,8 +44,8 @@ def test_energy_and_gradient_are_those_of_the_plain_loop(count, case, p, offset,
     delta, left_out = case[1], some_left_out(count, share, seed)
     shares, expected = np.full((2, count, 8, 3), np.nan)
     eta, plain_eta = np.full((2, count), np.nan)
-    objective.gradient(points, hexes, delta, Power(p, offset), left_out, shares)
-    plain.gradient(points, hexes, delta, Power(p, offset), left_out, expected)
+    objective.gradient(points, hexes, delta, ObjectiveNorm(p, offset), left_out, shares)
+    plain.gradient(points, hexes, delta, ObjectiveNorm(p, offset), left_out, expected)
     objective.energies(points, hexes, delta, offset, left_out, eta)
     plain.energies(points, hexes, delta, offset, left_out, plain_eta)
     np.testing.assert_allclose(eta, plain_eta, rtol=1e-12, atol=1e-14)
@@ -61,8 +61,8 @@ def test_the_product_is_that_of_the_plain_loop(count, case, p, offset, seed, sha
     slots = np.where(hexes % 2 == 0, hexes // 2, -1).astype(np.int32)  # odd nodes are fixed
     slots[slots >= len(values)] = -1
     shares, expected = np.full((2, count, 8, 3), np.nan)
-    objective.hessian_product(points, hexes, slots, values, delta, Power(p, offset), left_out, shares)
-    plain.hessian_product(points, hexes, slots, values, delta, Power(p, offset), left_out, expected)
+    objective.hessian_product(points, hexes, slots, values, delta, ObjectiveNorm(p, offset), left_out, shares)
+    plain.hessian_product(points, hexes, slots, values, delta, ObjectiveNorm(p, offset), left_out, expected)
     for h in range(count):
         size = max(np.abs(expected[h]).max(), 1e-300)
         np.testing.assert_allclose(shares[h], expected[h], rtol=1e-10, atol=1e-11 * size)
@@ -77,7 +77,7 @@ def test_a_local_sweep_is_that_of_the_plain_loop(direction, seed, case, p, offse
     for sweep, points in ((local.sweep, moved), (plain.sweep, expected)):
         sweep(
             points, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            getattr(local, direction), case[1], Power(p, offset), 1.0, 0.7, 1e-4, 60,
+            getattr(local, direction), case[1], ObjectiveNorm(p, offset), 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
     np.testing.assert_allclose(moved, expected, atol=1e-7 * mesh.mean_edge_length)
 
@@ -157,15 +157,15 @@ def test_energy_and_gradient_are_those_of_numpy(count, case, p, offset, seed, sh
     delta, left_out = case[1], some_left_out(count, share, seed)
     x = points[hexes]
     with np.errstate(invalid="ignore", divide="ignore"):
-        expected = energy_in_numpy(x, delta, Power(p, offset), left_out)
+        expected = energy_in_numpy(x, delta, ObjectiveNorm(p, offset), left_out)
         sound = np.isfinite(expected)
         eta, shares = energies(points, hexes, delta, left_out, offset), np.empty((count, 8, 3))
         np.testing.assert_allclose(eta[sound] ** p, expected[sound], rtol=1e-9, atol=1e-11)
-        objective.gradient(points, hexes, delta, Power(p, offset), left_out, shares)
+        objective.gradient(points, hexes, delta, ObjectiveNorm(p, offset), left_out, shares)
         for corner, axis in ((0, 0), (3, 1), (6, 2)):
             there = x.astype(complex)
             there[:, corner, axis] += 1e-30j
-            slope = energy_in_numpy(there, delta, Power(p, offset), left_out).imag / 1e-30
+            slope = energy_in_numpy(there, delta, ObjectiveNorm(p, offset), left_out).imag / 1e-30
             clear = sound & (eta > 1e-6)  # at zero, p = 1 has a kink
             size = np.abs(shares[clear]).max(initial=1e-300)
             np.testing.assert_allclose(shares[clear, corner, axis], slope[clear], rtol=1e-7, atol=1e-9 * size)
@@ -235,7 +235,7 @@ def test_public_functions_take_any_whole_numbers_and_order():
 def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
     mesh = scrambled(grid(20), 0.3)
     energy = MeshEnergy(mesh)
-    energy.couplings = Couplings(mesh, parts)
+    energy.couplings = BlockSparsity(mesh, parts)
     assert energy.couplings.bounds.size == 2 * parts
     x, most, answers = energy.scaled(mesh.points), kernels.threads(), []
     corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
@@ -252,7 +252,7 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
             )  # fmt: skip
             element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
             reach.shorten(step, x, rings.start, rings.items, energy.nodes, 0.1)
-            pattern = Couplings(mesh, parts)
+            pattern = BlockSparsity(mesh, parts)
             found = matrix.off, matrix.diagonal, solved.x, swept, places, step, pattern.target, pattern.columns
             answers.append([array.tobytes() for array in (*found, matrix @ solved.x, pattern.slots)])
     finally:

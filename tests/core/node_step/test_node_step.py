@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from hexmend.errors import MeshError
 from hexmend.gallery import make
-from hexmend.node_step import Sweep, Verdict, explain
+from hexmend.node_step import StepStatus, Sweep, explain
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
@@ -46,7 +46,7 @@ def test_the_line_search_is_algorithm_a_5(name, seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
     smoother = METHODS[name](first_step=2.0, shrink=0.5)
     step = explain(mesh, smoother, int(np.flatnonzero(mesh.free)[seed % 8]))
-    assert step.verdict is Verdict.MOVED
+    assert step.verdict is StepStatus.MOVED
     np.testing.assert_array_equal([t.alpha for t in step.trials], 2.0 * 0.5 ** np.arange(len(step.trials)))
     assert [t.energy < t.bound for t in step.trials] == [False] * step.cuts + [True]
     assert step.alpha == step.trials[-1].alpha
@@ -90,7 +90,7 @@ def test_newton_solves_with_the_hessian_that_is_told_and_the_modified_one_with_i
 
 def test_a_node_that_cannot_move_says_why():
     mesh = grid(2)
-    assert explain(mesh, METHODS["local-sd"](), 13).verdict is Verdict.FLAT
+    assert explain(mesh, METHODS["local-sd"](), 13).verdict is StepStatus.FLAT
     mesh = scrambled(grid(3), 0.9, 3)
     node = next(
         int(i)
@@ -98,11 +98,11 @@ def test_a_node_that_cannot_move_says_why():
         if measure(mesh.points, mesh.hexes[mesh.topology.node_corners[i] // 8]).n_inverted
     )
     step = explain(mesh, METHODS["local-sd"](delta=0), node)
-    assert step.verdict is Verdict.INFINITE
+    assert step.verdict is StepStatus.INFINITE
     assert np.isnan(step.eigenvalues).all()
     np.testing.assert_array_equal(step.after, step.before)
     step = explain(mesh, METHODS["local-sd"](first_step=1e3, max_cuts=1), node)
-    assert step.verdict is Verdict.NO_DESCENT
+    assert step.verdict is StepStatus.NO_DESCENT
     assert (len(step.trials), step.alpha, step.move) == (2, 0, 0)
 
 

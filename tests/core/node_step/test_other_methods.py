@@ -7,7 +7,7 @@ import pytest
 
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
-from hexmend.node_step import Verdict, explain
+from hexmend.node_step import StepStatus, explain
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.getme.simultaneous import GETMe
@@ -52,9 +52,9 @@ def test_a_global_step_is_the_nodes_part_of_the_methods(name, amplitude):
 def test_a_global_method_without_a_finite_energy_says_so():
     mesh = scrambled(grid(4), 0.9, 3)
     step = explain(mesh, METHODS["global-sd"](delta=0), int(np.flatnonzero(mesh.free)[0]))
-    assert step.verdict is Verdict.INFINITE
+    assert step.verdict is StepStatus.INFINITE
     step = explain(grid(3), METHODS["global-nr"](), int(np.flatnonzero(grid(3).free)[0]))
-    assert step.verdict is Verdict.FLAT
+    assert step.verdict is StepStatus.FLAT
 
 
 # The others
@@ -67,7 +67,7 @@ def test_of_any_other_method_it_is_the_next_iteration(name):
     for node in np.flatnonzero(mesh.free)[::4].tolist():
         step = explain(mesh, METHODS[name](), node)
         np.testing.assert_array_equal(step.after, points[node])
-        assert (step.verdict in (Verdict.MOVED, Verdict.SHORTENED)) == bool((step.after != step.before).any())
+        assert (step.verdict in (StepStatus.MOVED, StepStatus.SHORTENED)) == bool((step.after != step.before).any())
         assert step.delta > 0 or not measure(mesh.points, mesh.hexes[step.hexes]).n_inverted
         assert step.energy == pytest.approx(patch_energy(mesh, step, step.before), rel=1e-9)
         assert step.energy_after == pytest.approx(patch_energy(mesh, step, step.after), rel=1e-7)
@@ -80,10 +80,10 @@ def test_laplacian_goes_to_the_mean_of_what_it_names():
     mesh = scrambled(grid(4), 0.4, 1)
     for node in np.flatnonzero(mesh.free)[::5].tolist():
         step = explain(mesh, Laplacian(), node)
-        assert step.verdict is Verdict.MOVED
+        assert step.verdict is StepStatus.MOVED
         assert [pull.number for pull in step.pulls] == mesh.topology.rings[node].tolist()
         np.testing.assert_allclose(step.after, sum(pull.weight * pull.place for pull in step.pulls), atol=1e-13)
-    assert explain(grid(2), Laplacian(), 13).verdict is Verdict.THERE
+    assert explain(grid(2), Laplacian(), 13).verdict is StepStatus.THERE
 
 
 def test_smart_laplacian_says_which_moves_are_taken_back():
@@ -99,9 +99,9 @@ def test_smart_laplacian_says_which_moves_are_taken_back():
             points[node] = went.after
             was, now = measure(mesh.points, attached), measure(points, attached)
             harm = (now.inverted & ~was.inverted).any() or now.q.min() < was.q.min()
-            assert (step.verdict is Verdict.TAKEN_BACK) == harm
+            assert (step.verdict is StepStatus.TAKEN_BACK) == harm
             np.testing.assert_array_equal(step.after, step.before if harm else went.after)
-    assert seen == {Verdict.MOVED, Verdict.TAKEN_BACK}
+    assert seen == {StepStatus.MOVED, StepStatus.TAKEN_BACK}
 
 
 def test_getme_goes_to_the_weighted_mean_of_its_hexes_places_or_a_part_of_the_way():
@@ -116,7 +116,7 @@ def test_getme_goes_to_the_weighted_mean_of_its_hexes_places_or_a_part_of_the_wa
             np.testing.assert_allclose(step.before + step.direction, mean, atol=1e-12)
             np.testing.assert_allclose(step.after, step.before + step.alpha * step.direction, atol=1e-12)
             shares.add(round(step.alpha, 9))
-            assert (step.verdict is Verdict.SHORTENED) == (0 < round(step.alpha, 9) < 1)
+            assert (step.verdict is StepStatus.SHORTENED) == (0 < round(step.alpha, 9) < 1)
     assert shares <= {0, 0.125, 0.25, 0.5, 1}
     assert {1, 0.5} < shares
 

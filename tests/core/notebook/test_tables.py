@@ -7,7 +7,7 @@ import pytest
 
 import hexmend as hx
 from hexmend.errors import HexmendError
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.notebook.html_tables import of_mesh, of_result
 from hexmend.notebook.sparkline import sparkline
 from hexmend.quality.summary import FIGURES
@@ -20,7 +20,7 @@ def mesh():
 
 @pytest.fixture(scope="module")
 def result(mesh):
-    return hx.smooth(mesh, "laplacian", Stop(max_iterations=5, tolerance=0))
+    return hx.smooth(mesh, "laplacian", StoppingCriteria(max_iterations=5, tolerance=0))
 
 
 @pytest.fixture
@@ -65,7 +65,7 @@ def objective_rows(result):
 
 def test_the_objective_of_the_method_has_a_row_of_its_own_where_it_is_another():
     mesh = hx.gallery.make("five-side", size=300)
-    stop = Stop(max_iterations=3, keep_last=True)
+    stop = StoppingCriteria(max_iterations=3, keep_last=True)
     usual = hx.smooth(mesh, "local-sd", stop)
     text = FIGURES["objective"].text
     assert objective_rows(usual) == {
@@ -81,7 +81,7 @@ def test_the_objective_of_the_method_has_a_row_of_its_own_where_it_is_another():
 def test_objectives_before_and_after_that_differ_are_named():
     mesh = hx.gallery.make("five-side", size=300)
     stages = [
-        hx.Stage(method, Stop(max_iterations=2))
+        hx.Stage(method, StoppingCriteria(max_iterations=2))
         for method in (hx.LocalSteepestDescent(), hx.LocalSteepestDescent(p=4.0))
     ]
     result = hx.smooth(mesh, hx.Recipe.of(*stages))
@@ -93,7 +93,7 @@ def test_objectives_before_and_after_that_differ_are_named():
 
 
 def test_what_is_worse_is_red(mesh):
-    worse = hx.smooth(mesh, "laplacian", Stop(max_iterations=1, keep_last=True))
+    worse = hx.smooth(mesh, "laplacian", StoppingCriteria(max_iterations=1, keep_last=True))
     red = sum("#b3261e" in (cell.get("style") or "") for cell in ET.fromstring(of_result(worse)).iter("td"))
     assert red == len(set(worse.worse) & set(FIGURES))
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hexmend.energy import MeshEnergy
 from hexmend.optimise.descent import LONGEST, descend, perfect, shorten_to_range
 from hexmend.optimise.line_search import BackLineSearch
-from hexmend.optimise.search_direction import Found, steepest_descent
+from hexmend.optimise.search_direction import SearchDirection, steepest_descent
 from tests.core.grids import grid, scrambled
 
 seeds = st.integers(0, 2**32 - 1)
@@ -37,7 +37,7 @@ def test_no_node_goes_further_than_it_may_and_others_go_on(seed, reach):
         def find(value, gradient, hessian, throws=throws):
             p = -0.02 * gradient / np.linalg.norm(gradient, axis=1).max()
             p[throws] *= 1e4  # two nodes are thrown far off
-            return Found(p)
+            return SearchDirection(p)
 
         taken[most] = descend(energy, x, 0.0, find, BackLineSearch(), most)
     moved = np.linalg.norm(taken[reach].x - x, axis=1)
@@ -50,7 +50,7 @@ def test_no_node_goes_further_than_it_may_and_others_go_on(seed, reach):
 @pytest.mark.parametrize("reach", [0.5, np.inf])
 def test_a_direction_that_does_not_descend_gives_way_to_steepest_descent(factor, reach):
     _, energy, x = problem(3)
-    taken = descend(energy, x, 0.0, lambda value, g, hessian: Found(-factor * g), BackLineSearch(), reach)
+    taken = descend(energy, x, 0.0, lambda value, g, hessian: SearchDirection(-factor * g), BackLineSearch(), reach)
     steepest = descend(energy, x, 0.0, steepest_descent, BackLineSearch(), reach)
     assert taken.slope == pytest.approx(steepest.slope, rel=1e-9) or reach < np.inf
     assert taken.slope < 0

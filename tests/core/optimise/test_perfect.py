@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.energy import MeshEnergy, Power
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.iteration import Outcome
 from hexmend.optimise.descent import perfect
@@ -27,14 +27,14 @@ def test_optimisers_reach_the_cubes_of_a_scrambled_grid_whatever_p(name, p):
 def test_a_mesh_of_cubes_is_perfect_and_one_a_little_away_is_not(p, offset):
     cubes, other = grid(4), scrambled(grid(4), 0.01)
     for mesh, answer in ((cubes, True), (other, False)):
-        energy = MeshEnergy(mesh, Power(p, offset))
+        energy = MeshEnergy(mesh, ObjectiveNorm(p, offset))
         assert perfect(energy, energy.value(energy.scaled(mesh.points)), 0.0) == answer
 
 
 @pytest.mark.parametrize("p", [8.0, 16.0, 32.0])
 def test_a_hessian_below_the_range_of_single_precision_keeps_its_digits(p):
     mesh = scrambled(grid(4), 0.005)
-    energy = MeshEnergy(mesh, Power(p))
+    energy = MeshEnergy(mesh, ObjectiveNorm(p))
     hessian = energy.hessian(energy.scaled(mesh.points))
     v = np.random.default_rng(0).normal(size=hessian.shape[0])
     product = hessian @ v

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend.energy import Power, energies, objective
+from hexmend.energy import ObjectiveNorm, energies, objective
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants, corner_qualities, locked, measure, summarise
@@ -151,7 +151,9 @@ def test_energy_is_softened_by_delta_and_unsoftened_at_zero():
 def test_objective_is_the_p_norm(p, offset):
     mesh = scrambled(grid(3), 0.1)
     eta = energies(mesh.points, mesh.hexes) + 1 - offset
-    assert objective(mesh.points, mesh.hexes, power=Power(p, offset)) == pytest.approx((eta**p).sum() ** (1 / p))
+    assert objective(mesh.points, mesh.hexes, power=ObjectiveNorm(p, offset)) == pytest.approx(
+        (eta**p).sum() ** (1 / p)
+    )
 
 
 def test_summary_of_a_tangled_mesh():

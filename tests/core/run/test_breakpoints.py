@@ -9,7 +9,7 @@ import pytest
 from hexmend import gallery
 from hexmend.iteration import Iteration
 from hexmend.quality import measure
-from hexmend.run import Stop, iterate
+from hexmend.run import StoppingCriteria, iterate
 from hexmend.run.breakpoints import Breakpoints
 
 MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
@@ -21,7 +21,7 @@ def iteration(number, points, **notes):
 
 @pytest.fixture(scope="module")
 def run():
-    run = iterate(MESH, "laplacian", Stop(max_iterations=15, tolerance=0))
+    run = iterate(MESH, "laplacian", StoppingCriteria(max_iterations=15, tolerance=0))
     return [run.start, *run]
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from hexmend.iteration import Outcome, Step
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS, Smoother
 from tests.core.grids import grid
 
@@ -39,7 +39,7 @@ class Shifts(Smoother):
 def test_what_is_compared_with_the_tolerance_is_the_way_or_the_greatest_change_of_a_coordinate(
     move, tolerance, iterations
 ):
-    result = smooth(grid(2), Shifts(), Stop(move=move, tolerance=tolerance))
+    result = smooth(grid(2), Shifts(), StoppingCriteria(move=move, tolerance=tolerance))
     assert result.outcome is Outcome.CONVERGED
     assert len(result.history) == iterations + 1
     assert result.history[1]["largest_move"] == pytest.approx(0.25)  # the way, whatever ends the run
@@ -48,16 +48,16 @@ def test_what_is_compared_with_the_tolerance_is_the_way_or_the_greatest_change_o
 def test_moves_are_told_in_mean_edge_lengths():
     mesh = grid(2)
     large = mesh.with_points(10 * mesh.points)
-    rows = smooth(large, Shifts(), Stop(max_iterations=1, tolerance=1e-9)).history
+    rows = smooth(large, Shifts(), StoppingCriteria(max_iterations=1, tolerance=1e-9)).history
     assert [row["largest_move"] for row in rows] == [0.0, pytest.approx(0.025)]
 
 
 def test_a_run_has_not_converged_while_another_stage_is_to_come():
-    assert len(smooth(grid(2), Shifts(more_until=3), Stop(tolerance=1.0)).history) == 5
+    assert len(smooth(grid(2), Shifts(more_until=3), StoppingCriteria(tolerance=1.0)).history) == 5
 
 
 def test_a_detour_is_no_result():
-    result = smooth(grid(2), Shifts(detour_until=20), Stop(tolerance=1e-3))
+    result = smooth(grid(2), Shifts(detour_until=20), StoppingCriteria(tolerance=1e-3))
     np.testing.assert_array_equal(result.mesh.points, grid(2).points)
 
 
@@ -65,7 +65,7 @@ def test_a_tolerance_that_is_reached_exactly_is_not_enough():
     mesh = grid(2)
     moved = mesh.points[MIDDLE] + np.array([3.0, 4.0, 0.0]) / 20 - mesh.points[MIDDLE]
     way = float(np.sqrt(np.square(moved).sum())) / mesh.mean_edge_length
-    assert len(smooth(mesh, Shifts(), Stop(tolerance=way)).history) == 3
+    assert len(smooth(mesh, Shifts(), StoppingCriteria(tolerance=way)).history) == 3
 
 
 @pytest.mark.parametrize("goal", ["shape", "scaled-jacobian"])
@@ -109,7 +109,9 @@ def test_what_was_decided_is_told_but_of_an_iterate_that_is_not_kept(words, keep
     mesh = grid(2)
     points = mesh.points.copy()
     points[MIDDLE] += 0.2
-    result = smooth(mesh.with_points(points), Decides(words), Stop(keep_last=keep_last, max_iterations=2, tolerance=0))
+    result = smooth(
+        mesh.with_points(points), Decides(words), StoppingCriteria(keep_last=keep_last, max_iterations=2, tolerance=0)
+    )
     assert (abs(result.mesh.points[MIDDLE, 0] - 1.1) < 1e-12) != keep_last
     assert all(word in result.message for word in said)
     assert not any(word in result.message for word in not_said)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hexmend import io
 from hexmend.cli.main import main
 from hexmend.gallery import GALLERY, make
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.quality import FIGURES, JUDGED, measure
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
@@ -18,8 +18,8 @@ from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 from tests.core.smoothers.mend.test_mend import with_locked_corner
 
-SHORT = Stop(max_iterations=12)
-LAST = Stop(max_iterations=12, keep_last=True)
+SHORT = StoppingCriteria(max_iterations=12)
+LAST = StoppingCriteria(max_iterations=12, keep_last=True)
 
 #: By how much the least q(H) of an optimiser's result may be lower than at the start: what four decimals do not tell.
 SLACK = 0.5e-4
@@ -47,7 +47,7 @@ def meshes():
 @settings(max_examples=8)
 @given(mesh=meshes(), most=st.integers(0, 12))
 def test_no_method_ends_with_more_inverted_hexes_or_a_lower_q_min(name, mesh, most):
-    result = smooth(mesh, name, Stop(max_iterations=most))
+    result = smooth(mesh, name, StoppingCriteria(max_iterations=most))
     before, after = result.before, result.after
     assert after.inverted <= before.inverted
     if name != "mend" and after.inverted == before.inverted:
@@ -109,7 +109,7 @@ def test_the_last_is_kept_where_it_is_asked_for(name, mesh):
 
 
 def test_laplacian_gives_back_a_sound_mesh_and_says_so(bridge):
-    kept, last = smooth(bridge, "laplacian"), smooth(bridge, "laplacian", Stop(keep_last=True))
+    kept, last = smooth(bridge, "laplacian"), smooth(bridge, "laplacian", StoppingCriteria(keep_last=True))
     assert (kept.after.inverted, kept.worse) == (0, ())
     assert "Kept is iteration 3, better than what came after." in kept.message
     assert last.after.inverted > 0
@@ -213,5 +213,5 @@ def test_a_method_that_takes_over_may_keep_where_it_begins(bridge):
             break
     kept = run.reached
     assert kept.number < newest.number
-    run.go_on_with("local-sd", Stop(max_iterations=newest.number))
+    run.go_on_with("local-sd", StoppingCriteria(max_iterations=newest.number))
     assert run.reached.number == newest.number

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import FileError, ParameterError
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.parameters import declared
 from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
 from hexmend.run.recipe_files import read_recipe, write_recipe
@@ -34,7 +34,7 @@ def made(cls):
     return st.builds(cls, **{one.name: values(one) for one in declared(cls)})
 
 
-STAGES = st.builds(Stage, st.one_of([made(cls) for cls in METHODS.values()]), made(Stop))
+STAGES = st.builds(Stage, st.one_of([made(cls) for cls in METHODS.values()]), made(StoppingCriteria))
 TEXT = st.text(st.characters(codec="utf-8"), min_size=1)
 RECIPES = st.builds(Recipe, TEXT, st.lists(STAGES, min_size=1, max_size=4).map(tuple))
 
@@ -49,7 +49,7 @@ def test_every_value_of_every_method_is_written(name):
     (stage,) = tomllib.loads(to_toml(Recipe.of(name)))["stage"]
     assert stage["method"] == name
     assert set(stage["parameters"]) == {one.name for one in declared(METHODS[name])}
-    assert set(stage["stop"]) == {one.name for one in declared(Stop)}
+    assert set(stage["stop"]) == {one.name for one in declared(StoppingCriteria)}
 
 
 def test_what_a_file_does_not_name_has_its_default():
@@ -68,7 +68,10 @@ def test_a_surface_tolerance_of_0_was_no_limit_in_the_first_format(number, writt
 
 
 def test_a_file_is_written_and_read(tmp_path):
-    path, recipe = tmp_path / "two.toml", Recipe.of("getme", Stage(METHODS["mend"](p=3), Stop(max_iterations=7)))
+    path, recipe = (
+        tmp_path / "two.toml",
+        Recipe.of("getme", Stage(METHODS["mend"](p=3), StoppingCriteria(max_iterations=7))),
+    )
     write_recipe(path, recipe)
     assert read_recipe(path) == recipe
     path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))  # as some editors leave it
@@ -76,10 +79,13 @@ def test_a_file_is_written_and_read(tmp_path):
 
 
 def test_limits_go_to_every_stage():
-    recipe = Recipe.of(Stage(METHODS["getme"](), Stop(max_iterations=5, tolerance=0.1)), "mend").limited(
+    recipe = Recipe.of(Stage(METHODS["getme"](), StoppingCriteria(max_iterations=5, tolerance=0.1)), "mend").limited(
         max_iterations=2
     )
-    assert [stage.stop for stage in recipe.stages] == [Stop(max_iterations=2, tolerance=0.1), Stop(max_iterations=2)]
+    assert [stage.stop for stage in recipe.stages] == [
+        StoppingCriteria(max_iterations=2, tolerance=0.1),
+        StoppingCriteria(max_iterations=2),
+    ]
 
 
 def test_a_recipe_without_a_stage_is_none():

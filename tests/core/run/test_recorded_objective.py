@@ -5,9 +5,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from hexmend.energy import Power, energies
+from hexmend.energy import ObjectiveNorm, energies
 from hexmend.gallery import make
-from hexmend.iteration import Outcome, Stop
+from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.iteration.figures import objective_changes
 from hexmend.quality import measure, objective
 from hexmend.report import comparison_rows, table_of
@@ -15,11 +15,11 @@ from hexmend.report.run_figures import write_convergence
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.base_optimiser import Objective
+from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.study.compare import compare
 
-OPTIMISERS = [name for name, cls in METHODS.items() if issubclass(cls, Objective)]
-POWERS = [Power(p, offset) for p in (1.0, 2.0, 4.0) for offset in (0.0, 1.0)]
+OPTIMISERS = [name for name, cls in METHODS.items() if issubclass(cls, ObjectiveSmoother)]
+POWERS = [ObjectiveNorm(p, offset) for p in (1.0, 2.0, 4.0) for offset in (0.0, 1.0)]
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,7 @@ def of_points(mesh, points, power):
 @pytest.mark.parametrize("name", OPTIMISERS)
 def test_the_recorded_objective_is_that_of_the_method_and_never_rises(mesh, name, power):
     method = METHODS[name](p=power.p, offset=power.offset)
-    run = iterate(mesh, method, Stop(max_iterations=25))
+    run = iterate(mesh, method, StoppingCriteria(max_iterations=25))
     values = []
     for it in run:
         if it.figures.n_inverted == 0:
@@ -49,7 +49,7 @@ def test_the_recorded_objective_is_that_of_the_method_and_never_rises(mesh, name
 
 @pytest.mark.parametrize("name", [name for name in METHODS if name not in OPTIMISERS])
 def test_methods_that_minimise_nothing_record_the_default_objective(mesh, name):
-    result = smooth(mesh, name, Stop(max_iterations=3, keep_last=True))
+    result = smooth(mesh, name, StoppingCriteria(max_iterations=3, keep_last=True))
     assert result.history[-1]["objective"] == result.after.objective
 
 
@@ -62,7 +62,7 @@ def test_mend_that_raises_p_records_the_objective_of_the_highest():
 
 
 def test_the_figures_before_and_after_keep_the_objective_that_all_meshes_have(mesh):
-    result = smooth(mesh, METHODS["local-sd"](p=4.0, offset=0.0), Stop(max_iterations=5))
+    result = smooth(mesh, METHODS["local-sd"](p=4.0, offset=0.0), StoppingCriteria(max_iterations=5))
     assert result.after.objective == objective(measure(result.mesh.points, mesh.hexes))
     assert result.after.objective != result.history[-1]["objective"]
 
@@ -70,7 +70,7 @@ def test_the_figures_before_and_after_keep_the_objective_that_all_meshes_have(me
 @pytest.mark.parametrize("power", POWERS, ids=lambda power: power.formula)
 def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(power):
     mesh = make("five-side", size=300)
-    stop = Stop(tolerance=1.0)  # every step is short enough: only the objective keeps it going
+    stop = StoppingCriteria(tolerance=1.0)  # every step is short enough: only the objective keeps it going
     result = smooth(mesh, METHODS["local-sd"](p=power.p, offset=power.offset), stop)
     assert result.outcome is Outcome.CONVERGED
     least = power.least * mesh.n_hexes
@@ -83,38 +83,42 @@ def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(power):
 
 def test_stages_record_an_objective_each_and_are_not_compared(mesh, tmp_path):
     first, second = METHODS["local-sd"](), METHODS["local-sd"](p=4.0, offset=0.0)
-    recipe = Recipe.of(Stage(first, Stop(max_iterations=4)), Stage(second, Stop(max_iterations=4)))
+    recipe = Recipe.of(
+        Stage(first, StoppingCriteria(max_iterations=4)), Stage(second, StoppingCriteria(max_iterations=4))
+    )
     result = smooth(mesh, recipe)
     formulas = [row["objective_formula"] for row in result.history]
     assert formulas == ["Σ η²"] * 5 + ["Σ η⁴, offset 0"] * 4
     assert objective_changes(result.history) == [5]
     write_convergence(tmp_path / "a.svg", {"recipe": result.history}, title="two stages", width_mm=120)
-    assert result._repr_html_().count("<polyline") > smooth(mesh, first, Stop(max_iterations=8))._repr_html_().count(
-        "<polyline"
-    )
+    assert result._repr_html_().count("<polyline") > smooth(
+        mesh, first, StoppingCriteria(max_iterations=8)
+    )._repr_html_().count("<polyline")
 
 
 def test_a_table_compares_methods_by_one_objective_and_names_it(mesh):
     methods = ["laplacian", METHODS["local-sd"](offset=0.0), METHODS["mend"](p=4.0)]
-    answer = compare(mesh, methods, Stop(max_iterations=10, keep_last=True))
+    answer = compare(mesh, methods, StoppingCriteria(max_iterations=10, keep_last=True))
     record = answer.record()
-    power = Power(2.0, 0.0)  # of the first that minimises something
+    power = ObjectiveNorm(2.0, 0.0)  # of the first that minimises something
     meshes = [mesh, *(row.mesh for row in answer.rows)]
     for row, one in zip(comparison_rows(record), meshes, strict=True):
         assert row["objective"] == objective(measure(one.points, one.hexes), *power)
         assert row["objective_formula"] == "Σ η², offset 0"
     table = table_of(record)
     assert "objective Σ η², offset 0" in [line[0] for line in table.rows]
-    heuristics = table_of(compare(mesh, ["laplacian"], Stop(max_iterations=2)).record())
+    heuristics = table_of(compare(mesh, ["laplacian"], StoppingCriteria(max_iterations=2)).record())
     assert "objective Σ η²" in [line[0] for line in heuristics.rows]
 
 
 @pytest.mark.parametrize("offset", [0.0, 1.0])
 def test_mend_records_each_p_as_it_is_raised_and_no_objective_rises(offset):
     mesh = make("five-side", size=500)
-    rows = smooth(mesh, METHODS["mend"](highest_p=16.0, offset=offset), Stop(keep_last=True)).history[1:]
+    rows = smooth(mesh, METHODS["mend"](highest_p=16.0, offset=offset), StoppingCriteria(keep_last=True)).history[1:]
     stretches = [rows[first:end] for first, end in pairwise([0, *objective_changes(rows), len(rows)])]
-    assert [one[0]["objective_formula"] for one in stretches] == [Power(p, offset).formula for p in (2, 4, 8, 16)]
+    assert [one[0]["objective_formula"] for one in stretches] == [
+        ObjectiveNorm(p, offset).formula for p in (2, 4, 8, 16)
+    ]
     for one in stretches:
         values = [row["objective"] for row in one]
         assert len(values) > 1
@@ -124,7 +128,7 @@ def test_mend_records_each_p_as_it_is_raised_and_no_objective_rises(offset):
 
 def test_the_best_iterate_of_a_mend_that_raises_p_is_that_of_the_final_objective():
     mesh = make("five-side", size=500)
-    run = iterate(mesh, METHODS["mend"](highest_p=16.0), Stop(max_iterations=8))
+    run = iterate(mesh, METHODS["mend"](highest_p=16.0), StoppingCriteria(max_iterations=8))
     kept, values = 0, [objective(run.start.figures, 16.0)]
     for it in run:
         values.append(objective(it.figures, 16.0))
@@ -135,7 +139,9 @@ def test_the_best_iterate_of_a_mend_that_raises_p_is_that_of_the_final_objective
 
 def test_steps_that_raise_the_least_scaled_jacobian_record_the_final_objective():
     mesh = make("five-side", size=150, scramble=0.3)
-    rows = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", highest_p=8.0), Stop(keep_last=True)).history[1:]
+    rows = smooth(
+        mesh, METHODS["mend"](goal="scaled-jacobian", highest_p=8.0), StoppingCriteria(keep_last=True)
+    ).history[1:]
     raising = [row["objective_formula"] for row in rows][objective_changes(rows)[-1] :]
     assert len(raising) > 3
     assert set(raising) == {"Σ η⁸"}

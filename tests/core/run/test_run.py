@@ -12,7 +12,7 @@ from hexmend.iteration import Outcome, Step
 from hexmend.iteration.figures import HISTORY
 from hexmend.quality import measure, summarise
 from hexmend.report import record, to_json, write_history, write_json
-from hexmend.run import Stop, iterate, smooth
+from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.smoothers import Smoother
 from tests.core.grids import grid, scrambled
 
@@ -40,13 +40,13 @@ def test_history_has_a_row_an_iteration_and_one_before(mesh):
 
 @pytest.mark.parametrize("most", [0, 1, 4])
 def test_the_iteration_limit_is_kept(mesh, most):
-    result = smooth(mesh, "local-sd", Stop(max_iterations=most, tolerance=0))
+    result = smooth(mesh, "local-sd", StoppingCriteria(max_iterations=most, tolerance=0))
     assert result.iterations == most
     assert result.outcome is Outcome.MAX_ITERATIONS
 
 
 def test_the_time_limit_ends_after_the_iteration_at_hand(mesh):
-    result = smooth(mesh, "laplacian", Stop(max_seconds=1e-9, tolerance=0))
+    result = smooth(mesh, "laplacian", StoppingCriteria(max_seconds=1e-9, tolerance=0))
     assert result.iterations == 1
     assert result.outcome is Outcome.MAX_SECONDS
 
@@ -73,7 +73,7 @@ def test_watching_can_end_the_run(mesh):
 
 
 def test_iterations_are_read_only_and_carry_their_figures(mesh):
-    for it in iterate(mesh, "laplacian", Stop(max_iterations=2)):
+    for it in iterate(mesh, "laplacian", StoppingCriteria(max_iterations=2)):
         with pytest.raises(ValueError, match="read-only"):
             it.points[0] = 0
         assert it.figures.q.shape == (mesh.n_hexes,)
@@ -89,7 +89,7 @@ def test_largest_move_is_in_mean_edge_lengths():
 
 def test_the_result_carries_what_the_mesh_carried(mesh):
     named = mesh.replace(name="mine", node_data={"id": np.arange(mesh.n_nodes)})
-    result = smooth(named, "laplacian", Stop(max_iterations=1))
+    result = smooth(named, "laplacian", StoppingCriteria(max_iterations=1))
     assert result.mesh.name == "mine"
     assert result.mesh.node_data is named.node_data
 
@@ -98,11 +98,11 @@ def test_unknown_methods_and_wrong_limits_are_said(mesh):
     with pytest.raises(ParameterError, match="did you mean laplacian"):
         iterate(mesh, "laplacain")
     with pytest.raises(ParameterError, match="tolerance = -1 is out of range"):
-        Stop(tolerance=-1)
+        StoppingCriteria(tolerance=-1)
 
 
 def test_reports_are_complete_and_strict(mesh, tmp_path):
-    result = smooth(mesh, "local-sd", Stop(max_iterations=3))
+    result = smooth(mesh, "local-sd", StoppingCriteria(max_iterations=3))
     report = record(result)
     assert set(report) == {
         "method", "parameters", "outcome", "message", "worse", "iterations", "kept", "seconds", "setup_seconds", "before",
@@ -159,7 +159,7 @@ class Spoils(Smoother):
 
 def test_a_step_that_is_no_number_ends_the_run_and_the_last_good_one_is_kept():
     mesh = scrambled(grid(3), 0.1)
-    result = smooth(mesh, Spoils(), Stop(keep_last=True, tolerance=0))
+    result = smooth(mesh, Spoils(), StoppingCriteria(keep_last=True, tolerance=0))
     assert result.outcome is Outcome.NOT_FINITE
     assert result.iterations == 2
     assert np.isfinite(result.mesh.points).all()
@@ -173,7 +173,7 @@ def test_the_message_counts_iterations_and_inverted_hexes(inverted, said):
     points = mesh.points.copy()
     ends = [int((sign * points.sum(axis=1)).argmax()) for sign in (1, -1)][:inverted]
     points[ends] += 0.7 * (points.mean(axis=0) - points[ends])
-    run = iterate(mesh.with_points(points), "laplacian", Stop(max_iterations=2, tolerance=0))
+    run = iterate(mesh.with_points(points), "laplacian", StoppingCriteria(max_iterations=2, tolerance=0))
     assert f"{said} inverted" in run.message
     assert "moved a node" not in run.message
     assert run.message.startswith("Running. 0 iterations in 0 s; ")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.gallery import make
-from hexmend.iteration import Outcome, Stop
+from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.report import record, to_json
 from hexmend.run import iterate, smooth
@@ -12,11 +12,11 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 
-FEW = Stop(max_iterations=4, tolerance=0)
+FEW = StoppingCriteria(max_iterations=4, tolerance=0)
 
 
 def stage(name, most=4, **parameters):
-    return Stage(METHODS[name](**parameters), Stop(max_iterations=most, tolerance=0))
+    return Stage(METHODS[name](**parameters), StoppingCriteria(max_iterations=most, tolerance=0))
 
 
 @pytest.fixture(scope="module")
@@ -117,7 +117,9 @@ def test_the_most_that_it_can_come_to(mesh):
     for _ in run:
         assert run.limit == 5
     assert run.stage_number == 2
-    short = iterate(grid(3), Recipe.of(Stage(METHODS["laplacian"](), Stop(max_iterations=100)), stage("mend", 2)))
+    short = iterate(
+        grid(3), Recipe.of(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=100)), stage("mend", 2))
+    )
     next(short)
     assert short.stage == short.recipe.stages[0]
     assert short.limit == 1 + 2  # a perfect grid: the first stage has converged
@@ -148,10 +150,10 @@ def test_the_rest_of_a_stage_is_done_by_another_method(mesh):
 
 
 def test_other_values_on_the_way_and_the_recipe_that_does_it_again(mesh):
-    run = iterate(mesh, METHODS["local-sd"](), Stop(max_iterations=6, tolerance=0))
+    run = iterate(mesh, METHODS["local-sd"](), StoppingCriteria(max_iterations=6, tolerance=0))
     next(run)
     next(run)
-    run.go_on_with(METHODS["local-sd"](p=4), Stop(max_iterations=7, tolerance=0))
+    run.go_on_with(METHODS["local-sd"](p=4), StoppingCriteria(max_iterations=7, tolerance=0))
     points = [it.points for it in run]
     assert run.decisions == ["After iteration 2: p = 4 instead of 2, max_iterations = 7 instead of 6."]
     assert run.last.number == 7
@@ -165,10 +167,10 @@ def test_other_values_on_the_way_and_the_recipe_that_does_it_again(mesh):
 
 
 def test_other_limits_alone_do_not_begin_the_method_anew(mesh):
-    plain = [it.points for it in iterate(mesh, "mend", Stop(max_iterations=8))]
-    run = iterate(mesh, "mend", Stop(max_iterations=3))
+    plain = [it.points for it in iterate(mesh, "mend", StoppingCriteria(max_iterations=8))]
+    run = iterate(mesh, "mend", StoppingCriteria(max_iterations=3))
     seen = [next(run).points, next(run).points]
-    run.go_on_with("mend", Stop(max_iterations=8))
+    run.go_on_with("mend", StoppingCriteria(max_iterations=8))
     seen += [it.points for it in run]
     for ours, theirs in zip(seen, plain, strict=True):
         np.testing.assert_array_equal(ours, theirs)
@@ -187,7 +189,7 @@ def test_a_stage_that_has_ended_goes_on_under_new_limits_and_the_next_one_follow
     run = iterate(mesh, Recipe.of(stage("getme", 2), stage("local-sd", 1)))
     next(run)
     next(run)
-    run.go_on_with(METHODS["getme"](relaxation=0.5), Stop(max_iterations=3, tolerance=0))
+    run.go_on_with(METHODS["getme"](relaxation=0.5), StoppingCriteria(max_iterations=3, tolerance=0))
     assert [it.notes["method"] for it in run] == ["getme", "local-sd"]
 
 
@@ -195,7 +197,7 @@ def test_limits_that_are_passed_already_end_the_stage(mesh):
     run = iterate(mesh, "local-sd", FEW)
     next(run)
     next(run)
-    run.go_on_with("local-mnr", Stop(max_iterations=1))
+    run.go_on_with("local-mnr", StoppingCriteria(max_iterations=1))
     assert run.outcome is Outcome.MAX_ITERATIONS
     assert list(run) == []
     with pytest.raises(ValueError, match="the run has ended"):
@@ -216,7 +218,7 @@ def test_a_method_that_cannot_be_prepared_leaves_the_run_as_it_was(mesh, monkeyp
 
 
 def test_the_seconds_that_are_left_are_those_of_the_stage_less_what_it_has_taken(mesh):
-    run = iterate(mesh, "laplacian", Stop(max_iterations=50, max_seconds=1000))
+    run = iterate(mesh, "laplacian", StoppingCriteria(max_iterations=50, max_seconds=1000))
     for _ in range(3):
         next(run)
     assert run.recipe.stages[0].stop.max_seconds == 1000
@@ -226,14 +228,17 @@ def test_the_seconds_that_are_left_are_those_of_the_stage_less_what_it_has_taken
     cut, rest = run.recipe.stages
     assert (cut.stop.max_seconds, rest.stop.max_seconds) == (1000, pytest.approx(1000 - spent))
     assert (cut.stop.max_iterations, rest.stop.max_iterations) == (3, 47)
-    run.go_on_with("local-nr", Stop(max_seconds=1e-9, max_iterations=2))
+    run.go_on_with("local-nr", StoppingCriteria(max_seconds=1e-9, max_iterations=2))
     assert run.recipe.stages[-1].stop.max_seconds == 1e-3  # 0 would be no limit
     assert run.recipe.stages[-1].stop.max_iterations == 0
 
 
 def test_one_limit_leaves_the_others_of_each_stage_and_all_are_those_of_a_stop_that_is_given(mesh):
-    recipe = Recipe.of(stage("getme", 9), Stage(METHODS["mend"](), Stop(tolerance=1e-3, keep_last=True)))
+    recipe = Recipe.of(stage("getme", 9), Stage(METHODS["mend"](), StoppingCriteria(tolerance=1e-3, keep_last=True)))
     stops = [one.stop for one in iterate(mesh, recipe, max_iterations=2).recipe.stages]
-    assert stops == [Stop(max_iterations=2, tolerance=0), Stop(max_iterations=2, tolerance=1e-3, keep_last=True)]
-    stops = [one.stop for one in iterate(mesh, recipe, Stop(tolerance=0.5), max_iterations=2).recipe.stages]
-    assert stops == [Stop(max_iterations=2, tolerance=0.5)] * 2
+    assert stops == [
+        StoppingCriteria(max_iterations=2, tolerance=0),
+        StoppingCriteria(max_iterations=2, tolerance=1e-3, keep_last=True),
+    ]
+    stops = [one.stop for one in iterate(mesh, recipe, StoppingCriteria(tolerance=0.5), max_iterations=2).recipe.stages]
+    assert stops == [StoppingCriteria(max_iterations=2, tolerance=0.5)] * 2

@@ -11,13 +11,13 @@ from hexmend.gallery import make
 from hexmend.iteration import Outcome
 from hexmend.parameters import declared
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
 
 OPTIMISERS = [name for name, cls in METHODS.items() if cls.optimises]
 #: Steepest descent of all nodes at once crawls: it needs thousands of steps where the others need dozens.
-PATIENT = Stop(max_iterations=20_000, tolerance=1e-7)
+PATIENT = StoppingCriteria(max_iterations=20_000, tolerance=1e-7)
 
 
 def made(name, **values):
@@ -79,7 +79,7 @@ def test_no_accepted_step_inverts_a_valid_mesh_or_climbs(name, seed, amplitude, 
 def test_optimisers_untangle_a_scrambled_cube(name):
     mesh = make("cube", size=216, scramble=0.7, seed=5)
     assert measure(mesh.points, mesh.hexes).n_inverted > 10
-    assert smooth(mesh, made(name, delta=0.05), Stop(max_iterations=300)).after.inverted == 0
+    assert smooth(mesh, made(name, delta=0.05), StoppingCriteria(max_iterations=300)).after.inverted == 0
 
 
 @pytest.mark.parametrize("name", [name for name in OPTIMISERS if name.startswith("global")])
@@ -95,6 +95,6 @@ def test_the_adaptive_delta_untangles_and_ends_at_the_same_optimum(name):
     mesh = make("cube", size=64, scramble=1.5, seed=3)
     assert measure(mesh.points, mesh.hexes).n_inverted > 20
     smoother = made(name, delta_policy="adaptive", getme_iterations=0)
-    after = smooth(mesh, smoother, Stop(max_iterations=2000, tolerance=1e-6)).after
+    after = smooth(mesh, smoother, StoppingCriteria(max_iterations=2000, tolerance=1e-6)).after
     assert after.inverted == 0
     assert after.q_mean > 0.999

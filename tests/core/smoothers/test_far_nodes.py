@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from hexmend.advice import advise
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
 from hexmend.io import read, write
 from hexmend.quality import summarise
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 
@@ -31,7 +31,7 @@ def with_far_node(place, far):
 @pytest.mark.parametrize("name", METHODS)
 def test_every_method_ends_with_finite_coordinates(name, boundary, place, far):
     mesh, _ = with_far_node(place, far)
-    result = smooth(mesh, METHODS[name](boundary=boundary), Stop(max_iterations=6))
+    result = smooth(mesh, METHODS[name](boundary=boundary), StoppingCriteria(max_iterations=6))
     assert np.isfinite(result.mesh.points).all()
     assert result.after.inverted <= result.before.inverted
     if boundary == "fixed":
@@ -43,7 +43,7 @@ def test_every_method_ends_with_finite_coordinates(name, boundary, place, far):
 @pytest.mark.parametrize("name", [name for name, cls in METHODS.items() if "p" in cls().values()])
 def test_energies_beyond_the_range_of_numbers_are_infinite(name, p):
     mesh, _ = with_far_node("inside", 1e30)
-    result = smooth(mesh, METHODS[name](p=p), Stop(max_iterations=6))
+    result = smooth(mesh, METHODS[name](p=p), StoppingCriteria(max_iterations=6))
     assert np.isfinite(result.mesh.points).all()
     assert all(row["objective"] is None or np.isfinite(row["objective"]) for row in result.history)
 
@@ -72,7 +72,7 @@ def test_the_command_line_says_nothing_on_standard_error(tmp_path, capsys, name,
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, 1e200, -1e200])
 def test_a_node_that_cannot_slide_is_named(wrong):
-    sliding = Sliding(grid(2))
+    sliding = SlidingBoundary(grid(2))
     x = sliding.mesh.points[sliding.nodes].copy()
     x[3, 1] = wrong
     said = rf"node {sliding.nodes[3]} cannot slide: no place of the surface is closest to \[.*{wrong}.*pin it\."

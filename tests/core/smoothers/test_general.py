@@ -8,7 +8,7 @@ import pytest
 from hexmend.gallery import make
 from hexmend.iteration import Outcome
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS, general
 from hexmend.smoothers.general import size_ratio
 from tests.core.grids import grid, scrambled
@@ -36,12 +36,12 @@ def test_sufficient_quality_ends_with_what_getme_reached():
 )
 def test_what_it_chooses_and_why_is_in_the_message(mesh, getme_iterations, said):
     method = General(getme_iterations=getme_iterations)
-    result = smooth(mesh, method, Stop(max_iterations=1000))
+    result = smooth(mesh, method, StoppingCriteria(max_iterations=1000))
     assert "After GETMe: " in result.message
     assert said in result.message
     assert result.outcome is Outcome.CONVERGED
     assert result.after.inverted == 0
-    reference = smooth(result.mesh, "local-mnr", Stop(tolerance=1e-6)).after
+    reference = smooth(result.mesh, "local-mnr", StoppingCriteria(tolerance=1e-6)).after
     assert result.after.q_mean == pytest.approx(reference.q_mean, abs=2e-4)
 
 
@@ -56,9 +56,9 @@ def test_size_ratio_looks_past_one_hex_in_twenty():
 
 def test_getme_comes_first_and_the_iterations_of_both_are_counted():
     mesh = make("five-side", size=150, scramble=0.2)
-    run = smooth(mesh, General(getme_iterations=7), Stop(max_iterations=9))
+    run = smooth(mesh, General(getme_iterations=7), StoppingCriteria(max_iterations=9))
     assert run.iterations == 9
-    getme = smooth(mesh, "getme", Stop(max_iterations=7, tolerance=0))
+    getme = smooth(mesh, "getme", StoppingCriteria(max_iterations=7, tolerance=0))
     assert run.history[7]["objective"] == getme.history[7]["objective"]
     assert measure(run.mesh.points, mesh.hexes).n_inverted == 0
 
@@ -67,7 +67,7 @@ def test_getme_comes_first_and_the_iterations_of_both_are_counted():
 def test_sizes_are_similar_up_to_the_ratio_that_is_given(monkeypatch, ratio, name):
     monkeypatch.setattr(general, "size_ratio", lambda points, hexes: ratio)
     method = General(getme_iterations=0, similar=2.5, sufficient=1.0)
-    result = smooth(scrambled(grid(3), 0.1), method, Stop(max_iterations=2))
+    result = smooth(scrambled(grid(3), 0.1), method, StoppingCriteria(max_iterations=2))
     assert f"{'similar' if ratio <= 2.5 else 'different'} sizes" in result.message
     assert f"no inverted hexes: {METHODS[name].title}." in result.message
 

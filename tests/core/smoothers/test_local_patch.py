@@ -14,7 +14,7 @@ from hexmend.kernels import large_patches
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.patches import grown
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.local.patch import LocalPatch
 from tests.core.grids import grid, scrambled
@@ -205,7 +205,7 @@ def test_threads_do_not_matter(size, overlap):
 def test_a_tangled_cube_becomes_the_perfect_grid(size, overlap):
     mesh = make("cube", size=216, scramble=0.9, seed=2)
     assert measure(mesh.points, mesh.hexes).n_inverted > 20
-    result = smooth(mesh, LocalPatch(patch=size, overlap=overlap), Stop(tolerance=1e-7))
+    result = smooth(mesh, LocalPatch(patch=size, overlap=overlap), StoppingCriteria(tolerance=1e-7))
     assert result.after.inverted == 0
     assert result.after.q_min == pytest.approx(1, abs=1e-8)
 

@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from hexmend.energy import SQUARES, Power, objective
+from hexmend.energy import SQUARES, ObjectiveNorm, objective
 from hexmend.gallery import make
 from hexmend.kernels import local
-from hexmend.run import Stop, iterate, smooth
+from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.base_optimiser import Objective, Optimiser
+from hexmend.smoothers.base_optimiser import ObjectiveSmoother, Optimiser
 from tests.core.grids import grid, scrambled
 
-OBJECTIVES = sorted(name for name, cls in METHODS.items() if issubclass(cls, Objective))
+OBJECTIVES = sorted(name for name, cls in METHODS.items() if issubclass(cls, ObjectiveSmoother))
 OPTIMISERS = sorted(name for name, cls in METHODS.items() if issubclass(cls, Optimiser))
-TOWARDS = Stop(max_iterations=300, tolerance=1e-6)
+TOWARDS = StoppingCriteria(max_iterations=300, tolerance=1e-6)
 
 
 def best(mesh, name, offset):
@@ -33,12 +33,12 @@ def test_each_offset_has_the_lower_objective_of_its_kind_and_zero_the_higher_mea
     ones, zeros = best(mesh, "mend", 1.0), best(mesh, "mend", 0.0)
 
     def value(mesh, offset):
-        return objective(mesh.points, mesh.hexes, power=Power(2.0, offset))
+        return objective(mesh.points, mesh.hexes, power=ObjectiveNorm(2.0, offset))
 
     assert value(ones, 1.0) < value(zeros, 1.0)
     assert value(zeros, 0.0) < value(ones, 0.0)
-    assert smooth(zeros, "laplacian", Stop(max_iterations=0)).after.q_mean > (
-        smooth(ones, "laplacian", Stop(max_iterations=0)).after.q_mean
+    assert smooth(zeros, "laplacian", StoppingCriteria(max_iterations=0)).after.q_mean > (
+        smooth(ones, "laplacian", StoppingCriteria(max_iterations=0)).after.q_mean
     )
 
 
@@ -58,7 +58,7 @@ def test_delta_in_another_unit_is_another_number(name):
     unit = next(choice for choice in other["choices"] if choice != "edge")
     edges = 2.0 if unit == "extent" else 1 / mesh.mean_edge_length
     runs = [
-        smooth(mesh, METHODS[name](delta=delta, delta_unit=unit), Stop(max_iterations=2, keep_last=True))
+        smooth(mesh, METHODS[name](delta=delta, delta_unit=unit), StoppingCriteria(max_iterations=2, keep_last=True))
         for delta, unit in ((0.02, unit), (0.02 * edges**3, "edge"))
     ]
     np.testing.assert_allclose(runs[0].mesh.points, runs[1].mesh.points, rtol=1e-12)
@@ -67,18 +67,18 @@ def test_delta_in_another_unit_is_another_number(name):
 
 def test_moves_are_lengths_or_changes_of_a_coordinate():
     mesh = scrambled(grid(4), 0.3, 5)
-    first = smooth(mesh, "laplacian", Stop(max_iterations=1, keep_last=True))
+    first = smooth(mesh, "laplacian", StoppingCriteria(max_iterations=1, keep_last=True))
     moves = (first.mesh.points - mesh.points) / mesh.mean_edge_length
     length, coordinate = np.linalg.norm(moves, axis=1).max(), np.abs(moves).max()
     assert coordinate < length
     between = (coordinate + length) / 2
     iterations = {
-        move: smooth(mesh, "laplacian", Stop(tolerance=between, move=move)).iterations
+        move: smooth(mesh, "laplacian", StoppingCriteria(tolerance=between, move=move)).iterations
         for move in ("length", "coordinate")
     }
     assert iterations["coordinate"] == 1
     assert iterations["length"] > 1
-    shorter = Stop(
+    shorter = StoppingCriteria(
         tolerance=0.99 * coordinate, move="coordinate"
     )  # the node that moves furthest counts, not the others
     assert smooth(mesh, "laplacian", shorter).iterations > 1
@@ -92,7 +92,7 @@ def test_a_step_that_descends_too_little_for_armijo_is_cut(name, boundary):
     for c1 in (1e-6, 0.5):
         # One and a half times Newton's step gains three eighths of what the slope promises.
         method = METHODS[name](c1=c1, first_step=1.5, boundary=boundary)
-        run = iterate(mesh, method, Stop(max_iterations=1, tolerance=0))
+        run = iterate(mesh, method, StoppingCriteria(max_iterations=1, tolerance=0))
         trials.append(sum(step.notes["energies" if "energies" in step.notes else "cuts"] for step in run))
     assert trials[0] < trials[1]
 
@@ -120,6 +120,6 @@ def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
 
 @pytest.mark.parametrize("name", ["local-sd", "local-nr", "local-mnr"])
 def test_nodes_that_have_converged_cost_few_evaluations(name):
-    run = iterate(make("five-side", size=150), METHODS[name](), Stop(max_iterations=400, tolerance=0))
+    run = iterate(make("five-side", size=150), METHODS[name](), StoppingCriteria(max_iterations=400, tolerance=0))
     sweeps = [step.notes["energies"] / step.notes["derivatives"] for step in run]
     assert max(sweeps[-50:]) < 3  # where rounding hides what a shorter step would gain, none is tried

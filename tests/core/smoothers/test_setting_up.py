@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.iteration import Outcome
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.local import single_node
 from tests.core.grids import grid, scrambled
@@ -29,7 +29,7 @@ def test_the_order_of_visits_is_worked_out_before_the_first_step(monkeypatch):
 
 @pytest.mark.parametrize("name", [name for name, cls in METHODS.items() if cls.optimises])
 def test_perfect_cubes_are_converged(name):
-    result = smooth(grid(3), METHODS[name](), Stop(max_iterations=5))
+    result = smooth(grid(3), METHODS[name](), StoppingCriteria(max_iterations=5))
     assert result.outcome is not Outcome.NO_DESCENT
     assert abs(result.mesh.points - grid(3).points).max() < 1e-9
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.boundary import Sliding, surface_change
-from hexmend.run import Stop, smooth
+from hexmend.boundary import SlidingBoundary, surface_change
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid
@@ -37,7 +37,7 @@ def sides(points, sliding):
 @given(name=METHOD, solid=SOLID, amplitude=st.sampled_from([0.2, 0.6, 1.0]), seed=SEED)
 def test_no_step_turns_a_quad_over(name, solid, amplitude, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
-    sliding = Sliding(mesh)
+    sliding = SlidingBoundary(mesh)
     before = sides(mesh.points, sliding)
     method = METHODS[name](boundary="slide", surface_tolerance="unlimited")
     for step in itertools.islice(method.steps(mesh), 8):
@@ -49,7 +49,7 @@ def test_no_step_turns_a_quad_over(name, solid, amplitude, seed):
 
 def test_normals_are_those_of_the_sides():
     mesh = grid(3)
-    sliding = Sliding(mesh)
+    sliding = SlidingBoundary(mesh)
     middles = mesh.points[sliding.boundary.faces].mean(axis=1) - 1.5
     outermost = np.abs(middles).argmax(axis=1)
     expected = np.zeros_like(middles)
@@ -65,15 +65,17 @@ def test_a_node_beyond_its_neighbour_finds_its_way_back(name):
     node = int(np.flatnonzero((cube.points == [2, 2, 0]).all(axis=1))[0])
     points[node, 0] += 1.4  # two quads lie over each other, none is turned as a whole
     mesh = cube.with_points(points)
-    result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance="unlimited"), Stop(max_iterations=200))
-    assert (sides(result.mesh.points, Sliding(cube)) > 0.5).all()
+    result = smooth(
+        mesh, METHODS[name](boundary="slide", surface_tolerance="unlimited"), StoppingCriteria(max_iterations=200)
+    )
+    assert (sides(result.mesh.points, SlidingBoundary(cube)) > 0.5).all()
     assert np.linalg.norm(result.mesh.points[node] - cube.points[node]) < 0.5
     np.testing.assert_array_equal(result.mesh.points[:, 2][cube.points[:, 2] == 0], 0)
 
 
 def test_a_quad_that_is_turned_may_stay_so_and_be_turned_back():
     mesh = grid(4)
-    sliding, folded = Sliding(mesh), mesh.points.copy()
+    sliding, folded = SlidingBoundary(mesh), mesh.points.copy()
     node = int(np.flatnonzero((folded == [2, 2, 0]).all(axis=1))[0])
     folded[node, :2] += 1.4  # beyond the opposite corner of a quad
     assert sliding.turned(mesh.points, folded).size == 1
@@ -91,14 +93,14 @@ def test_a_quad_that_is_turned_may_stay_so_and_be_turned_back():
 def test_the_boundary_stays_in_its_room_both_ways(name, solid, amplitude, tolerance, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
     method = METHODS[name](boundary="slide", surface_tolerance=tolerance)
-    result = smooth(mesh, method, Stop(max_iterations=10, keep_last=True))
+    result = smooth(mesh, method, StoppingCriteria(max_iterations=10, keep_last=True))
     assert surface_change(mesh, result.mesh).max <= tolerance * (1 + 1e-4)
 
 
 @pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "local-patch"])
 def test_the_room_costs_little_of_what_is_reached(name):
     mesh = slid(wavy(grid(4), 0.3), 0.5, seed=2)
-    stop = Stop(max_iterations=20, keep_last=True)
+    stop = StoppingCriteria(max_iterations=20, keep_last=True)
     free, held = (
         smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=room), stop) for room in ("unlimited", 0.1)
     )
@@ -112,7 +114,7 @@ def test_the_room_costs_little_of_what_is_reached(name):
 def test_with_a_tolerance_of_0_the_boundary_stays_on_its_surface(name, solid, amplitude, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
     method = METHODS[name](boundary="slide", surface_tolerance=0)
-    result = smooth(mesh, method, Stop(max_iterations=10, keep_last=True))
+    result = smooth(mesh, method, StoppingCriteria(max_iterations=10, keep_last=True))
     assert result.surface.max < 1e-7
     assert abs(result.surface.volume_change) < 1e-7
 
@@ -120,7 +122,7 @@ def test_with_a_tolerance_of_0_the_boundary_stays_on_its_surface(name, solid, am
 @pytest.mark.parametrize("name", ["laplacian", "getme", "local-nr", "global-nr", "mend"])
 def test_with_a_tolerance_of_0_nodes_slide_where_the_surface_is_flat(name):
     mesh = slid(grid(4), 0.3, seed=1)
-    result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=0), Stop(max_iterations=50))
-    on = result.mesh.points[Sliding(mesh).nodes]
+    result = smooth(mesh, METHODS[name](boundary="slide", surface_tolerance=0), StoppingCriteria(max_iterations=50))
+    on = result.mesh.points[SlidingBoundary(mesh).nodes]
     assert np.abs(on - np.round(on)).max() < 0.05  # where the nodes of a grid of cubes are
     assert result.surface.max < 1e-9

@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend import io
-from hexmend.boundary import Kind, Skin, Sliding, surface_change
+from hexmend.boundary import NodeClass, SkinSurface, SlidingBoundary, surface_change
 from hexmend.boundary.closest_point import triangulated
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
@@ -25,7 +25,7 @@ def skin_of(mesh, name="part.stl"):
     """The boundary of a mesh as triangles."""
     points, triangles, _ = triangulated(mesh.points, mesh.topology.boundary_faces)
     used, numbers = np.unique(triangles, return_inverse=True)
-    return Skin(points[used], numbers.reshape(-1, 3).astype(np.int32), name)
+    return SkinSurface(points[used], numbers.reshape(-1, 3).astype(np.int32), name)
 
 
 def write_stl(path, skin):
@@ -56,8 +56,8 @@ def fine_skin(solid):
 @given(st.sampled_from(sorted(METHODS)), st.sampled_from(sorted(SOLIDS)), st.integers(0, 2**32 - 1))
 def test_nodes_are_put_on_the_surface_and_stay_on_it(name, solid, seed):
     mesh, target = slid(SOLIDS[solid][0](), 0.2, seed), fine_skin(solid)
-    kept, on = Sliding(mesh).mesh.fixed, mesh.sliding_on(target)
-    slides = Sliding(on).nodes
+    kept, on = SlidingBoundary(mesh).mesh.fixed, mesh.sliding_on(target)
+    slides = SlidingBoundary(on).nodes
     for number, step in enumerate(itertools.islice(METHODS[name](boundary="slide").steps(on), 4)):
         if number:
             assert target.distances(step.points[slides]).max() < 1e-9 * mesh.mean_edge_length
@@ -66,9 +66,9 @@ def test_nodes_are_put_on_the_surface_and_stay_on_it(name, solid, seed):
 
 def test_its_own_boundary_as_the_surface_is_the_same_as_none():
     mesh = slid(cylinder(16, 3), 0.2)
-    own, on = Sliding(mesh), Sliding(mesh.sliding_on(skin_of(mesh)))
+    own, on = SlidingBoundary(mesh), SlidingBoundary(mesh.sliding_on(skin_of(mesh)))
     np.testing.assert_array_equal(own.kind, on.kind)
-    method, stop = METHODS["local-nr"](boundary="slide"), Stop(max_iterations=5)
+    method, stop = METHODS["local-nr"](boundary="slide"), StoppingCriteria(max_iterations=5)
     one, other = (smooth(of, method, stop).mesh.points for of in (mesh, mesh.sliding_on(skin_of(mesh))))
     np.testing.assert_allclose(one, other, atol=1e-6)
 
@@ -76,18 +76,18 @@ def test_its_own_boundary_as_the_surface_is_the_same_as_none():
 def test_edges_of_the_boundary_that_the_surface_does_not_have_are_smooth():
     coarse, target = cylinder(8, 2), skin_of(cylinder(64, 8))  # whose sides meet at 45 degrees
     mesh = coarse.sliding_on(target)
-    before, after = Sliding(coarse), Sliding(mesh)
+    before, after = SlidingBoundary(coarse), SlidingBoundary(mesh)
     height = coarse.points[:, 2]
-    side = (before.kind == Kind.CURVE) & (height > 0.1) & (height < 0.9)
+    side = (before.kind == NodeClass.CURVE) & (height > 0.1) & (height < 0.9)
     assert side.any()
-    assert (after.kind[side] == Kind.PATCH).all()
-    rim = (before.kind == Kind.CURVE) & ~side
-    assert (after.kind[rim] == Kind.CURVE).all()
+    assert (after.kind[side] == NodeClass.PATCH).all()
+    rim = (before.kind == NodeClass.CURVE) & ~side
+    assert (after.kind[rim] == NodeClass.CURVE).all()
 
 
 def test_the_distance_told_is_that_from_the_surface():
     mesh, target = ball(3), skin_of(ball(12), "ball.stl")
-    result = smooth(mesh.sliding_on(target), METHODS["laplacian"](boundary="slide"), Stop(max_iterations=3))
+    result = smooth(mesh.sliding_on(target), METHODS["laplacian"](boundary="slide"), StoppingCriteria(max_iterations=3))
     assert result.surface.of == "ball.stl"
     assert "from ball.stl" in result.surface.words
     nodes = result.surface.furthest  # a coarse boundary cuts off the ball's bends
@@ -98,15 +98,18 @@ def test_the_distance_told_is_that_from_the_surface():
 
 def test_all_stages_slide_on_it():
     mesh, target = ball(3), skin_of(ball(12))
-    stages = [Stage(METHODS[name](boundary="slide"), Stop(max_iterations=4)) for name in ("getme", "local-sd", "mend")]
+    stages = [
+        Stage(METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=4))
+        for name in ("getme", "local-sd", "mend")
+    ]
     result = smooth(mesh.sliding_on(target), Recipe.of(*stages))
-    slides = Sliding(mesh.sliding_on(target)).nodes
+    slides = SlidingBoundary(mesh.sliding_on(target)).nodes
     assert target.distances(result.mesh.points[slides]).max() < 1e-9
 
 
 def test_a_boundary_that_stays_does_not_see_it():
     mesh = wavy(ball(3), 0.1)
-    result = smooth(mesh.sliding_on(skin_of(ball(12))), "local-nr", Stop(max_iterations=3))
+    result = smooth(mesh.sliding_on(skin_of(ball(12))), "local-nr", StoppingCriteria(max_iterations=3))
     np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
     assert result.surface is None
 
@@ -115,7 +118,7 @@ def test_a_boundary_that_stays_does_not_see_it():
 def test_a_surface_of_another_unit_or_place_is_refused(change):
     mesh, skin = ball(4), skin_of(ball(6))
     with pytest.raises(MeshError, match=r"part\.stl: .* mean edge lengths or more from it.*unit or place"):
-        mesh.sliding_on(Skin(change(skin.points), skin.faces, skin.name))
+        mesh.sliding_on(SkinSurface(change(skin.points), skin.faces, skin.name))
 
 
 def test_the_command_line_takes_it(tmp_path, capsys):
@@ -142,7 +145,7 @@ def test_what_the_command_line_says_of_a_surface_that_is_none(tmp_path, capsys):
     path, stl = tmp_path / "ball.vtu", tmp_path / "far.stl"
     io.write(path, ball(3))
     skin = skin_of(ball(3))
-    write_stl(stl, Skin(1000 * skin.points, skin.faces))
+    write_stl(stl, SkinSurface(1000 * skin.points, skin.faces))
     words = ["smooth", str(path), "-o", str(tmp_path / "out.vtu")]
     for more, status, said in (
         (["--surface", str(stl)], 3, "far.stl: one in ten nodes"),

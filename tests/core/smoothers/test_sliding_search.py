@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, slid
 
@@ -14,7 +14,7 @@ from tests.core.boundary.solids import ball, slid
 def test_a_step_that_is_cut_once_is_tried_again(name):
     """The first step is a hundred times too long; cut once, to a hundredth, it is what it should be."""
     mesh = slid(ball(3), 0.2, 2)
-    nodes = Sliding(mesh).nodes
+    nodes = SlidingBoundary(mesh).nodes
     usual = {"boundary": "slide"}
     right, long = (
         METHODS[name](**usual, **how).steps(mesh)

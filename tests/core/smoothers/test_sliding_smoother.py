@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
 from hexmend import io, kernels
-from hexmend.boundary import Kind, Sliding, freed_by_sliding, surface_change
+from hexmend.boundary import NodeClass, SlidingBoundary, freed_by_sliding, surface_change
 from hexmend.cli.main import main
 from hexmend.energy import SQUARES
 from hexmend.iteration import Outcome
@@ -19,7 +19,7 @@ from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import locked, measure
 from hexmend.report import record
-from hexmend.run import Stop, iterate, smooth
+from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
@@ -61,7 +61,7 @@ def test_corners_are_kept_and_all_others_stay_on_their_curves_and_patches(name, 
     pinned = np.zeros(mesh.n_nodes, dtype=bool)
     pinned[np.random.default_rng(seed).integers(0, mesh.n_nodes, 3)] = True
     mesh = mesh.replace(pinned=pinned)
-    sliding = Sliding(mesh)
+    sliding = SlidingBoundary(mesh)
     for step in itertools.islice(METHODS[name](boundary="slide").steps(mesh), 6):
         kept = sliding.mesh.fixed
         np.testing.assert_array_equal(step.points[kept], mesh.points[kept])
@@ -75,14 +75,14 @@ def test_a_scrambled_cube_goes_back_to_the_grid(name):
     cube = grid(4)
     mesh = slid(cube, 0.3, seed=3)
     assert np.abs(mesh.points - cube.points)[cube.fixed].max() > 0.2
-    result = smooth(mesh, METHODS[name](boundary="slide"), Stop(tolerance=1e-9, max_iterations=500))
+    result = smooth(mesh, METHODS[name](boundary="slide"), StoppingCriteria(tolerance=1e-9, max_iterations=500))
     np.testing.assert_allclose(result.mesh.points, cube.points, atol=1e-6)
 
 
 @pytest.mark.parametrize("name", SLIDING)
 def test_a_flat_solid_keeps_its_surface_and_volume(name):
     mesh = turned(slid(grid(3, 4, 3), 0.3))
-    result = smooth(mesh, METHODS[name](boundary="slide"), Stop(max_iterations=30))
+    result = smooth(mesh, METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=30))
     assert result.surface.moved > 20
     assert result.surface.max < 1e-12
     assert abs(result.surface.volume_change) < 1e-12
@@ -107,7 +107,7 @@ def test_the_number_of_threads_does_not_matter(name):
 @pytest.mark.parametrize("name", SLIDING)
 def test_the_boundary_stays_unless_it_is_told_to_slide(name):
     mesh = slid(grid(3), 0.3)
-    result = smooth(mesh, METHODS[name](), Stop(max_iterations=3))
+    result = smooth(mesh, METHODS[name](), StoppingCriteria(max_iterations=3))
     assert result.surface is None
     np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])
 
@@ -116,7 +116,7 @@ def test_the_boundary_stays_unless_it_is_told_to_slide(name):
 def test_one_layer_has_nodes_that_slide(name):
     mesh = slid(grid(4, 4, 1), 0.3)
     assert smooth(mesh, name).outcome is Outcome.NOTHING_FREE
-    result = smooth(mesh, METHODS[name](boundary="slide"), Stop(max_iterations=20))
+    result = smooth(mesh, METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=20))
     assert result.outcome is not Outcome.NOTHING_FREE
     assert result.after.q_min > result.before.q_min + 0.05
 
@@ -151,13 +151,13 @@ def test_optimisers_lower_the_objective_and_never_leave_the_feasible_region(name
 
 def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_patch():
     mesh = slid(grid(3), 0.3, seed=5)
-    sliding = Sliding(mesh)
+    sliding = SlidingBoundary(mesh)
     moved = next(itertools.islice(METHODS["laplacian"](boundary="slide", update="simultaneous").steps(mesh), 1, None))
     kind, part = sliding.boundary.kind, sliding.boundary.part
     edges = {tuple(sorted(edge)) for edge in mesh.topology.edges[mesh.topology.edge_on_boundary].tolist()}
     curves = {tuple(sorted(edge)) for edge in sliding.boundary.segments.tolist()}
     for node in sliding.nodes:
-        along = curves if kind[node] == Kind.CURVE else edges
+        along = curves if kind[node] == NodeClass.CURVE else edges
         ring = [other for other in mesh.topology.rings[node] if tuple(sorted((int(node), int(other)))) in along]
         assert all(part[other] == part[node] or kind[other] < kind[node] for other in ring)
         np.testing.assert_allclose(moved.points[node], mesh.points[ring].mean(axis=0), atol=1e-12)  # its sides are flat
@@ -166,7 +166,7 @@ def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_
 @pytest.mark.parametrize("direction", [local.STEEPEST_DESCENT, local.NEWTON, local.MODIFIED_NEWTON])
 def test_nodes_that_do_not_slide_are_visited_as_ever(direction):
     mesh = slid(ball(4), 0.2)
-    sliding, corners, colours = Sliding(mesh), mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
+    sliding, corners, colours = SlidingBoundary(mesh), mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
     swept = []
     for sweep, more in (local.sweep, ()), (on_surface.local, (sliding.tangents(mesh.points), *sliding.ground)):
         points = mesh.points.copy()
@@ -180,29 +180,32 @@ def test_nodes_that_do_not_slide_are_visited_as_ever(direction):
 
 def test_all_stages_of_a_run_slide_on_the_surface_that_it_began_with():
     mesh = slid(ball(4), 0.3)
-    stages = [Stage(METHODS[name](boundary="slide"), Stop(max_iterations=5)) for name in ("getme", "local-sd", "mend")]
-    sliding = Sliding(mesh)
+    stages = [
+        Stage(METHODS[name](boundary="slide"), StoppingCriteria(max_iterations=5))
+        for name in ("getme", "local-sd", "mend")
+    ]
+    sliding = SlidingBoundary(mesh)
     assert on_its_surface(sliding, smooth(mesh, Recipe.of(*stages)).mesh.points) < 1e-9
     run = iterate(mesh, stages[0].smoother)
     next(run)
-    run.go_on_with(stages[1].smoother, Stop(max_iterations=4))
+    run.go_on_with(stages[1].smoother, StoppingCriteria(max_iterations=4))
     for iteration in run:
         assert on_its_surface(sliding, iteration.points) < 1e-9
     again = smooth(
-        run.result().mesh, stages[1].smoother, Stop(max_iterations=2)
+        run.result().mesh, stages[1].smoother, StoppingCriteria(max_iterations=2)
     )  # a run of its own: the surface of now
-    assert on_its_surface(Sliding(run.result().mesh), again.mesh.points) < 1e-9
+    assert on_its_surface(SlidingBoundary(run.result().mesh), again.mesh.points) < 1e-9
 
 
 def test_the_surface_is_recorded():
     mesh = slid(cylinder(16, 3), 0.2)
-    result = smooth(mesh, METHODS["local-nr"](boundary="slide"), Stop(max_iterations=10))
+    result = smooth(mesh, METHODS["local-nr"](boundary="slide"), StoppingCriteria(max_iterations=10))
     change = surface_change(mesh, result.mesh)
     assert result.surface == change
     surface = record(result)["surface"]
     assert list(surface) == ["max", "mean", "max_percent_of_diagonal", "volume_change", "moved"]
     assert surface == change.to_dict()
-    assert "surface" not in record(smooth(mesh, "local-nr", Stop(max_iterations=2)))
+    assert "surface" not in record(smooth(mesh, "local-nr", StoppingCriteria(max_iterations=2)))
 
 
 def test_the_command_line_lets_it_slide_and_says_what_became_of_the_surface(tmp_path, capsys):

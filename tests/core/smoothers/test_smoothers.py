@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from hexmend.gallery import make
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
@@ -39,8 +39,8 @@ def test_laplacian_simultaneous_looks_at_the_old_places():
 def test_laplacian_inverts_hexes_on_bridge_sharp_and_smart_laplacian_does_not():
     mesh = make("bridge-sharp", size=4000)
     assert measure(mesh.points, mesh.hexes).n_inverted == 0
-    assert smooth(mesh, Laplacian(), Stop(max_iterations=400, keep_last=True)).after.inverted > 0
-    assert smooth(mesh, SmartLaplacian(), Stop(max_iterations=60)).after.inverted == 0
+    assert smooth(mesh, Laplacian(), StoppingCriteria(max_iterations=400, keep_last=True)).after.inverted > 0
+    assert smooth(mesh, SmartLaplacian(), StoppingCriteria(max_iterations=60)).after.inverted == 0
 
 
 @settings(max_examples=15)
@@ -85,13 +85,15 @@ def test_local_sd_lowers_the_objective_and_never_leaves_the_feasible_region(seed
 def test_local_sd_untangles_a_scrambled_cube_back_to_the_perfect_grid(seed):
     mesh = make("cube", size=216, scramble=0.9, seed=seed)
     assert measure(mesh.points, mesh.hexes).n_inverted > 20
-    result = smooth(mesh, "local-sd", Stop(tolerance=1e-7))
+    result = smooth(mesh, "local-sd", StoppingCriteria(tolerance=1e-7))
     assert result.after.inverted == 0
     assert result.after.q_min == pytest.approx(1, abs=1e-8)
 
 
 def test_local_sd_with_a_higher_p_ends_with_a_better_worst_hex():
     mesh = make("five-side", size=700)
-    least = [smooth(mesh, LocalSteepestDescent(p=p), Stop(tolerance=1e-5)).after.q_min for p in (1.0, 2.0, 8.0)]
+    least = [
+        smooth(mesh, LocalSteepestDescent(p=p), StoppingCriteria(tolerance=1e-5)).after.q_min for p in (1.0, 2.0, 8.0)
+    ]
     assert least == sorted(least)
     assert least[2] > least[0] + 1e-3

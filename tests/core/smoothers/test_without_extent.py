@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid
 
@@ -14,7 +14,7 @@ def test_every_method_ends_on_a_mesh_without_extent(name, place):
     mesh = grid(2)
     mesh = mesh.with_points(np.full_like(mesh.points, place))
     assert mesh.mean_edge_length == 0
-    result = smooth(mesh, name, Stop(max_iterations=3))
+    result = smooth(mesh, name, StoppingCriteria(max_iterations=3))
     assert result.after.inverted == 8
     assert np.isfinite(result.mesh.points).all()
     np.testing.assert_array_equal(result.mesh.points[mesh.fixed], mesh.points[mesh.fixed])

@@ -10,7 +10,7 @@ from hexmend import gallery, io
 from hexmend.cli.main import main
 from hexmend.errors import ParameterError
 from hexmend.quality import Summary, measure, objective, summarise
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 from hexmend.smoothers import METHODS
@@ -24,7 +24,7 @@ RUN = {
     "method", "parameters", "outcome", "message", "worse", "iterations", "kept", "seconds", "setup_seconds",
     "seconds_per_iteration", "seconds_per_iteration_and_node",
 }  # fmt: skip
-FEW = Stop(max_iterations=3, tolerance=0)
+FEW = StoppingCriteria(max_iterations=3, tolerance=0)
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,7 @@ def test_the_record_has_the_agreed_keys_and_its_times_agree(mesh, two):
 
 
 def test_all_registered_methods_are_the_default(mesh):
-    assert [row.method for row in compare(mesh, stop=Stop(max_iterations=0)).rows] == list(METHODS)
+    assert [row.method for row in compare(mesh, stop=StoppingCriteria(max_iterations=0)).rows] == list(METHODS)
 
 
 @pytest.mark.parametrize("after", [1, 2])

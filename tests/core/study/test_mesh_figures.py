@@ -10,7 +10,7 @@ from hexmend.quality import summarise
 from hexmend.report import write_study
 from hexmend.study.table_row import Row
 from hexmend.study.thesis import mesh_figures
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import load
 from hexmend.study.thesis.mesh_figures import MESH_FIGURES, draw_figures
 
@@ -45,8 +45,8 @@ def measured():
     row = Row("getme", {}, "converged", "", mesh, summarise(mesh))
     pentagon = five.build(quick=True)
     return [
-        Measured(five, pentagon, summarise(pentagon), {}),
-        Measured(plane, mesh, summarise(mesh), {"getme": row}),
+        ExperimentResult(five, pentagon, summarise(pentagon), {}),
+        ExperimentResult(plane, mesh, summarise(mesh), {"getme": row}),
     ]
 
 

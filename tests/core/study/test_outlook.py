@@ -14,7 +14,7 @@ from hexmend.report import write_outlook, write_study
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.visit_order import ORDERS
 from hexmend.study.outlook.claims import OUTLOOK_CLAIMS, from_the_boundary, middle_ground
-from hexmend.study.outlook.experiments import NEAR, Outlook, Point, Tried, Variant, try_outlook
+from hexmend.study.outlook.experiments import NEAR, Outlook, Point, TrialResult, Variant, try_outlook
 from hexmend.study.table_row import Row
 from hexmend.study.thesis.experiments import Experiments, load
 from hexmend.study.thesis.runner import chosen_tables, run_experiments
@@ -122,7 +122,7 @@ def made(section, vary, *runs):
         row = Row(method, {}, "converged", "", None, end)
         variants.append(Variant(values, row, (far, near) if arrival else (far,)))
     methods = tuple(dict.fromkeys(method for method, *_ in runs))
-    return Tried(Outlook(section, "", "cube", 8, 8, methods, vary), end, tuple(variants))
+    return TrialResult(Outlook(section, "", "cube", 8, 8, methods, vary), end, tuple(variants))
 
 
 @pytest.mark.parametrize(("seconds", "expected"), [(0.5, True), (1.5, False), (3, False)])

@@ -56,7 +56,7 @@ def test_what_is_not_here_is_named(monkeypatch):
 def test_others_are_measured_by_what_they_leave(program):
     program(
         "import hexmend as hx\nmesh = hx.read(sys.argv[1])\n"
-        "hx.write(sys.argv[2], hx.smooth(mesh, 'mend', hx.Stop(max_iterations=1000)).mesh)"
+        "hx.write(sys.argv[2], hx.smooth(mesh, 'mend', hx.StoppingCriteria(max_iterations=1000)).mesh)"
     )
     found, lines = rows()
     ours, others = found[HEX], found["hexsmoothing"]

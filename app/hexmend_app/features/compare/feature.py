@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from hexmend.energy.norm import Power
+from hexmend.energy.norm import ObjectiveNorm
 from hexmend.quality import objective
 from hexmend.report import markdown, table_of, write_comparison
 from hexmend.report.charts import ChartStyle
@@ -108,14 +108,14 @@ class FeatureCompare(Feature):
 
     # The table
 
-    def _initial(self, power: Power) -> Entry:
+    def _initial(self, power: ObjectiveNorm) -> Entry:
         state = self._comparison.initial
         if state is None:
             return Entry(INITIAL, "The mesh as it is when the methods begin.", {})
         help = "The mesh as it was when the methods began."
         return Entry(INITIAL, help, _figures(state, power), True, self._views.shows(state))
 
-    def _entry(self, name: str, compared: Compared | None, power: Power) -> Entry:
+    def _entry(self, name: str, compared: Compared | None, power: ObjectiveNorm) -> Entry:
         method = METHODS[name]
         if compared is None:
             return Entry(name, f"<b>{method.title}</b><br>{method.help}", {})
@@ -199,7 +199,7 @@ class FeatureCompare(Feature):
         return written
 
 
-def _figures(state: State, power: Power) -> dict[str, Any]:
+def _figures(state: State, power: ObjectiveNorm) -> dict[str, Any]:
     """The figures of a mesh, its objective by the p and offset that the table compares by."""
     own = {"objective": objective(state.figures, *power), "objective_formula": power.formula}
     return state.summary.to_dict() | own

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from hexmend.boundary import Kind
+from hexmend.boundary import NodeClass
 from hexmend.quality import element, node
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.inspect.element_panel import ElementPanel
@@ -22,7 +22,12 @@ if TYPE_CHECKING:
 
 
 #: What nodes of the boundary may do where it slides.
-_SLIDES = {Kind.CORNER: "a corner", Kind.CURVE: "on a curve", Kind.PATCH: "on a patch", WHISKER: "on a whisker"}
+_SLIDES = {
+    NodeClass.CORNER: "a corner",
+    NodeClass.CURVE: "on a curve",
+    NodeClass.PATCH: "on a patch",
+    WHISKER: "on a whisker",
+}
 
 #: Panels that show what is chosen too, or do something with it: a click does not put another before them.
 _FOLLOWING = ("node", "tags")

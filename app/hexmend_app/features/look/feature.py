@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hexmend.boundary.displacement import MOVEMENTS, Movement
+from hexmend.boundary.displacement import MOVEMENTS, Displacement
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.look.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.scene.frame import Frame
@@ -128,7 +128,7 @@ class FeatureLook(Feature):
         self._view.isolate(of_kind(kind, now.mesh, now.figures, self._movement))
 
     @property
-    def _movement(self) -> Movement | None:
+    def _movement(self) -> Displacement | None:
         """What the view shows of a movement, if anything."""
         look = self._view.look
         wanted = look.scale.metric in MOVEMENTS or look.traces.arrows is not Arrows.NONE

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.boundary.displacement import MOVEMENTS, Movement
+from hexmend.boundary.displacement import MOVEMENTS, Displacement
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.movement.movement_panel import MovementPanel
 from hexmend_app.state.kinds import of_kind
@@ -59,7 +59,7 @@ class FeatureMovement(Feature):
             self.panel.set_arrows(layer.drawn, layer.moved)
 
     @property
-    def _movement(self) -> Movement:
+    def _movement(self) -> Displacement:
         return self.session.references.movement(self._view.look.traces.since)
 
     def _show_newly_inverted(self) -> None:

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.node_step import NodeStep, Verdict
+from hexmend.node_step import NodeStep, StepStatus
 from hexmend_app.features.node.figures import NodeFigures
 from hexmend_app.features.node.plot import NodePlot
 from hexmend_app.features.node.words import rows, verdict
@@ -165,7 +165,7 @@ class NodePanel(QWidget):
         """Show a step by a method, of which the title is given, that would be made or was `made`."""
         self._title.setText(f"Node {step.node:,}")
         became = verdict(step)
-        moved = became in (Verdict.MOVED, Verdict.SHORTENED)
+        moved = became in (StepStatus.MOVED, StepStatus.SHORTENED)
         sentence = became.value if made or not moved else became.value.replace("Moved", "Will be moved")
         self._verdict.setText(f"{method}. {sentence}")
         tint(self._verdict, MUTED if moved else WORSE)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.node_step import NodeStep, Verdict
+from hexmend.node_step import NodeStep, StepStatus
 from hexmend.smoothers import METHODS
 from hexmend_app.scene.palette import TEXT, WORSE, Role
 from hexmend_app.widgets.wording import counted, figure, name_in_words, short_number
@@ -34,10 +34,10 @@ class Row:
     colour: Role = TEXT
 
 
-def verdict(step: NodeStep) -> Verdict:
+def verdict(step: NodeStep) -> StepStatus:
     """What became of the node; a move that is nothing but rounding is none."""
-    moved = step.verdict in (Verdict.MOVED, Verdict.SHORTENED)
-    return Verdict.THERE if moved and step.move < _NO_MOVE else step.verdict
+    moved = step.verdict in (StepStatus.MOVED, StepStatus.SHORTENED)
+    return StepStatus.THERE if moved and step.move < _NO_MOVE else step.verdict
 
 
 def rows(step: NodeStep) -> list[Row]:

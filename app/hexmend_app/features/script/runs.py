@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from hexmend.iteration import Outcome, Result, StageResult
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.features.script.words import made, with_limits
@@ -19,7 +19,7 @@ class Told:
     Parameters
     ----------
     work : Smoother or Recipe
-    stop : Stop or None
+    stop : StoppingCriteria or None
         None for a recipe's own.
     changes : sequence of (int, Stage)
         What was chosen on the way, with the number of the iteration after which it was.
@@ -30,13 +30,15 @@ class Told:
     """
 
     work: Smoother | Recipe
-    stop: Stop | None
+    stop: StoppingCriteria | None
     changes: Sequence[tuple[int, Stage]] = ()
     stages: Sequence[StageResult] = ()
     stopped: int | None = None
 
     @classmethod
-    def of(cls, work: Smoother | Recipe, stop: Stop | None, changes: Sequence[tuple[int, Stage]], end: Result) -> Told:
+    def of(
+        cls, work: Smoother | Recipe, stop: StoppingCriteria | None, changes: Sequence[tuple[int, Stage]], end: Result
+    ) -> Told:
         """A run that has ended."""
         stopped = end.iterations if end.outcome is Outcome.STOPPED else None
         return cls(work, stop, tuple(changes), end.stages, stopped)._counted()
@@ -90,7 +92,7 @@ class Told:
             at, stages = leg.stage - 1, self.work.stages
             limited = replace(stages[at], stop=replace(stages[at].stop, max_iterations=most))
             return replace(self, work=replace(self.work, stages=(*stages[:at], limited, *stages[at + 1 :])))
-        return replace(self, stop=replace(self.stop or Stop(), max_iterations=most))
+        return replace(self, stop=replace(self.stop or StoppingCriteria(), max_iterations=most))
 
 
 def _without_clock(told: Told) -> Told:

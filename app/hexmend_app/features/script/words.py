@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.doctor import repair
 from hexmend.figures import printable
 from hexmend.parameters import Parametrised, declared
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 
@@ -22,8 +22,8 @@ WIDTH = 110
 def made(value: Parametrised | Recipe | Stage) -> str:
     """What makes a method with its values, limits, a stage or a recipe; defaults are left out.
 
-    >>> made(Stop(max_iterations=5)), made(Stop())
-    ('hx.Stop(max_iterations=5)', 'hx.Stop()')
+    >>> made(StoppingCriteria(max_iterations=5)), made(StoppingCriteria())
+    ('hx.StoppingCriteria(max_iterations=5)', 'hx.StoppingCriteria()')
     """
     if isinstance(value, Recipe):
         stages = ",\n    ".join(map(made, value.stages))
@@ -39,14 +39,14 @@ def made(value: Parametrised | Recipe | Stage) -> str:
     return f"hx.{type(value).__name__}({values})"
 
 
-def with_limits(work: Smoother | Recipe, stop: Stop | None) -> str:
+def with_limits(work: Smoother | Recipe, stop: StoppingCriteria | None) -> str:
     """The arguments that say what is run and how far; limits that are the usual ones are left out.
 
     >>> from hexmend.smoothers import METHODS
-    >>> with_limits(METHODS["laplacian"](), Stop())
+    >>> with_limits(METHODS["laplacian"](), StoppingCriteria())
     'hx.Laplacian()'
     """
-    return made(work) if stop is None or stop == Stop() else f"{made(work)}, {made(stop)}"
+    return made(work) if stop is None or stop == StoppingCriteria() else f"{made(work)}, {made(stop)}"
 
 
 def called(mesh: str, change: Callable[..., Any], values: Sequence[Any]) -> str:

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QComboBox
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import declared
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.order import Order
@@ -56,7 +56,7 @@ class StageForm(QObject):
             tip = f"<qt>{about}<br><i>{escape(method.source)}</i></qt>"
             self.method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
         self.help = note()
-        self.parameters, self.stop = ParameterForm(), ParameterForm(declared(Stop))
+        self.parameters, self.stop = ParameterForm(), ParameterForm(declared(StoppingCriteria))
         self.show_order()
         self.method.activated.connect(self._on_method)
         for form in (self.parameters, self.stop):
@@ -103,6 +103,6 @@ class StageForm(QObject):
         if self.wrong is not None:
             return None
         try:
-            return Stage(METHODS[self._name](**self.parameters.values()), Stop(**self.stop.values()))
+            return Stage(METHODS[self._name](**self.parameters.values()), StoppingCriteria(**self.stop.values()))
         except ParameterError:
             return None

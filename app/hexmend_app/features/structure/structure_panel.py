@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
-from hexmend.boundary import Kind
+from hexmend.boundary import NodeClass
 from hexmend.mesh.structure import SHARP as DEGREES
 from hexmend.mesh.structure import Structure as Found
 from hexmend_app.features.structure.layer_row import Entry, LayerRow
@@ -87,7 +87,8 @@ _LAYERS: dict[str, tuple[str, str, str]] = {
 _EDGES = ("irregular", "boundary", "sharp")
 #: What nodes are called by what they are to the boundary.
 _CALLED = {
-    Kind.CORNER: "corners", Kind.CURVE: "on curves", Kind.PATCH: "on patches", WHISKER: "on whiskers", PIN: "pinned",
+    NodeClass.CORNER: "corners", NodeClass.CURVE: "on curves", NodeClass.PATCH: "on patches",
+    WHISKER: "on whiskers", PIN: "pinned",
 }  # fmt: skip
 #: Layers that can be chosen before it is known what there is of them: somebody has to want it first.
 _AT_ONCE = ("kinds",)

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend.boundary.displacement import Moment, Movement
+from hexmend.boundary.displacement import Displacement, Moment
 from hexmend.io.storage.atomic import replacing
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.scene.export.chart import histogram
@@ -45,7 +45,7 @@ def pictures(
     *,
     view: str | tuple[float, float, float] = "iso",
     camera: vtkCamera | None = None,
-    movement: Movement | None = None,
+    movement: Displacement | None = None,
     chart: bool = False,
 ) -> Iterator[Image.Image]:
     """Draw frames one after another, off screen, with one camera.
@@ -60,7 +60,7 @@ def pictures(
         The direction to look from, where no camera is given.
     camera : vtkCamera, optional
         To be looked through.
-    movement : Movement, optional
+    movement : Displacement, optional
         Of the moment that every picture is compared with, where the look shows a movement; one since the iteration
         before is since the picture before.
     chart : bool
@@ -78,7 +78,7 @@ def pictures(
             if movement is not None:
                 before = seen_last if look.traces.since is Since.ITERATION else movement.before
                 now = Moment(mesh.points, figures, "the picture before")
-                movement = Movement(movement.mesh, before or now, mesh.points, figures)
+                movement = Displacement(movement.mesh, before or now, mesh.points, figures)
                 seen_last = now
             first = viewport.frame is None
             viewport.draw(Frame(mesh, figures, movement, look))

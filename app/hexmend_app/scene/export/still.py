@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from hexmend.boundary.displacement import MOVEMENTS, Moment, Movement
+from hexmend.boundary.displacement import MOVEMENTS, Displacement, Moment
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
@@ -82,15 +82,15 @@ def moving(scene: Scene) -> bool:
     return scene.colours.metric in MOVEMENTS or scene.movement.arrows is not Arrows.NONE
 
 
-def movement_since(since: Mesh, name: str, mesh: Mesh, opened: Mesh) -> Movement:
+def movement_since(since: Mesh, name: str, mesh: Mesh, opened: Mesh) -> Displacement:
     """The movement of a mesh, in edge lengths of the mesh as it was opened."""
     then = Moment(since.points, measure(since.points, since.hexes), name)
-    return Movement(opened, then, mesh.points, measure(mesh.points, mesh.hexes))
+    return Displacement(opened, then, mesh.points, measure(mesh.points, mesh.hexes))
 
 
 def _movement(
     scene: Scene, subjects: Sequence[Subject], opened: Mesh, since: Mesh | None, name: str
-) -> Movement | None:
+) -> Displacement | None:
     """That of the first mesh, where the scene shows one."""
     if not moving(scene):
         return None
@@ -99,4 +99,4 @@ def _movement(
         return movement_since(since, name, first.mesh, opened)
     if len(subjects) == 1:
         raise ParameterError("the scene shows how a mesh has moved: name the mesh before that, and then the mesh")
-    return Movement(opened, Moment(first.mesh.points, first.figures, first.name), first.mesh.points, first.figures)
+    return Displacement(opened, Moment(first.mesh.points, first.figures, first.name), first.mesh.points, first.figures)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary.displacement import Movement
+from hexmend.boundary.displacement import Displacement
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend_app.scene.frame import Frame
@@ -31,7 +31,7 @@ class Subject:
     name: str
     mesh: Mesh
     figures: ElementQuality
-    movement: Movement | None = None
+    movement: Displacement | None = None
     original: np.ndarray | None = None
     kinds: np.ndarray | None = None
 

@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
-from hexmend.boundary.displacement import NOTHING, Movement
+from hexmend.boundary.displacement import NOTHING, Displacement
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.structure import uncut
@@ -100,12 +100,12 @@ class ArrowLayer:
         for actor in self._front_actors:
             actor.VisibilityOff()
 
-    def show(self, movement: Movement, nodes: np.ndarray, factor: float, through: bool) -> None:
+    def show(self, movement: Displacement, nodes: np.ndarray, factor: float, through: bool) -> None:
         """Draw the longest of the arrows of some nodes.
 
         Parameters
         ----------
-        movement : Movement
+        movement : Displacement
         nodes : (n,) bool
             Those that may have one.
         factor : float

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from hexmend.boundary import Kind
+from hexmend.boundary import NodeClass
 from hexmend.boundary.features import DEGREES
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
@@ -30,7 +30,8 @@ BOUNDARY, PINNED, FREE, LOCKED = "#9aa5b4", "#e69f00", "#ffffff", "#f0e442"
 
 #: Colours of nodes by what they are to the boundary.
 KINDS: dict[int, str] = {
-    Kind.CORNER: "#d55e00", Kind.CURVE: "#56b4e9", Kind.PATCH: "#009e73", WHISKER: "#cc79a7", PIN: PINNED,
+    NodeClass.CORNER: "#d55e00", NodeClass.CURVE: "#56b4e9", NodeClass.PATCH: "#009e73",
+    WHISKER: "#cc79a7", PIN: PINNED,
 }  # fmt: skip
 
 #: Marks of one sort that are drawn in full. More of them are drawn thinner, and paler inside, or nothing else is seen;

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hexmend.study.batch.runner import Studied, Workers
+    from hexmend.study.batch.runner import StudyResult, Workers
 
 
 def study_meshes(args: argparse.Namespace) -> int:
@@ -47,7 +47,7 @@ def study_meshes(args: argparse.Namespace) -> int:
     return 3 if studied.count.failed else 0
 
 
-def _write(folder: Path, studied: Studied) -> None:
+def _write(folder: Path, studied: StudyResult) -> None:
     """Write the report, and print what was done."""
     from hexmend.cli.command.rich_tables import print_table
     from hexmend.errors import HexmendError
@@ -86,7 +86,7 @@ def _workers(args: argparse.Namespace) -> Workers:
     return Cluster(args.scheduler)
 
 
-def _say(studied: Studied) -> None:
+def _say(studied: StudyResult) -> None:
     """What was done, what was there, and what has failed."""
     from hexmend.figures import printable
     from hexmend.report.batch import failures

@@ -1,4 +1,4 @@
-"""The limits of a run, and which iterate it keeps, as options, from the declarations of `Stop`."""
+"""The limits of a run, and which iterate it keeps, as options, from the declarations of `StoppingCriteria`."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
 
 
 def add_limits(parser: argparse.ArgumentParser) -> None:
     """Declare an option for each, such as --max-iterations."""
     from hexmend.parameters import declared
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
 
-    for limit in declared(Stop):
+    for limit in declared(StoppingCriteria):
         option = f"--{limit.name.replace('_', '-')}"
         if limit.type is bool:
             parser.add_argument(option, action="store_const", const="true", help=limit.help)
@@ -26,12 +26,12 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(option, metavar="X", help=f"{limit.help} Default {limit.default:g}{unit}.")
 
 
-def limits(args: argparse.Namespace) -> Stop:
+def limits(args: argparse.Namespace) -> StoppingCriteria:
     """The limits that were given, the others at their defaults."""
     from hexmend.parameters import from_strings
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
 
-    return from_strings(Stop, _given(args), owner="the run")
+    return from_strings(StoppingCriteria, _given(args), owner="the run")
 
 
 def given_limits(args: argparse.Namespace) -> dict[str, Any]:
@@ -42,7 +42,7 @@ def given_limits(args: argparse.Namespace) -> dict[str, Any]:
 
 def _given(args: argparse.Namespace) -> dict[str, str]:
     from hexmend.parameters import declared
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
 
-    words = {limit.name: getattr(args, limit.name) for limit in declared(Stop)}
+    words = {limit.name: getattr(args, limit.name) for limit in declared(StoppingCriteria)}
     return {name: text for name, text in words.items() if text is not None}

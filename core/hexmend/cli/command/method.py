@@ -10,7 +10,7 @@ from hexmend.cli.command.limits import add_limits, given_limits, limits
 
 if TYPE_CHECKING:
     from hexmend.mesh.mesh import Mesh
-    from hexmend.run import Stop
+    from hexmend.run import StoppingCriteria
     from hexmend.run.recipe import Recipe
     from hexmend.smoothers import Smoother
 
@@ -117,7 +117,7 @@ def with_boundary(args: argparse.Namespace, methods: Iterable[str]) -> dict[str,
     return words | said
 
 
-def chosen(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop | None]:
+def chosen(args: argparse.Namespace) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
     """What is to be run, and its limits where it does not hold them itself."""
     from hexmend.errors import ParameterError
     from hexmend.parameters import from_strings

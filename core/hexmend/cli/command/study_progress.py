@@ -12,7 +12,7 @@ from hexmend.cli.command.progress import EVERY, drawn_line
 from hexmend.cli.process.terminal import redraws_lines
 
 if TYPE_CHECKING:
-    from hexmend.study.batch.runner import Count
+    from hexmend.study.batch.runner import StudyProgress
 
 
 class Counting:
@@ -32,7 +32,7 @@ class Counting:
             with suppress(OSError):  # the terminal may have gone
                 self._line.stop()
 
-    def show(self, count: Count) -> None:
+    def show(self, count: StudyProgress) -> None:
         """Show how far it is."""
         words = f"{count.kept + count.done:,} of {count.tasks:,} tasks"
         if count.failed:

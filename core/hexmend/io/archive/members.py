@@ -41,7 +41,7 @@ _LONGEST = 1024
 _AT_ONCE = 1 << 24
 
 
-class Members(ABC):
+class ArchiveMembers(ABC):
     """Files by name.
 
     Attributes
@@ -57,7 +57,7 @@ class Members(ABC):
         """One of them, to be read."""
 
 
-class _OfZip(Members):
+class _OfZip(ArchiveMembers):
     def __init__(self, path: Path, archive: zipfile.ZipFile):
         self._archive, self._infos = archive, _checked(path, archive)
         self.sizes = {name: info.file_size for name, info in self._infos.items()}
@@ -66,7 +66,7 @@ class _OfZip(Members):
         return self._archive.open(self._infos[name])
 
 
-class _OfFolder(Members):
+class _OfFolder(ArchiveMembers):
     """What stands in a folder besides is passed over: what was being written when its writer was killed."""
 
     def __init__(self, path: Path):
@@ -82,7 +82,7 @@ class _OfFolder(Members):
 
 
 @contextmanager
-def members_of(path: Path) -> Iterator[Members]:
+def members_of(path: Path) -> Iterator[ArchiveMembers]:
     """The members of a zip or of a folder, one of which is the description.
 
     Raises
@@ -102,7 +102,7 @@ def members_of(path: Path) -> Iterator[Members]:
         yield members
 
 
-def _check(path: Path, members: Members) -> None:
+def _check(path: Path, members: ArchiveMembers) -> None:
     if DESCRIPTION not in members.sizes:
         raise FileError(path, f"has no {DESCRIPTION}", NOT_OURS)
     if members.sizes[DESCRIPTION] > LARGEST:
@@ -129,7 +129,7 @@ def _checked(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
 class Arrays:
     """Arrays by their numbers, each read once."""
 
-    def __init__(self, path: Path, members: Members):
+    def __init__(self, path: Path, members: ArchiveMembers):
         self._path, self._members = path, members
         self._read: dict[int, np.ndarray] = {}
 

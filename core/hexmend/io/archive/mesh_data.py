@@ -136,7 +136,7 @@ def _carried(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
 
 
 def _skin(data: Any) -> Target:
-    from hexmend.boundary import Skin  # not before it is needed: commands start without it
+    from hexmend.boundary import SkinSurface  # not before it is needed: commands start without it
 
     check_fields("the surface that the boundary slides on", data, {"points", "faces", "name"})
     points, faces, name = data["points"], data["faces"], data["name"]
@@ -148,7 +148,7 @@ def _skin(data: Any) -> Target:
     check_size(points)
     if faces.min() < 0 or faces.max() >= len(points):
         raise MeshError(f"a face of {name!r} has a corner that is not from 0 to {len(points) - 1}")
-    return Skin(np.asarray(points, np.float64), np.ascontiguousarray(faces, np.int32), name)
+    return SkinSurface(np.asarray(points, np.float64), np.ascontiguousarray(faces, np.int32), name)
 
 
 def _array(data: Mapping[str, Any], name: str, kind: str, shape: tuple[int, ...]) -> np.ndarray:

@@ -8,14 +8,14 @@ import numpy as np
 
 from hexmend.io.base.content import ID
 from hexmend.io.base.fixed_marks import held_by_pins, needs_marks
-from hexmend.io.base.format import Holds
+from hexmend.io.base.format import Capability
 from hexmend.mesh.mesh import Mesh
 
 #: Whole numbers up to here are the same as real ones.
 _EXACT = 1 << 53
 
 
-def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Holds, str]:
+def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Capability, str]:
     """What a mesh has of what formats can hold or cannot, each with its names, as "point data (temperature)".
 
     Data and sets of some `names` are passed over.
@@ -24,24 +24,24 @@ def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Holds, str]:
     volumes = [mesh.hex_sets, *(cells.sets for cells in mesh.cells if cells.dimension == 3)]
     lower = [cells.sets for cells in mesh.cells if cells.dimension < 3]
     kinds = {
-        Holds.NODE_DATA: [name for name in mesh.node_data if name not in (ID, held_by_pins(mesh))],
-        Holds.HEX_DATA: [name for name in _all(data) if name != ID],
-        Holds.IDS: [""] if ID in mesh.node_data or ID in _all(data) else [],
-        Holds.NODE_SETS: _filled([mesh.node_sets]),
-        Holds.HEX_SETS: _filled(volumes),
-        Holds.CELL_SETS: _filled(lower),
-        Holds.SIDE_SETS: _filled([mesh.side_sets]),
-        Holds.EMPTY_SETS: [
+        Capability.NODE_DATA: [name for name in mesh.node_data if name not in (ID, held_by_pins(mesh))],
+        Capability.HEX_DATA: [name for name in _all(data) if name != ID],
+        Capability.IDS: [""] if ID in mesh.node_data or ID in _all(data) else [],
+        Capability.NODE_SETS: _filled([mesh.node_sets]),
+        Capability.HEX_SETS: _filled(volumes),
+        Capability.CELL_SETS: _filled(lower),
+        Capability.SIDE_SETS: _filled([mesh.side_sets]),
+        Capability.EMPTY_SETS: [
             name
             for sets in ([mesh.node_sets], [*volumes, *lower], [mesh.side_sets])
             for name in set(_all(sets)) - set(_filled(sets))
         ],
-        Holds.PINS: [""] if needs_marks(mesh) else [],
-        Holds.LOWER_CELLS: [""] if any(0 < cells.dimension < 3 for cells in mesh.cells) else [],
-        Holds.VERTICES: [""] if any(cells.dimension == 0 for cells in mesh.cells) else [],
-        Holds.OTHER_CELLS: [""] if any(cells.dimension == 3 for cells in mesh.cells) else [],
-        Holds.SECOND_ORDER: [""] if mesh.mid_nodes is not None else [],
-        Holds.FIELD_DATA: list(mesh.field_data),
+        Capability.PINS: [""] if needs_marks(mesh) else [],
+        Capability.LOWER_CELLS: [""] if any(0 < cells.dimension < 3 for cells in mesh.cells) else [],
+        Capability.VERTICES: [""] if any(cells.dimension == 0 for cells in mesh.cells) else [],
+        Capability.OTHER_CELLS: [""] if any(cells.dimension == 3 for cells in mesh.cells) else [],
+        Capability.SECOND_ORDER: [""] if mesh.mid_nodes is not None else [],
+        Capability.FIELD_DATA: list(mesh.field_data),
     }
     left = {kind: [name for name in found if name not in names] for kind, found in kinds.items()}
     return {

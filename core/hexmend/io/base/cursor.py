@@ -24,7 +24,7 @@ _PIECE = 1 << 20
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
-class Source:
+class ByteCursor:
     """The bytes of a file and the place that was reached.
 
     Parameters

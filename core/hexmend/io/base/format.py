@@ -11,7 +11,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
 
 
-class Holds(Enum):
+class Capability(Enum):
     """Something that comes with a mesh, in words; whether a mesh has it is asked by `found_in`."""
 
     NODE_DATA = "point data"
@@ -48,7 +48,7 @@ class Format:
         From path to Mesh; raises FileError or MeshError, and OSError where the file system fails.
     write : callable, optional
         From path, mesh and an encoding to nothing; opens the path itself.
-    holds : frozenset of Holds
+    holds : frozenset of Capability
         What is written, and read again as it was; all else is left out, which `left_out` says.
     names : frozenset of str
         Data and sets that are held by their names, though others are not.
@@ -66,7 +66,7 @@ class Format:
     encodings: tuple[str, ...]
     read: Callable[[Path], Mesh]
     write: Callable[[Path, Mesh, str], None] | None = None
-    holds: frozenset[Holds] = frozenset()
+    holds: frozenset[Capability] = frozenset()
     names: frozenset[str] = frozenset()
     recognised: Callable[[bytes], bool] | None = None
     exact: bool = True

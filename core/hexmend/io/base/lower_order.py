@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from hexmend.io.base.content import HEX_KINDS, Content
-from hexmend.io.base.format import Holds
+from hexmend.io.base.format import Capability
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 
@@ -58,4 +58,4 @@ def reduced(content: Content, kinds: Collection[str]) -> Content:
 def middles_lost(mesh: Mesh, kinds: Collection[str]) -> list[str]:
     """That `reduced` takes nodes of second order from cells beside hexes of first order, in words; else nothing."""
     cut = any(cells.kind in _LESS and cells.kind not in kinds for cells in mesh.cells)
-    return [Holds.SECOND_ORDER.value] if cut and mesh.mid_nodes is None else []
+    return [Capability.SECOND_ORDER.value] if cut and mesh.mid_nodes is None else []

@@ -10,10 +10,10 @@ import numpy as np
 
 from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import Source, shown, text_of
+from hexmend.io.base.cursor import ByteCursor, shown, text_of
 from hexmend.io.base.decimals import blocks as parts_of
 from hexmend.io.base.decimals import lines
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.io.base.lower_order import middles_lost, reduced
 from hexmend.io.base.unique_names import distinct, renamed
 from hexmend.mesh.cells import CELL_KINDS
@@ -36,7 +36,7 @@ class _Zone:
 def read(path: Path) -> Mesh:
     """Read all zones as one mesh; markers are sets of the boundary's cells."""
     data = text_of(path)
-    source = Source(path, _COMMENT.sub(b"", data) if b"%" in data else data)
+    source = ByteCursor(path, _COMMENT.sub(b"", data) if b"%" in data else data)
     keys = list(_KEY.finditer(source.data))
     zones = [_Zone()]
     announced, tag = 1, ""
@@ -67,7 +67,7 @@ def read(path: Path) -> Mesh:
     return mesh_of(path, _joined(source, zones))
 
 
-def _joined(source: Source, zones: list[_Zone]) -> Content:
+def _joined(source: ByteCursor, zones: list[_Zone]) -> Content:
     rows: dict[str, list[np.ndarray]] = {}
     sets: dict[str, dict[str, list[np.ndarray]]] = {}
     count = 0
@@ -113,7 +113,7 @@ def _joined(source: Source, zones: list[_Zone]) -> Content:
     )
 
 
-def _points(source: Source, end: int, count: int) -> np.ndarray:
+def _points(source: ByteCursor, end: int, count: int) -> np.ndarray:
     """Coordinates, (count, 3); behind them there may be a number."""
     values = source.decimals_to("NPOIN", end, np.float64)
     for width in (3, 4):
@@ -122,7 +122,7 @@ def _points(source: Source, end: int, count: int) -> np.ndarray:
     raise source.error(f"NPOIN holds {values.size} numbers: expected 3 or 4 for each of {count} nodes")
 
 
-def _cells(source: Source, end: int, count: int, name: str) -> dict[str, np.ndarray]:
+def _cells(source: ByteCursor, end: int, count: int, name: str) -> dict[str, np.ndarray]:
     """Elements by kind, each its number, nodes and perhaps one number more."""
     values = source.decimals_to(name, end, np.int64)
     for behind in (0, 1):
@@ -211,7 +211,7 @@ FORMATS.add(
         ("ascii",),
         read,
         write,
-        holds=frozenset({Holds.OTHER_CELLS, Holds.CELL_SETS}),
+        holds=frozenset({Capability.OTHER_CELLS, Capability.CELL_SETS}),
         recognised=_recognised,
         cannot=cannot,
     ),

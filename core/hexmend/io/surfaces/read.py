@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.boundary import Skin
+from hexmend.boundary import SkinSurface
 from hexmend.boundary.edges import components
 from hexmend.errors import FileError
 from hexmend.io.files import check_readable
@@ -18,7 +18,7 @@ from hexmend.io.surfaces.format import SURFACES, Polygons
 _ONE = 1e-9
 
 
-def read_surface(path: str | os.PathLike[str]) -> Skin:
+def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
     """Read a surface of triangles, quads or polygons: what the boundary of a mesh can slide on.
 
     Parameters
@@ -28,7 +28,7 @@ def read_surface(path: str | os.PathLike[str]) -> Skin:
 
     Returns
     -------
-    Skin
+    SkinSurface
         Named after the file. Corners at one place are one; faces of more than four nodes are cut into triangles.
 
     Raises
@@ -51,7 +51,7 @@ def read_surface(path: str | os.PathLike[str]) -> Skin:
     return _skin(path, found)
 
 
-def _skin(path: Path, found: Polygons) -> Skin:
+def _skin(path: Path, found: Polygons) -> SkinSurface:
     wrong = np.flatnonzero(~np.isfinite(found.points).all(axis=1))
     if wrong.size:
         at = found.points[wrong[0]].tolist()
@@ -73,7 +73,7 @@ def _skin(path: Path, found: Polygons) -> Skin:
         raise FileError(
             path, "holds no surface: it has no triangle or quad with an area", "Name a file of the surface of the body."
         )
-    return Skin(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
+    return SkinSurface(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
 
 
 def _area(points: np.ndarray, faces: np.ndarray) -> float:

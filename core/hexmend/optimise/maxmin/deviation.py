@@ -6,11 +6,11 @@ import copy
 
 import numpy as np
 
-from hexmend.boundary import Sliding
-from hexmend.optimise.maxmin.linear_program import Models, bounds_of
+from hexmend.boundary import SlidingBoundary
+from hexmend.optimise.maxmin.linear_program import LinearConstraints, bounds_of
 
 
-class Apart:
+class DeviationTracker:
     """How far the surface's edges, faces and nodes are from a boundary that has moved.
 
     As nodes move, only those are looked at anew whose closest place has moved; that of the others is still there, so
@@ -18,22 +18,22 @@ class Apart:
 
     Parameters
     ----------
-    sliding : Sliding
+    sliding : SlidingBoundary
     points : (n, 3) float64
 
     Attributes
     ----------
     far : (s,)
-        The distances: see `Sliding.behind`.
+        The distances: see `SlidingBoundary.behind`.
     """
 
-    def __init__(self, sliding: Sliding, points: np.ndarray):
+    def __init__(self, sliding: SlidingBoundary, points: np.ndarray):
         self.sliding, self.points = sliding, points
         far, self._nodes, self._weights = sliding.behind_at_first
         self.far, self._away = far.copy(), np.zeros((far.size, 3))
         self._look(np.arange(far.size))
 
-    def moved(self, points: np.ndarray, nodes: np.ndarray) -> Apart:
+    def moved(self, points: np.ndarray, nodes: np.ndarray) -> DeviationTracker:
         """The same with nodes (k,) elsewhere, all others being where they were."""
         other = copy.copy(self)
         other.points = points
@@ -43,7 +43,7 @@ class Apart:
         other._look(np.flatnonzero(touched[self._nodes].any(axis=1)))
         return other
 
-    def leaves(self, before: Apart, nodes: np.ndarray, room: float) -> bool:
+    def leaves(self, before: DeviationTracker, nodes: np.ndarray, room: float) -> bool:
         """Whether boundary and surface are further apart than a room, and than they were before nodes (k,) moved."""
         if (self.far > np.maximum(before.far, room)).any():
             return True
@@ -55,7 +55,7 @@ class Apart:
             return True
         return bool((off.far > was.far).any())
 
-    def bounds(self, moves: np.ndarray, room: float) -> Models:
+    def bounds(self, moves: np.ndarray, room: float) -> LinearConstraints:
         """What keeps boundary and surface no further apart than a room; moves (n,) is how far each node may go."""
         sliding = self.sliding
         which = sliding.middles_at(np.flatnonzero(moves))

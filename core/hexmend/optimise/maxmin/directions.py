@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 
 #: Ways around a place of a patch, in its basis.
 _AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
 
 
 @dataclass(frozen=True, eq=False)
-class Ways:
+class StepDirections:
     """Ways that nodes may go, in the length of the shortest edge at each.
 
     Parameters
@@ -32,8 +32,13 @@ class Ways:
 
 
 def ways_of(
-    x: np.ndarray, size: np.ndarray, radius: float, nodes: np.ndarray, slides: np.ndarray, sliding: Sliding | None
-) -> Ways:
+    x: np.ndarray,
+    size: np.ndarray,
+    radius: float,
+    nodes: np.ndarray,
+    slides: np.ndarray,
+    sliding: SlidingBoundary | None,
+) -> StepDirections:
     """Both senses of each axis; of nodes that slide on a patch eight ways around, on a curve two.
 
     Parameters
@@ -45,10 +50,10 @@ def ways_of(
     radius : float
         How far each may go, in that length.
     nodes : (k,) int
-        Which they are; `Ways.of` counts within these.
+        Which they are; `StepDirections.of` counts within these.
     slides : (k,) bool
         Which of them slide.
-    sliding : Sliding or None
+    sliding : SlidingBoundary or None
         Where they do.
     """
     axes = np.concatenate([np.eye(3), -np.eye(3)])
@@ -69,4 +74,4 @@ def ways_of(
         of, aims, leads = (np.concatenate(both) for both in ((of, of_around), (aims, around), (leads, led)))
     order = np.argsort(of, kind="stable")
     scale = size[of[order], None]
-    return Ways(of[order], scale * aims[order], scale * leads[order])
+    return StepDirections(of[order], scale * aims[order], scale * leads[order])

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary import Off, Sliding
-from hexmend.optimise.maxmin.deviation import Apart
-from hexmend.optimise.maxmin.linear_program import Models, no_bounds
+from hexmend.boundary import Deviations, SlidingBoundary
+from hexmend.optimise.maxmin.deviation import DeviationTracker
+from hexmend.optimise.maxmin.linear_program import LinearConstraints, no_bounds
 
 
 class Envelope:
@@ -15,12 +15,12 @@ class Envelope:
     Parameters
     ----------
     n_nodes : int
-    sliding : Sliding, optional
+    sliding : SlidingBoundary, optional
         Without it the boundary is fixed, and nothing is bounded here.
 
     Attributes
     ----------
-    sliding : Sliding or None
+    sliding : SlidingBoundary or None
     room : float
         How far boundary and surface may be from each other, in the mesh's unit.
     lifted : (n,) bool
@@ -29,12 +29,12 @@ class Envelope:
         Whether quads at these may be turned over; else no step does that.
     """
 
-    def __init__(self, n_nodes: int, sliding: Sliding | None):
+    def __init__(self, n_nodes: int, sliding: SlidingBoundary | None):
         self.sliding = sliding
         self.room = np.inf if sliding is None else sliding.room
         self.lifted = np.zeros(n_nodes, dtype=bool)
         self.turns = False
-        self._seen: Apart | None = None
+        self._seen: DeviationTracker | None = None
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
         """Which of some nodes (k,) are put back on the surface wherever they are moved to, (k,) bool."""
@@ -55,7 +55,7 @@ class Envelope:
         # Off the surface its normals say little.
         return self.sliding.unturned(before, points, self.lifted if self.turns else None)
 
-    def bounds(self, points: np.ndarray, moves: np.ndarray) -> Models:
+    def bounds(self, points: np.ndarray, moves: np.ndarray) -> LinearConstraints:
         """What keeps the boundary in its room as nodes go from points (n, 3) no further than moves (n,) each."""
         if not self._bounded:
             return no_bounds()
@@ -90,12 +90,12 @@ class Envelope:
     def _bounded(self) -> bool:
         return self.sliding is not None and bool(np.isfinite(self.room))
 
-    def _off(self, points: np.ndarray, room: float) -> tuple[Off, Off]:
+    def _off(self, points: np.ndarray, room: float) -> tuple[Deviations, Deviations]:
         """Where the boundary is further than that from the surface, and the surface from the boundary."""
         sliding = self.sliding
         return sliding.off(points, np.arange(len(sliding.middles)), room), sliding.behind(points, room=room)
 
-    def _apart(self, points: np.ndarray) -> Apart:
+    def _apart(self, points: np.ndarray) -> DeviationTracker:
         if self._seen is None or self._seen.points is not points:
-            self._seen = Apart(self.sliding, points)
+            self._seen = DeviationTracker(self.sliding, points)
         return self._seen

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hexmend.optimise.maxmin.directions import Ways
+from hexmend.optimise.maxmin.directions import StepDirections
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -22,7 +22,7 @@ _HIGHS = {"presolve": False, "simplex_dual_edge_weight_strategy": "devex"}
 
 
 @dataclass(frozen=True, eq=False)
-class Models:
+class LinearConstraints:
     """Linear models of what depends on the places of four nodes each.
 
     Parameters
@@ -42,24 +42,24 @@ class Models:
     slopes: np.ndarray
     rises: np.ndarray
 
-    def and_those(self, other: Models) -> Models:
+    def and_those(self, other: LinearConstraints) -> LinearConstraints:
         """These, and others behind them."""
         pairs = ((getattr(one, field.name) for one in (self, other)) for field in dataclasses.fields(self))
-        return Models(*(np.concatenate(list(pair)) for pair in pairs))
+        return LinearConstraints(*(np.concatenate(list(pair)) for pair in pairs))
 
 
-def bounds_of(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> Models:
-    """Models of what is not to fall below its bound; arrays as of `Models`."""
-    return Models(ends, above, slopes, np.zeros(len(above)))
+def bounds_of(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> LinearConstraints:
+    """Models of what is not to fall below its bound; arrays as of `LinearConstraints`."""
+    return LinearConstraints(ends, above, slopes, np.zeros(len(above)))
 
 
-def no_bounds() -> Models:
+def no_bounds() -> LinearConstraints:
     """None of them."""
     return bounds_of(np.empty((0, 4), np.int32), np.empty(0), np.empty((0, 4, 3)))
 
 
 @dataclass(frozen=True, eq=False)
-class Solved:
+class LPSolution:
     """The solution of a program.
 
     Parameters
@@ -77,7 +77,9 @@ class Solved:
     multipliers: np.ndarray
 
 
-def solve(nodes: np.ndarray, ways: Ways, models: Models, radius: float, falls: bool = False) -> Solved | None:
+def solve(
+    nodes: np.ndarray, ways: StepDirections, models: LinearConstraints, radius: float, falls: bool = False
+) -> LPSolution | None:
     """Find how far nodes (k,) are to go for the least to rise most; None where the program has no solution.
 
     Most models are far from their bounds, and hold whatever the nodes do: the program begins with those that are near,
@@ -86,8 +88,8 @@ def solve(nodes: np.ndarray, ways: Ways, models: Models, radius: float, falls: b
     Parameters
     ----------
     nodes : (k,) int
-    ways : Ways
-    models : Models
+    ways : StepDirections
+    models : LinearConstraints
     radius : float
         How far a node may go each way.
     falls : bool
@@ -106,12 +108,12 @@ def solve(nodes: np.ndarray, ways: Ways, models: Models, radius: float, falls: b
         if not below.any():
             multipliers = np.zeros(limits.size)
             multipliers[rows] = -solved.ineqlin.marginals
-            return Solved(solved.x[:-1], float(solved.x[-1]), multipliers)
+            return LPSolution(solved.x[:-1], float(solved.x[-1]), multipliers)
         taken |= below
 
 
 def program(
-    nodes: np.ndarray, ways: Ways, models: Models, radius: float, falls: bool
+    nodes: np.ndarray, ways: StepDirections, models: LinearConstraints, radius: float, falls: bool
 ) -> tuple[np.ndarray, csr_array, np.ndarray, np.ndarray]:
     """The linear program of a step: costs (u,), matrix (r, u), its upper limits (r,), bounds (u, 2).
 

@@ -13,14 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.iteration.result import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.corner_values import gradients, shortest_edges
 from hexmend.optimise.maxmin.directions import ways_of
 from hexmend.optimise.maxmin.envelope import Envelope
-from hexmend.optimise.maxmin.linear_program import Models, solve
+from hexmend.optimise.maxmin.linear_program import LinearConstraints, solve
 
 #: Radius of the trust region at first and at most, in lengths of the shortest edge at each node, and where it ends.
 FIRST, LARGEST, SMALLEST = 0.1, 0.3, 1e-6
@@ -42,7 +42,7 @@ NEARER, EXACT = 0.2, 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Raised:
+class MaxMinStep:
     """A step that has raised the least.
 
     Parameters
@@ -68,7 +68,7 @@ class Raised:
 
 
 @dataclass(frozen=True, eq=False)
-class Limit:
+class ActiveCorners:
     """Where it ended.
 
     Parameters
@@ -85,7 +85,7 @@ class Limit:
     corners: np.ndarray
 
 
-class Raising:
+class MaxMinOptimiser:
     """Raises the least scaled Jacobian of the corners that can be moved.
 
     Parameters
@@ -94,7 +94,7 @@ class Raising:
         Whose free nodes are moved.
     points : (n, 3) float64
         Where they begin.
-    sliding : Sliding, optional
+    sliding : SlidingBoundary, optional
         Where some of them slide: `mesh` is its mesh.
 
     Attributes
@@ -104,7 +104,7 @@ class Raising:
     envelope : Envelope
     """
 
-    def __init__(self, mesh: Mesh, points: np.ndarray, sliding: Sliding | None = None):
+    def __init__(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None = None):
         self.points, self.corners = points, MovableCorners(mesh, points)
         self.envelope = Envelope(mesh.n_nodes, sliding)
         self._begin()
@@ -114,7 +114,7 @@ class Raising:
         """Whose free nodes are moved: of the nodes that are fixed, some may have been lifted."""
         return self.corners.mesh
 
-    def steps(self, aim: float = np.inf) -> Iterator[Raised | Limit]:
+    def steps(self, aim: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
         """Steps that raise the least, until none does any more, or it has reached `aim`; at last what limits it."""
         self._begin()
         gains = [np.inf] * LATELY
@@ -128,7 +128,7 @@ class Raising:
             promised, points, moved = self._step(low, band)
             gain = self._take(points, moved, least, promised) if promised > NOTHING else 0.0
             if gain > 0:
-                yield Raised(self.points, self.corners.least, low.size, radius)
+                yield MaxMinStep(self.points, self.corners.least, low.size, radius)
             gains.append(gain)
             if promised <= NOTHING or sum(gains[-LATELY:]) < (LITTLE if least < SOUND else LITTLE_BEYOND):
                 if whole or self._most >= MANY:
@@ -137,7 +137,7 @@ class Raising:
                 gains.append(np.inf)
         yield self._limit()
 
-    def into(self, room: float) -> Iterator[Raised]:
+    def into(self, room: float) -> Iterator[MaxMinStep]:
         """Steps that bring the boundary nearer to the surface until it is in its room; the least falls as it must.
 
         What is settled is no more: everything may be moved.
@@ -157,14 +157,14 @@ class Raising:
             corners.measure(points, corners.hexes_at(moved))
             envelope.follow(self.points, points, moved)
             self.points, self._radius = points, min(GROW * self._radius, LARGEST)
-            yield Raised(points, corners.least, low.size, radius)
+            yield MaxMinStep(points, corners.least, low.size, radius)
         envelope.room = room
 
-    def settle(self, limit: Limit) -> None:
+    def settle(self, limit: ActiveCorners) -> None:
         """Let the corners that hold each other be, and their nodes stay: those that are left can be raised further."""
         self.corners.settle(8 * limit.hexes + limit.corners)
 
-    def lift(self, limit: Limit) -> bool:
+    def lift(self, limit: ActiveCorners) -> bool:
         """Let sliding nodes of the corners that hold each other leave the surface; whether there is one more."""
         envelope, sliding, mesh = self.envelope, self.envelope.sliding, self.mesh
         if sliding is None or not envelope.room > 0:
@@ -200,7 +200,7 @@ class Raising:
         ends = corners.nodes_of(near)
         values, derivatives = gradients(self.points, ends)
         size = shortest_edges(self.points, self.mesh.hexes[around])
-        models = Models(ends, np.maximum(values - least, 0.0), derivatives, np.ones(near.size))
+        models = LinearConstraints(ends, np.maximum(values - least, 0.0), derivatives, np.ones(near.size))
         moves = np.zeros(len(self.points))
         moves[nodes] = radius * size[nodes]
         bounds = envelope.bounds(self.points, moves)
@@ -235,8 +235,8 @@ class Raising:
         corners.values[hexes] = before
         return 0.0
 
-    def _limit(self) -> Limit:
+    def _limit(self) -> ActiveCorners:
         corners, weights = self._multipliers
         order = np.argsort(-weights, kind="stable")
         order = order[weights[order] > HOLDS]
-        return Limit(self.corners.least, corners[order] // 8, corners[order] % 8)
+        return ActiveCorners(self.corners.least, corners[order] // 8, corners[order] % 8)

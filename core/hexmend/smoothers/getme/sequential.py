@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Outcome, Step
 from hexmend.kernels import sliding as on_surface
 from hexmend.kernels import worst_first as kernels
@@ -66,7 +66,7 @@ class SequentialGETMe(SlidingSmoother):
     def _sweep(
         self,
         mesh: Mesh,
-        sliding: Sliding | None,
+        sliding: SlidingBoundary | None,
         figures: ElementQuality,
         relaxation: float,
         moved: np.ndarray,

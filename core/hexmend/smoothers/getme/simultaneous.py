@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Outcome, Step
 from hexmend.kernels import getme as kernels
 from hexmend.kernels.element_step import element_steps
@@ -81,7 +81,7 @@ def standing(figures: ElementQuality) -> np.ndarray:
 
 
 def _without_harm(
-    mesh: Mesh, points: np.ndarray, figures: ElementQuality, moved: np.ndarray, sliding: Sliding | None
+    mesh: Mesh, points: np.ndarray, figures: ElementQuality, moved: np.ndarray, sliding: SlidingBoundary | None
 ) -> tuple[np.ndarray, ElementQuality, int]:
     """The moved points, relaxed where a hex that was sound would be inverted; their figures; how many were relaxed."""
     after = measure(moved, mesh.hexes)

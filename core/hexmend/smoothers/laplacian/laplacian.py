@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.kernels import laplacian as kernels
 from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology import Rows
+from hexmend.mesh.topology import CSR
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps, method
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
@@ -65,7 +65,7 @@ class Laplacian(SlidingSmoother):
             sweep += 1
 
     @staticmethod
-    def _at_once(points: np.ndarray, ring: Rows, nodes: np.ndarray, sliding: Sliding | None) -> np.ndarray:
+    def _at_once(points: np.ndarray, ring: CSR, nodes: np.ndarray, sliding: SlidingBoundary | None) -> np.ndarray:
         moved = points.copy()
         kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
         if sliding is None:

@@ -8,12 +8,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.kernels import local
 from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology import Rows
+from hexmend.mesh.topology import CSR
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.local.base import LocalOptimiser
@@ -50,7 +50,13 @@ class LocalDescent(LocalOptimiser):
             sweep += 1
 
     def _sweep(
-        self, mesh: Mesh, sliding: Sliding | None, groups: Rows, delta: float, points: np.ndarray, stays: np.ndarray
+        self,
+        mesh: Mesh,
+        sliding: SlidingBoundary | None,
+        groups: CSR,
+        delta: float,
+        points: np.ndarray,
+        stays: np.ndarray,
     ) -> int:
         """Move the points, those apart that have to stay; returns how often a hex was asked for its energy."""
         corners, visited = mesh.topology.node_corners, groups.without(stays)

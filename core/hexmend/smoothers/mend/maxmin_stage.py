@@ -7,8 +7,8 @@ from itertools import islice
 
 import numpy as np
 
-from hexmend.iteration import Limits, Step
-from hexmend.optimise.maxmin.slp import Limit, Raising
+from hexmend.iteration import ActiveSet, Step
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 
 #: Least scaled Jacobian from which on a hex is sound enough for the energy's barrier, and below which one is so bad
 #: that nodes of the boundary leave the surface for it.
@@ -23,12 +23,12 @@ CLUSTERS, MANY_CLUSTERS = 10, 30
 
 
 def raise_least(
-    raising: Raising,
+    raising: MaxMinOptimiser,
     aim: float = np.inf,
     lifts: float = -np.inf,
     clusters: int = 1,
     detour: bool = False,
-) -> Generator[Step, None, Limit]:
+) -> Generator[Step, None, ActiveCorners]:
     """Raise the least scaled Jacobian.
 
     Where corners hold each other below `aim`, those that are above them are raised further. Below `lifts`, nodes of the
@@ -36,7 +36,7 @@ def raise_least(
 
     Parameters
     ----------
-    raising : Raising
+    raising : MaxMinOptimiser
     aim, lifts : float
     clusters : int
         How many groups of corners that hold each other are left behind, at most.
@@ -45,14 +45,14 @@ def raise_least(
 
     Returns
     -------
-    Limit
+    ActiveCorners
         What held the least at first.
     """
     first = None
     yield Step(raising.points, {"least": raising.corners.least}, more=True, detour=detour)
     while True:
         for number, step in enumerate(raising.steps(aim)):
-            limit = step if isinstance(step, Limit) else None
+            limit = step if isinstance(step, ActiveCorners) else None
             if limit is None and number % TOGETHER == 0:
                 yield step.step(detour)
         if not limit.hexes.size or limit.least >= aim:
@@ -67,7 +67,9 @@ def raise_least(
     return first or limit
 
 
-def lifted(raising: Raising, room: float, other: Raising, limit: Limit) -> Generator[Step, None, tuple[Raising, Limit]]:
+def lifted(
+    raising: MaxMinOptimiser, room: float, other: MaxMinOptimiser, limit: ActiveCorners
+) -> Generator[Step, None, tuple[MaxMinOptimiser, ActiveCorners]]:
     """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room.
 
     Returns what is better, that or the other, with its limit.
@@ -86,14 +88,14 @@ def lifted(raising: Raising, room: float, other: Raising, limit: Limit) -> Gener
     return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
 
 
-def limits_of(raising: Raising, limit: Limit) -> Limits:
+def limits_of(raising: MaxMinOptimiser, limit: ActiveCorners) -> ActiveSet:
     """Which corners let the least rise no further, and which are locked below them."""
     nodes = raising.mesh.hexes[limit.hexes, limit.corners].astype(np.int64)
     locked = _locked(raising, limit) // 8
-    return Limits(limit.hexes, nodes, np.array(list(dict.fromkeys(locked.tolist())), dtype=np.int64))
+    return ActiveSet(limit.hexes, nodes, np.array(list(dict.fromkeys(locked.tolist())), dtype=np.int64))
 
 
-def what_limits(raising: Raising, limit: Limit) -> str:
+def what_limits(raising: MaxMinOptimiser, limit: ActiveCorners) -> str:
     """What lets the least rise no further, and what is locked below that, in sentences; "" where nothing does.
 
     Corners of places apart are at the limit together, but hold each other within their own place alone.
@@ -118,7 +120,7 @@ def what_limits(raising: Raising, limit: Limit) -> str:
     return f"{said} {which}: {lowest:.4f} at the lowest, in hex {_named(locked[:1] // 8)}."
 
 
-def _locked(raising: Raising, limit: Limit) -> np.ndarray:
+def _locked(raising: MaxMinOptimiser, limit: ActiveCorners) -> np.ndarray:
     return raising.corners.locked_below(limit.least if limit.hexes.size else -np.inf)
 
 

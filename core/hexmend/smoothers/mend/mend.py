@@ -7,18 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary import Sliding
-from hexmend.energy import MeshEnergy, Power, SlidingEnergy, energies
+from hexmend.boundary import SlidingBoundary
+from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy, energies
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import Descent, descend
 from hexmend.optimise.line_search import BackLineSearch
-from hexmend.optimise.maxmin.slp import Raising
+from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.optimise.search_direction import TruncatedNewton
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.base import Steps, method
-from hexmend.smoothers.base_optimiser import Objective
+from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.smoothers.mend.inversion import brought_near, inverted_corners, locked_corners, tangled_in
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from hexmend.smoothers.mend.maxmin_stage import (
@@ -63,7 +63,7 @@ SEARCH = BackLineSearch(shrink=0.5)
 
 @method
 @dataclass(frozen=True)
-class Mend(Objective):
+class Mend(ObjectiveSmoother):
     """Every free node at once by truncated Newton steps, on a barrier that hardens until no hex is inverted."""
 
     name = "mend"
@@ -95,40 +95,42 @@ class Mend(Objective):
     )
 
     @property
-    def power(self) -> Power:
+    def power(self) -> ObjectiveNorm:
         """The highest p and the offset: the objective at whose optimum a run ends.
 
         Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
         minimise an energy: they record this one, for comparison, and it may rise.
         """
-        return Power(max(self.p, self.highest_p), self.offset)
+        return ObjectiveNorm(max(self.p, self.highest_p), self.offset)
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
         given, raises = mesh, self.goal != "shape"
         if self.slides and mesh.target is not None:
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
-        first = Power(self.p, self.offset)
+        first = ObjectiveNorm(self.p, self.offset)
         points, outcome = yield from self._shaped(mesh, MeshEnergy(mesh, first), self.slides or raises)
         places, sliding, limits = [mesh.points, points], None, None
         words: list[str] = []
         if self.slides:
             room = self.room(mesh)
-            sliding = Sliding(mesh, self.feature_angle, SPARED * room)
-            freeing = Raising(sliding.mesh, points, sliding)
+            sliding = SlidingBoundary(mesh, self.feature_angle, SPARED * room)
+            freeing = MaxMinOptimiser(sliding.mesh, points, sliding)
             yield from raise_least(freeing, SOUND, clusters=1)
             energy = SlidingEnergy(sliding, first)
             points, outcome = yield from self._shaped(sliding.mesh.with_points(freeing.points), energy, True)
             places += [freeing.points, points]
         if raises or self.slides:
             at = mesh if sliding is None else sliding.mesh
-            raising = max((Raising(at, one, sliding) for one in places), key=lambda raising: raising.corners.least)
+            raising = max(
+                (MaxMinOptimiser(at, one, sliding) for one in places), key=lambda raising: raising.corners.least
+            )
             if raises or raising.corners.least < SOUND:
                 outcome = Outcome.NO_IMPROVEMENT
                 limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
                 may_leave = self.slides and 0 < room < np.inf
                 if may_leave and raising.corners.lowest < (AIM if raises else SOUND):
-                    raising, limit = yield from lifted(Raising(at, places[1], sliding), room, raising, limit)
+                    raising, limit = yield from lifted(MaxMinOptimiser(at, places[1], sliding), room, raising, limit)
                 points = raising.points
                 if raises:
                     words.append(what_limits(raising, limit))
@@ -220,7 +222,7 @@ class Mend(Objective):
         """Behind the barrier to the optimum, then, where it is asked for, with higher and higher p."""
         p = self.p
         while True:
-            energy = energy.but(Power(p, self.offset), left_out)
+            energy = energy.but(ObjectiveNorm(p, self.offset), left_out)
             find = self._direction()
             x, rises = energy.scaled(points), p < self.highest_p
             whole = False  # whether the last step was taken whole: then no hex is in the way

@@ -8,13 +8,13 @@ from typing import Any
 
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parametrised, parameter
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage, read_stage
 from hexmend.smoothers import Smoother
 
 
 @dataclass(frozen=True)
-class Limits(Parametrised):
+class TaskLimits(Parametrised):
     """What the process of a task may take; past it the task has failed, and its row says so."""
 
     max_seconds: float = parameter(
@@ -43,18 +43,20 @@ class Case:
     name : str
         Its own in the study: what tables call it.
     what : Smoother or Recipe
-    stop : Stop or None
+    stop : StoppingCriteria or None
         Limits of a method's run; None for a recipe, whose stages have theirs.
     """
 
     name: str
     what: Smoother | Recipe
-    stop: Stop | None = None
+    stop: StoppingCriteria | None = None
 
     @property
     def stages(self) -> tuple[Stage, ...]:
         """What is run, one after another."""
-        return self.what.stages if isinstance(self.what, Recipe) else (Stage(self.what, self.stop or Stop()),)
+        return (
+            self.what.stages if isinstance(self.what, Recipe) else (Stage(self.what, self.stop or StoppingCriteria()),)
+        )
 
     @property
     def method(self) -> str:

@@ -16,11 +16,11 @@ from typing import Any
 from hexmend.errors import ParameterError
 from hexmend.io.storage.toml_files import read_toml
 from hexmend.parameters import declared, from_values
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import check_keys, in_this_format, table_in
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
-from hexmend.study.batch.case import Case, Limits
+from hexmend.study.batch.case import Case, TaskLimits
 from hexmend.toml_text import parsed
 
 #: Cases of one study.
@@ -39,7 +39,7 @@ class Plan:
     title : str
     cases : tuple of Case
         Each with a name of its own.
-    limits : Limits
+    limits : TaskLimits
         Of each task.
     surface : Path or None
         What the boundary slides on where it does, if not itself; `{mesh}` in it is the mesh's name without suffix.
@@ -47,7 +47,7 @@ class Plan:
 
     title: str
     cases: tuple[Case, ...]
-    limits: Limits = field(default_factory=Limits)
+    limits: TaskLimits = field(default_factory=TaskLimits)
     surface: Path | None = None
 
     def surface_of(self, mesh: Path) -> Path | None:
@@ -113,7 +113,7 @@ def plan_of(text: str, folder: Path, title: str = "Study") -> Plan:
             raise ParameterError(f"two of the methods would be called {name!r} in tables: give them a  title  each")
     if surface is not None and not any(case.slides for case in cases):
         raise ParameterError("surface names what the boundary slides on, and it is fixed: say boundary = slide")
-    limits = from_values(Limits, table_in(data, "task"), owner="task")
+    limits = from_values(TaskLimits, table_in(data, "task"), owner="task")
     return Plan(title, cases, limits, None if surface is None else folder / surface)
 
 
@@ -162,7 +162,7 @@ def _cases(
             raise ParameterError("a recipe has values of its own: leave out parameters, or change the recipe")
         recipe = read_recipe(folder / table["recipe"])
         for limits, words in _choices(stops):
-            from_values(Stop, limits, owner="stop")
+            from_values(StoppingCriteria, limits, owner="stop")
             yield Case(table.get("title", recipe.title) + words, recipe.limited(**limits))
         return
     method = METHODS[table["method"]]
@@ -174,7 +174,7 @@ def _cases(
         smoother = from_values(method, values, owner=method.name)
         for limits, more in _choices(stops):
             name = table.get("title", method.name) + words + more
-            yield Case(name, smoother, from_values(Stop, limits, owner="stop"))
+            yield Case(name, smoother, from_values(StoppingCriteria, limits, owner="stop"))
 
 
 def _plain(table: Mapping[str, Any]) -> dict[str, Any]:

@@ -34,7 +34,7 @@ class Workers(Protocol):
 
 
 @dataclass(frozen=True)
-class Count:
+class StudyProgress:
     """How far a study is.
 
     Parameters
@@ -59,22 +59,22 @@ class Count:
 
 
 @dataclass(frozen=True)
-class Studied:
+class StudyResult:
     """What a study gave.
 
     Parameters
     ----------
     plan : Plan
     rows : tuple of dict
-        `hexmend.study.batch.table_columns.COLUMNS` of each task that was done, mesh after mesh, in the order of the cases.
-    count : Count
+        `COLUMNS` of each task that was done, mesh after mesh, in the order of the cases.
+    count : StudyProgress
     interrupted : bool
         Whether the user ended it; rows that are missing are left for another time.
     """
 
     plan: Plan
     rows: tuple[dict[str, Any], ...]
-    count: Count
+    count: StudyProgress
     interrupted: bool
 
     def record(self) -> dict[str, Any]:
@@ -97,8 +97,8 @@ def study_many(
     version: str,
     again: bool = False,
     meshes_to: Path | None = None,
-    watch: Callable[[Count], Any] = lambda count: None,
-) -> Studied:
+    watch: Callable[[StudyProgress], Any] = lambda count: None,
+) -> StudyResult:
     """Do each of a plan's cases on each mesh, but for what is kept.
 
     KeyboardInterrupt ends it; what was done is kept.
@@ -128,7 +128,7 @@ def study_many(
     kept = {} if again else {key: row for key, (task, _) in tasks.items() if (row := store.kept(task)) is not None}
     for key, row in kept.items():
         rows |= dict.fromkeys(tasks[key][1], row)
-    count = Count(
+    count = StudyProgress(
         tasks=len(dict.fromkeys(meshes)) * len(plan.cases),
         kept=len(rows) - unreadable,
         done=unreadable,
@@ -150,7 +150,7 @@ def study_many(
                 watch(count)
     except KeyboardInterrupt:
         interrupted = True
-    return Studied(plan, tuple(_table(plan, meshes, tasks, rows)), count, interrupted)
+    return StudyResult(plan, tuple(_table(plan, meshes, tasks, rows)), count, interrupted)
 
 
 def _planned(plan: Plan, meshes: Sequence[Path], version: str, meshes_to: Path | None) -> tuple[_Tasks, _Rows]:

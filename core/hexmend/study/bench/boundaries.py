@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 
 #: Published least scaled Jacobians and distances of the surfaces in per cent of the diagonal, by file: of HexOpt
 #: (bunny, CAD4, impeller), edge-cone rectification (block, cap, hanger) and HybridOctree (bone).
@@ -85,6 +85,6 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
-BOUNDARIES = Section(
+BOUNDARIES = BenchSection(
     "boundaries", "The worst element: boundary fixed and sliding, beside what is published", _measure, _lines
 )

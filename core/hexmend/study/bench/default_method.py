@@ -15,8 +15,8 @@ from hexmend.gallery import make
 from hexmend.io import read, readable_suffixes
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
-from hexmend.run import Stop, smooth
-from hexmend.study.bench.section import Section, by_size
+from hexmend.run import StoppingCriteria, smooth
+from hexmend.study.bench.section import BenchSection, by_size
 
 #: Gallery meshes by name, size and scramble.
 _MESHES = [("five-side", 7350, 0.0), ("bridge-sharp", 32000, 0.0), ("bridge-sharp", 32000, 0.6), ("plane", 31760, 0.0)]
@@ -44,7 +44,7 @@ def real() -> list[Mesh]:
 
 
 def _row(mesh: Mesh) -> dict[str, Any]:
-    result = smooth(mesh, "mend", Stop(max_iterations=1000))
+    result = smooth(mesh, "mend", StoppingCriteria(max_iterations=1000))
     return {
         "mesh": mesh.name,
         "hexes": mesh.n_hexes,
@@ -72,7 +72,7 @@ def _tangled() -> dict[str, Any]:
     for (name, size), amplitude, seed in itertools.product(_TANGLED, _AMPLITUDES, _SEEDS):
         mesh = make(name, size=size, scramble=amplitude, seed=seed)
         before = summarise(mesh)
-        result = smooth(mesh, "mend", Stop(max_iterations=400))
+        result = smooth(mesh, "mend", StoppingCriteria(max_iterations=400))
         seconds.append(result.seconds)
         ends[result.outcome.key] += 1
         if result.after.inverted > before.locked_inverted:
@@ -102,10 +102,10 @@ _PROBE = """
 import json, sys
 from hexmend.errors import FileError, MeshError
 from hexmend.gallery import make
-from hexmend.run import Stop, iterate
+from hexmend.run import StoppingCriteria, iterate
 from hexmend.study.bench.section import peak_mb
 mesh = make("five-side", size=int(sys.argv[1]), scramble=0.3)
-run = iterate(mesh, "mend", Stop(max_iterations=1000))
+run = iterate(mesh, "mend", StoppingCriteria(max_iterations=1000))
 inner = sum(it.notes.get("solver_iterations", 0) for it in run)
 result = run.result()
 row = {
@@ -130,8 +130,8 @@ def _size_lines(figures: dict[str, Any]) -> list[str]:
     ]
 
 
-SIZES = Section("sizes", "mend on five-side scrambled by 0.3, against size (whole process)", _sizes, _size_lines)
-OPTIMA = Section("optima", "mend, from the mesh to its optimum", _optima, _optima_lines)
-TANGLED = Section(
+SIZES = BenchSection("sizes", "mend on five-side scrambled by 0.3, against size (whole process)", _sizes, _size_lines)
+OPTIMA = BenchSection("optima", "mend, from the mesh to its optimum", _optima, _optima_lines)
+TANGLED = BenchSection(
     "tangled", "mend on meshes scrambled by up to 5 edge lengths, 750 to 2,500 hexes", _tangled, _tangled_lines
 )

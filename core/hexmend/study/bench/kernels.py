@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.energy import Couplings, MeshEnergy, Power
+from hexmend.energy import BlockSparsity, MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.gallery.gallery_mesh import scrambled
 from hexmend.kernels import elements, local, objective, plain, set_threads, threads
-from hexmend.run import Stop, smooth
-from hexmend.study.bench.section import Section
+from hexmend.run import StoppingCriteria, smooth
+from hexmend.study.bench.section import BenchSection
 
 #: How often each is timed.
 _TIMES = 15
@@ -43,7 +43,7 @@ def _kernels() -> dict[str, Any]:
     def sweep(by: Callable[..., None]) -> None:
         by(
             x.copy(), hexes, corners.start, corners.items, colours.start, colours.items,
-            local.STEEPEST_DESCENT, 0.0, Power(), 1.0, 0.7, 1e-4, 60,
+            local.STEEPEST_DESCENT, 0.0, ObjectiveNorm(), 1.0, 0.7, 1e-4, 60,
         )  # fmt: skip
 
     # Of a kernel: itself and the plain loop, and how often the call repeats it.
@@ -53,10 +53,10 @@ def _kernels() -> dict[str, Any]:
             (name, lambda call=call: call(objective), lambda call=call: call(plain), 1)
             for name, call in (
                 ("energy", lambda by: by.energies(x, hexes, 0.0, 1.0, none, figures[0])),
-                ("gradient", lambda by: by.gradient(x, hexes, 0.0, Power(), none, shares)),
+                ("gradient", lambda by: by.gradient(x, hexes, 0.0, ObjectiveNorm(), none, shares)),
                 (
                     "hessian product, by formulas",
-                    lambda by: by.hessian_product(x, hexes, energy.slots, gradient, 0.0, Power(), none, shares),
+                    lambda by: by.hessian_product(x, hexes, energy.slots, gradient, 0.0, ObjectiveNorm(), none, shares),
                 ),
             )
         ),
@@ -108,13 +108,13 @@ def _preconditioners() -> dict[str, Any]:
     rows = []
     for size in _SIZES:
         # Near the optimum, where the Hessian is definite: elsewhere the solver ends at the first negative curvature.
-        optimum = smooth(make("five-side", size=size), "mend", Stop(max_iterations=1000)).mesh
+        optimum = smooth(make("five-side", size=size), "mend", StoppingCriteria(max_iterations=1000)).mesh
         mesh = scrambled(optimum, _MOVED, seed=0)
         energy = MeshEnergy(mesh)
         x = energy.scaled(mesh.points)
         right = -energy.gradient(x).ravel()
         for parts in (None, 1):
-            energy.couplings = Couplings(mesh, parts)
+            energy.couplings = BlockSparsity(mesh, parts)
             made = energy.couplings.bounds.size // 2
             name = "Gauss-Seidel, whole" if made == 1 else f"Gauss-Seidel, {made} parts"
             matrix = energy.hessian(x).assembled()
@@ -143,8 +143,8 @@ def _preconditioner_lines(figures: dict[str, Any]) -> list[str]:
     ]
 
 
-KERNELS = Section("kernels", "Kernels on bridge-sharp, 32,000 hexes (median of 15)", _kernels, _kernel_lines)
-PRECONDITIONERS = Section(
+KERNELS = BenchSection("kernels", "Kernels on bridge-sharp, 32,000 hexes (median of 15)", _kernels, _kernel_lines)
+PRECONDITIONERS = BenchSection(
     "preconditioners",
     "Newton's system on five-side, moved by up to 0.03 edge lengths from its optimum",
     _preconditioners,

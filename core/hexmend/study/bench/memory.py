@@ -14,7 +14,7 @@ import numpy as np
 from hexmend.gallery import make
 from hexmend.run.memory import FIXED
 from hexmend.smoothers import METHODS
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 
 #: Hexes of the scrambled blocks that methods are run on.
 _SIZES = 50_000, 200_000
@@ -34,7 +34,7 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import declared
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.run.memory import needed
 from hexmend.smoothers import METHODS
 from hexmend.study.bench.section import peak_mb, resident_mb
@@ -44,7 +44,7 @@ with np.load(path) as arrays:
 measure(mesh.points, mesh.hexes)
 smoother = METHODS[name](**json.loads(values))
 before = resident_mb()
-smooth(mesh, smoother, Stop(max_iterations=int(iterations), tolerance=0))
+smooth(mesh, smoother, StoppingCriteria(max_iterations=int(iterations), tolerance=0))
 print(json.dumps({"hexes": mesh.n_hexes, "mb": peak_mb() - before, "needed_mb": needed(smoother, mesh) / 2**20}))
 """
 
@@ -97,4 +97,6 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
-MEMORY = Section("memory", "Memory of a run beside the open mesh, a scrambled block (whole process)", _memory, _lines)
+MEMORY = BenchSection(
+    "memory", "Memory of a run beside the open mesh, a scrambled block (whole process)", _memory, _lines
+)

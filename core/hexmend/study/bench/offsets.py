@@ -11,9 +11,9 @@ from hexmend.errors import HexmendError
 from hexmend.io import read
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 from hexmend.study.thesis.experiments import INITIAL, load
 
 #: Whose figures the thesis gives for the optimum: where it converged, the best that it has.
@@ -55,7 +55,7 @@ def _others() -> Iterator[tuple[str, Mesh, None]]:
 
 
 def _row(name: str, mesh: Mesh, published: dict[str, float] | None) -> dict[str, Any]:
-    ends = [smooth(mesh, METHODS["mend"](offset=offset), Stop(max_iterations=1000)) for offset in _OFFSETS]
+    ends = [smooth(mesh, METHODS["mend"](offset=offset), StoppingCriteria(max_iterations=1000)) for offset in _OFFSETS]
     return {
         "mesh": name,
         "hexes": mesh.n_hexes,
@@ -99,6 +99,6 @@ def _pair(one: float, zero: float) -> str:
     return f"**{texts[0]}** · {texts[1]}" if one > zero else f"{texts[0]} · **{texts[1]}**"
 
 
-OFFSETS = Section(
+OFFSETS = BenchSection(
     "offsets", 'The optimum with the "-1" of (B.20) · without it (in brackets the thesis\'s)', _measure, _lines
 )

@@ -17,7 +17,7 @@ from typing import Any
 
 from hexmend.gallery import make
 from hexmend.io import readable_suffixes, write
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 
 #: How often each command is run.
 _TIMES = 5
@@ -100,6 +100,6 @@ def _pair(row: dict[str, float], what: str) -> str:
     return f"{now:7.3f} s" + (f" (before {before:7.3f} s, {before / now:5.2f} x)" if before else "")
 
 
-PROCESSES = Section(
+PROCESSES = BenchSection(
     "processes", f"Whole processes (median of {_TIMES}; {_OTHER} names a program to compare)", _processes, _lines
 )

@@ -11,7 +11,7 @@ from typing import Any
 
 
 @dataclass(frozen=True)
-class Section:
+class BenchSection:
     """A part of the benchmark.
 
     Parameters

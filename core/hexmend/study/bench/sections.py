@@ -13,7 +13,7 @@ import numpy as np
 
 from hexmend import kernels
 from hexmend.gallery import make
-from hexmend.run import Stop, iterate
+from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend.study.bench.boundaries import BOUNDARIES
 from hexmend.study.bench.default_method import OPTIMA, SIZES, TANGLED
@@ -21,7 +21,7 @@ from hexmend.study.bench.kernels import KERNELS, PRECONDITIONERS
 from hexmend.study.bench.memory import MEMORY
 from hexmend.study.bench.offsets import OFFSETS
 from hexmend.study.bench.processes import PROCESSES
-from hexmend.study.bench.section import Section, by_size
+from hexmend.study.bench.section import BenchSection, by_size
 from hexmend.study.peers import PEERS
 
 #: Seconds per iteration and node in the thesis's tables for BridgeSharp: 4.1 for the optimisers, 4.2 for GETMe, 4.3 for
@@ -37,7 +37,7 @@ THESIS_SECONDS_PER_NODE = {
 }
 
 
-def sections() -> dict[str, Section]:
+def sections() -> dict[str, BenchSection]:
     """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
     own = (
         KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, OFFSETS, SCALING, SIZES, MEMORY,
@@ -78,7 +78,7 @@ def _iterations() -> dict[str, Any]:
     nodes = int(mesh.free.sum())
     figures = {}
     for name in METHODS:
-        run = iterate(mesh, name, Stop(max_iterations=9, tolerance=0))
+        run = iterate(mesh, name, StoppingCriteria(max_iterations=9, tolerance=0))
         at = [0.0, *(it.seconds for it in run)]
         seconds = median(b - a for a, b in itertools.pairwise(at))
         thesis = THESIS_SECONDS_PER_NODE.get(name)
@@ -136,7 +136,7 @@ def _scaling_lines(figures: dict[str, Any]) -> list[str]:
     ]
 
 
-ITERATIONS = Section(
+ITERATIONS = BenchSection(
     "iterations", "One iteration on bridge-sharp, 32,000 hexes (median of 9)", _iterations, _iteration_lines
 )
-SCALING = Section("scaling", "Topology and quality against size (whole process)", _scaling, _scaling_lines)
+SCALING = BenchSection("scaling", "Topology and quality against size (whole process)", _scaling, _scaling_lines)

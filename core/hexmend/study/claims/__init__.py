@@ -13,10 +13,10 @@ from hexmend.study.claims import (
     robustness,
 )
 from hexmend.study.claims.claim import Claim
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: Every claim, in the order of the report.
-CLAIMS: tuple[Callable[[Sequence[Measured]], Claim], ...] = (
+CLAIMS: tuple[Callable[[Sequence[ExperimentResult]], Claim], ...] = (
     optimum.same_optimum,
     optimum.same_optimum_untangled,
     optimum.norm_is_objective,

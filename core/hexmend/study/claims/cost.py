@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.study.claims.claim import Finding, judges
 from hexmend.study.claims.reading import arrived, of_mesh
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: "Constant in the mesh size": within this factor. The thesis's own figures of global-sd vary by 3.4.
 _CONSTANT = 3.5
@@ -19,7 +19,7 @@ _NOTICEABLE = 0.2
 
 
 @judges("4.3.1", "Time per iteration and free node does not depend on the mesh's size.")
-def cost_constant(measured: Sequence[Measured]) -> Finding:
+def cost_constant(measured: Sequence[ExperimentResult]) -> Finding:
     """4.3.1, Figure 4.4."""
     ours: dict[str, dict[int, float]] = {}
     thesis: dict[str, dict[int, float]] = {}
@@ -47,7 +47,7 @@ def cost_constant(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.3.1", "Where global methods succeed, they scale not noticeably worse than local or heuristic ones.")
-def scaling_alike(measured: Sequence[Measured]) -> Finding:
+def scaling_alike(measured: Sequence[ExperimentResult]) -> Finding:
     """4.3.1, Figure 4.4: by the slopes of seconds per iteration over free nodes, both as logarithms."""
     costs: dict[str, dict[int, float]] = {}
     for one in of_mesh(measured, "five-side"):

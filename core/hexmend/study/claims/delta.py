@@ -8,7 +8,7 @@ from hexmend.iteration import Outcome
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import end, ended, of_mesh, optimisers
 from hexmend.study.table_row import Row
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import INITIAL
 
 _LOCAL = "local-sd", "local-nr"
@@ -17,7 +17,7 @@ _LOCAL = "local-sd", "local-nr"
 @judges(
     "4.2.1", "A small delta keeps global methods with a Hessian from converging where a larger one lets them converge."
 )
-def small_delta_harms(measured: Sequence[Measured]) -> Finding:
+def small_delta_harms(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2.1, Tables 4.3 and 4.4: judged on equal limits, of each method that ran with both."""
     told, harmed = [], []
     for method in ("global-nr", "global-mnr"):
@@ -30,19 +30,19 @@ def small_delta_harms(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.2.1", "A large delta moves the optimum so far that an optimiser may converge and leave hexes inverted.")
-def large_delta_moves(measured: Sequence[Measured]) -> Finding:
+def large_delta_moves(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2.1: of all methods of Table 4.4, those that converge."""
     return _left_inverted(measured, (*_LOCAL, "global-nr"))
 
 
 @judges("4.2.1", "With the delta of 0.2 in Table 4.4 it is the local methods that converge and leave hexes inverted.")
-def large_delta_local(measured: Sequence[Measured]) -> Finding:
+def large_delta_local(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2.1: of the local methods of Table 4.4, those that converge."""
     return _left_inverted(measured, _LOCAL)
 
 
 @judges("4.2.1", "On a mesh without inverted hexes delta has no effect.")
-def delta_idle(measured: Sequence[Measured]) -> Finding:
+def delta_idle(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2.1 of Tables 4.1 and 4.2: judged by the runs of two deltas from one valid start, which must be equal."""
     cases, known = [], {}
     for one in measured:
@@ -58,7 +58,7 @@ def delta_idle(measured: Sequence[Measured]) -> Finding:
     return tally(cases, "No method ran with two values of delta from one valid start.")
 
 
-def _left_inverted(measured: Sequence[Measured], methods: Sequence[str]) -> Finding:
+def _left_inverted(measured: Sequence[ExperimentResult], methods: Sequence[str]) -> Finding:
     told, left = [], []
     for method in methods:
         rows, words = _by_delta(measured, method)
@@ -68,7 +68,7 @@ def _left_inverted(measured: Sequence[Measured], methods: Sequence[str]) -> Find
     return any(left) if left else None, " ".join(told)
 
 
-def _by_delta(measured: Sequence[Measured], method: str) -> tuple[list[Row], str]:
+def _by_delta(measured: Sequence[ExperimentResult], method: str) -> tuple[list[Row], str]:
     """What a method made of bridge-sharp after Laplacian smoothing, by rising delta, and that in words."""
     found = {
         one.experiment.delta: one.rows[method]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import FAR, arrivals, arrived, end, ended, name, near_best, of_mesh, tables, times
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: "Negligible advantage": less than this share of the seconds is saved.
 _NEGLIGIBLE = 0.1
@@ -21,7 +21,7 @@ _COMPETITIVE = 3.0
 
 
 @judges("4.1.3", "Global steepest descent is slow or stuck.")
-def global_sd_slow(measured: Sequence[Measured]) -> Finding:
+def global_sd_slow(measured: Sequence[ExperimentResult]) -> Finding:
     """4.1.3: judged where another optimiser shows, within the same limits, that the optimum can be reached."""
     cases = []
     for one in tables(measured):
@@ -39,7 +39,7 @@ def global_sd_slow(measured: Sequence[Measured]) -> Finding:
     "4.1.3",
     "Global steepest descent arrives at the optimum on the two smallest meshes, FiveSide4 and FiveSide5, alone.",
 )
-def global_sd_smallest(measured: Sequence[Measured]) -> Finding:
+def global_sd_smallest(measured: Sequence[ExperimentResult]) -> Finding:
     """4.1.3; in Table 4.6 it stops at its iteration limit, so that whether it converged is not asked."""
     cases, kinds = [], set()
     for one in tables(measured):
@@ -53,7 +53,7 @@ def global_sd_smallest(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.2.1", "Global steepest descent is unable to smooth bridge-sharp in any of the cases.")
-def global_sd_bridge(measured: Sequence[Measured]) -> Finding:
+def global_sd_bridge(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2.1, Tables 4.1 to 4.4."""
     cases = []
     for one in of_mesh(measured, "bridge-sharp"):
@@ -63,7 +63,7 @@ def global_sd_bridge(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.3.1", "Of the global methods Newton-Raphson is the superior one.")
-def newton_best_of_global(measured: Sequence[Measured]) -> Finding:
+def newton_best_of_global(measured: Sequence[ExperimentResult]) -> Finding:
     """4.3.1, on five-side: by the seconds of those that arrive, in most cases, as in the thesis's own tables."""
     cases = [
         (found[0].method == "global-nr", f"{name(one)}: {times(found)}")
@@ -74,7 +74,7 @@ def newton_best_of_global(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.3.1", "Making the global Hessian positive definite is of negligible advantage.")
-def modified_global(measured: Sequence[Measured]) -> Finding:
+def modified_global(measured: Sequence[ExperimentResult]) -> Finding:
     """4.3.1: an advantage is to arrive where plain Newton-Raphson does not, or clearly sooner."""
     cases = []
     for one in tables(measured):
@@ -92,7 +92,7 @@ def modified_global(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.1.3", "Moving all nodes at once, Newton-Raphson converges in fewer iterations than node by node.")
-def fewer_iterations(measured: Sequence[Measured]) -> Finding:
+def fewer_iterations(measured: Sequence[ExperimentResult]) -> Finding:
     """4.1.3, "No Artificial Barriers": judged where both arrive."""
     cases = []
     for one in tables(measured):
@@ -105,7 +105,7 @@ def fewer_iterations(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("5.1", "Global methods are competitive with second order search directions only.")
-def competitive(measured: Sequence[Measured]) -> Finding:
+def competitive(measured: Sequence[ExperimentResult]) -> Finding:
     """5.1: competitive is to arrive within a few times the seconds of the fastest local method."""
     first, second, told = 0, 0, []
     for one in tables(measured):
@@ -125,7 +125,7 @@ def competitive(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.3.1", "MINRES solves well conditioned global Hessians effectively, without a preconditioner.")
-def minres_suffices(measured: Sequence[Measured]) -> Finding:
+def minres_suffices(measured: Sequence[ExperimentResult]) -> Finding:
     """4.3.1: judged on five-side from valid starts, in most of which the thesis's Newton-Raphson arrives."""
     cases = []
     for one in of_mesh(measured, "five-side"):

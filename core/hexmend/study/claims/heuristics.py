@@ -10,14 +10,14 @@ import numpy as np
 from hexmend.quality import measure
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import arrivals, ended, name, of_mesh, settled, tables, times
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: "An order of magnitude".
 _ORDER = 10.0
 
 
 @judges("4.2, 4.4.1", "Laplacian smoothing inverts hexes on bridge-sharp and on plane.")
-def laplacian_inverts(measured: Sequence[Measured]) -> Finding:
+def laplacian_inverts(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2, 4.4.1: judged by the hexes that were sound before, on the largest of the meshes."""
     found: dict[str, tuple[int, int]] = {}
     for one in itertools.chain(of_mesh(measured, "bridge-sharp"), of_mesh(measured, "plane")):
@@ -31,7 +31,7 @@ def laplacian_inverts(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.4.1", "On plane Laplacian smoothing lowers the mean quality.")
-def laplacian_lowers_mean(measured: Sequence[Measured]) -> Finding:
+def laplacian_lowers_mean(measured: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.14."""
     for one in of_mesh(measured, "plane", "initial"):
         if rows := ended(one, "laplacian"):
@@ -41,7 +41,7 @@ def laplacian_lowers_mean(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.4.1", "On plane GETMe raises the least and the mean quality, but not as much as optimisation.")
-def getme_between(measured: Sequence[Measured]) -> Finding:
+def getme_between(measured: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.14."""
     for one in of_mesh(measured, "plane", "initial"):
         if (rows := ended(one, "getme")) and (found := settled(one)):
@@ -61,7 +61,7 @@ def getme_between(measured: Sequence[Measured]) -> Finding:
     "On plane the heuristics converge much more rapidly: the fastest optimiser, local steepest descent, is more than "
     "an order of magnitude slower than the slower of them, GETMe.",
 )
-def heuristics_faster(measured: Sequence[Measured]) -> Finding:
+def heuristics_faster(measured: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.15."""
     for one in of_mesh(measured, "plane", "initial"):
         if (rows := ended(one, "laplacian", "getme")) and (found := arrivals(one)):
@@ -78,7 +78,7 @@ def heuristics_faster(measured: Sequence[Measured]) -> Finding:
     "An iteration of GETMe is more expensive than one of Laplacian smoothing, but GETMe can result in a mesh of higher "
     "quality.",
 )
-def getme_against_laplacian(measured: Sequence[Measured]) -> Finding:
+def getme_against_laplacian(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2: judged by the time of an iteration wherever both ran, and by q norm wherever that is higher."""
     dearer, higher, told = [], [], []
     for one in tables(measured):
@@ -98,7 +98,7 @@ def getme_against_laplacian(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.2", "GETMe is cheaper to perform than the optimisation methods.")
-def getme_cheaper(measured: Sequence[Measured]) -> Finding:
+def getme_cheaper(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2: GETMe's whole time against that of the optimisers that arrive from the same mesh."""
     cases = {}
     for one in tables(measured):
@@ -112,7 +112,7 @@ def getme_cheaper(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("3.1.2", "Sequential GETMe raises the least quality of every mesh.")
-def sequential_raises_minimum(measured: Sequence[Measured]) -> Finding:
+def sequential_raises_minimum(measured: Sequence[ExperimentResult]) -> Finding:
     """3.1.2: confirmed there of meshes without figures, judged here from each start that it was given."""
     cases = []
     for one in tables(measured):

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import arrivals, arrived, end, ended, name, of_mesh, tables, times
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: "Reduce the number of iterations": by this share at least. A sweep more or less is where A.1's tolerance is met.
 _FEWER = 0.05
 
 
 @judges("4.3.1", "On five-side local steepest descent is the fastest optimiser to converge, in all cases.")
-def local_sd_fastest(measured: Sequence[Measured]) -> Finding:
+def local_sd_fastest(measured: Sequence[ExperimentResult]) -> Finding:
     """4.3.1, Tables 4.5 to 4.10: judged where it and another arrive."""
     cases = [
         (found[0].method == "local-sd", f"{name(one)}: {times(found)}")
@@ -26,7 +26,7 @@ def local_sd_fastest(measured: Sequence[Measured]) -> Finding:
 @judges(
     "5.1", "Single nodes are best smoothed along the steepest descent: a more accurate direction is not worth its time."
 )
-def local_sd_best_of_local(measured: Sequence[Measured]) -> Finding:
+def local_sd_best_of_local(measured: Sequence[ExperimentResult]) -> Finding:
     """5.1, 4.1.3: by the seconds of the local methods, in all experiments in which two of them arrive."""
     cases = [
         (found[0].method == "local-sd", f"{name(one)}: {times(found)}")
@@ -37,7 +37,7 @@ def local_sd_best_of_local(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.3.1", "In no local case does a Hessian made positive definite reduce the number of iterations.")
-def modified_local(measured: Sequence[Measured]) -> Finding:
+def modified_local(measured: Sequence[ExperimentResult]) -> Finding:
     """4.3.1, of which the thesis has no figures: local-mnr against local-nr, where both converged."""
     cases = []
     for one in tables(measured):
@@ -50,7 +50,7 @@ def modified_local(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.2.1", "A small delta is no problem for the direct solver of local Newton-Raphson.")
-def direct_solver(measured: Sequence[Measured]) -> Finding:
+def direct_solver(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2.1, Table 4.3: judged from bridge-sharp's start with inverted hexes, at the least delta."""
     found = [one for one in of_mesh(measured, "bridge-sharp", "laplacian") if one.experiment.delta is not None]
     for one in sorted(found, key=lambda one: one.experiment.delta):

@@ -21,25 +21,25 @@ from hexmend.study.claims.reading import (
     settled,
     tables,
 )
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: Qualities of one optimum as runs end: q min and q mean of the thesis's own in Table 4.15 differ by 0.0035 at most.
 _SAME_QUALITY = 0.005
 
 
 @judges("5.1, C", "Local and global optimisation reach the same optimum.")
-def same_optimum(measured: Sequence[Measured]) -> Finding:
+def same_optimum(measured: Sequence[ExperimentResult]) -> Finding:
     """5.1, Appendix C: "several examples", judged where both kinds converged from a valid start."""
     return _both_kinds(measured, tangled=False)
 
 
 @judges("5.1", "Local and global optimisation reach the same optimum where they have to untangle the mesh first, too.")
-def same_optimum_untangled(measured: Sequence[Measured]) -> Finding:
+def same_optimum_untangled(measured: Sequence[ExperimentResult]) -> Finding:
     """5.1, "untangling and smoothing": judged where both kinds converged from a start with inverted hexes."""
     return _both_kinds(measured, tangled=True)
 
 
-def _both_kinds(measured: Sequence[Measured], tangled: bool) -> Finding:
+def _both_kinds(measured: Sequence[ExperimentResult], tangled: bool) -> Finding:
     cases = []
     for one in tables(measured):
         local, everywhere = (
@@ -57,7 +57,7 @@ def _both_kinds(measured: Sequence[Measured], tangled: bool) -> Finding:
 
 
 @judges("4.1.1", "Where no hex is inverted, q norm is equivalent to the global objective.")
-def norm_is_objective(measured: Sequence[Measured]) -> Finding:
+def norm_is_objective(measured: Sequence[ExperimentResult]) -> Finding:
     """4.1.1: judged by the order of runs, as q norm is made of the hexes' q and (3.3) of their tetrahedra's."""
     cases = []
     for one in tables(measured):
@@ -75,7 +75,7 @@ def norm_is_objective(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.4", "On plane all optimisers that converge generate the same final quality.")
-def one_quality(measured: Sequence[Measured]) -> Finding:
+def one_quality(measured: Sequence[ExperimentResult]) -> Finding:
     """4.4."""
     cases = []
     for one in of_mesh(measured, "plane"):
@@ -94,7 +94,7 @@ def one_quality(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.4.1", "On plane optimisation ends at a higher quality, least and mean, than any other method.")
-def optimum_is_best(measured: Sequence[Measured]) -> Finding:
+def optimum_is_best(measured: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.14."""
     for one in of_mesh(measured, "plane", "initial"):
         rows, found = ended(one, "laplacian", "getme"), settled(one)
@@ -114,7 +114,7 @@ def optimum_is_best(measured: Sequence[Measured]) -> Finding:
     "Global steepest descent ends FiveSide60k at a higher least quality than any other method, and at a worse "
     "objective: its q norm is below theirs.",
 )
-def better_minimum(measured: Sequence[Measured]) -> Finding:
+def better_minimum(measured: Sequence[ExperimentResult]) -> Finding:
     """The remark below Table 4.8."""
     for one in tables(measured):
         if one.experiment.table == "4.8" and (descent := ended(one, "global-sd")) and (others := arrivals(one)):
@@ -127,7 +127,7 @@ def better_minimum(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("5.1", "Heuristic methods do not end at optimal places of the nodes.")
-def heuristics_not_optimal(measured: Sequence[Measured]) -> Finding:
+def heuristics_not_optimal(measured: Sequence[ExperimentResult]) -> Finding:
     """5.1: judged by q norm, against the optimum of the same mesh in whichever table."""
     cases = {}
     for one in tables(measured):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import arrived, end, ended, of_mesh
 from hexmend.study.table_row import Row
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import INITIAL
 
 #: From this delta on the optimum may be another (4.2.1): such a run is not compared.
@@ -39,14 +39,14 @@ class _Pair:
 @judges(
     "4.2.1", "On bridge-sharp local steepest descent converges faster from Laplacian smoothing's result or GETMe's."
 )
-def preconditioning_speeds(measured: Sequence[Measured]) -> Finding:
+def preconditioning_speeds(measured: Sequence[ExperimentResult]) -> Finding:
     """4.2.1, Tables 4.1 to 4.3: judged by iterations, which cost the same from any start."""
     pairs = _pairs(measured, "bridge-sharp")
     return tally([(one.arrives and one.after.iterations < one.alone.iterations, one.told) for one in pairs], _UNKNOWN)
 
 
 @judges("4.4.1", "On bridge-sharp the time of preconditioning is made up for by a faster optimisation.")
-def preconditioning_compensates(measured: Sequence[Measured]) -> Finding:
+def preconditioning_compensates(measured: Sequence[ExperimentResult]) -> Finding:
     """4.4.1 of Tables 4.1 to 4.3, whose figures say so of Laplacian smoothing alone: of GETMe, 852 s against 800."""
     cases = [
         (one.arrives and one.heuristic.seconds + one.after.seconds < one.alone.seconds, one.told)
@@ -56,7 +56,7 @@ def preconditioning_compensates(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.4.1", "On plane local steepest descent is faster from the mesh as it is than from GETMe's result.")
-def preconditioning_in_vain(measured: Sequence[Measured]) -> Finding:
+def preconditioning_in_vain(measured: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.15: by the seconds of local steepest descent alone."""
     cases = [
         (not one.arrives or one.alone.seconds < one.after.seconds, one.told)
@@ -66,7 +66,7 @@ def preconditioning_in_vain(measured: Sequence[Measured]) -> Finding:
     return tally(cases, _UNKNOWN)
 
 
-def _pairs(measured: Sequence[Measured], mesh: str) -> list[_Pair]:
+def _pairs(measured: Sequence[ExperimentResult], mesh: str) -> list[_Pair]:
     runs: dict[tuple[str, int], tuple[Row | None, Row, bool | None]] = {}
     for one in of_mesh(measured, mesh):
         start, delta = one.experiment.start, one.experiment.delta or 0

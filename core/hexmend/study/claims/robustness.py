@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from hexmend.study.claims.claim import Finding, judges, tally
 from hexmend.study.claims.reading import arrivals, arrived, end, ended, name, of_mesh, optimisers, tables
 from hexmend.study.table_row import Row
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: "Several": at least so many.
 _SEVERAL = 2
@@ -17,7 +17,7 @@ _HARD = "4.3", "4.4", "4.8", "4.9", "4.10", "4.15"
 
 
 @judges("4.3.1", "On several of the meshes of five-side a global method is not able to converge.")
-def several_fail(measured: Sequence[Measured]) -> Finding:
+def several_fail(measured: Sequence[ExperimentResult]) -> Finding:
     """4.3.1: of methods that had as much time as another took to the optimum."""
     found = list(of_mesh(measured, "five-side"))
     judged = [one for one in found if arrivals(one) and optimisers(one, "global-")]
@@ -33,7 +33,7 @@ def several_fail(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("4.4.1", "On plane global optimisation is not suitable.")
-def unsuitable_on_plane(measured: Sequence[Measured]) -> Finding:
+def unsuitable_on_plane(measured: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.15: steepest descent and Newton-Raphson fail, from either start, where a local method arrives."""
     cases = []
     for one in of_mesh(measured, "plane"):
@@ -47,7 +47,7 @@ def unsuitable_on_plane(measured: Sequence[Measured]) -> Finding:
 
 
 @judges("5.1", "Global methods are less robust than local ones.")
-def less_robust(measured: Sequence[Measured]) -> Finding:
+def less_robust(measured: Sequence[ExperimentResult]) -> Finding:
     """5.1: the share of their runs that arrive at the optimum, of those that had time for it."""
     shares = {scope: [there for *_, there in _runs(measured, scope)] for scope in ("global-", "local-")}
     if not all(shares.values()):
@@ -62,7 +62,7 @@ def less_robust(measured: Sequence[Measured]) -> Finding:
     "Global methods of second order have trouble on larger meshes, with a wide range of element sizes and with heavily "
     "inverted elements.",
 )
-def practical_issues(measured: Sequence[Measured]) -> Finding:
+def practical_issues(measured: Sequence[ExperimentResult]) -> Finding:
     """5.1: the share of Newton's runs that arrive in the tables of such meshes, against that in the others."""
     runs = [(one, row, there) for one, row, there in _runs(measured, "global-") if row.method != "global-sd"]
     hard, easy = ([it for it in runs if (it[0].experiment.table in _HARD) is kind] for kind in (True, False))
@@ -74,7 +74,7 @@ def practical_issues(measured: Sequence[Measured]) -> Finding:
     return shares[0] < shares[1], f"{told}. They fail in: {failed or 'none'}."
 
 
-def _runs(measured: Sequence[Measured], scope: str) -> Iterator[tuple[Measured, Row, bool]]:
+def _runs(measured: Sequence[ExperimentResult], scope: str) -> Iterator[tuple[ExperimentResult, Row, bool]]:
     """The runs of a scope that arrive or had time to, where any optimiser arrives."""
     for one in tables(measured):
         for row in optimisers(one, scope) if arrivals(one) else ():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from hexmend.study.claims.claim import Claim, Finding, judges
-from hexmend.study.outlook.experiments import Point, Tried, Variant
+from hexmend.study.outlook.experiments import Point, TrialResult, Variant
 
 #: An order pays where it arrives after less than this share of the sweeps by colour.
 _PAYS = 0.9
@@ -15,7 +15,7 @@ _PAYS = 0.9
     "5.2.5",
     "Patches of connected nodes, one after another, are a more efficient middle ground of local and global steps.",
 )
-def middle_ground(tried: Sequence[Tried]) -> Finding:
+def middle_ground(tried: Sequence[TrialResult]) -> Finding:
     """5.2.5: the fastest of the patches of several nodes against one node at a time, and all nodes at once."""
     told, faster = [], []
     for one in _of_section(tried, "5.2.5"):
@@ -39,7 +39,7 @@ def middle_ground(tried: Sequence[Tried]) -> Finding:
 
 
 @judges("5.2.6", "Visiting levels of nodes from the boundary inward takes fewer sweeps.")
-def from_the_boundary(tried: Sequence[Tried]) -> Finding:
+def from_the_boundary(tried: Sequence[TrialResult]) -> Finding:
     """5.2.6: the order inward against that by colour, by sweeps, for the methods that go to an optimum."""
     told, pays = [], []
     for one in _of_section(tried, "5.2.6"):
@@ -58,19 +58,19 @@ def from_the_boundary(tried: Sequence[Tried]) -> Finding:
 
 
 #: Every hope, in the order of the report.
-OUTLOOK_CLAIMS: tuple[Callable[[Sequence[Tried]], Claim], ...] = (middle_ground, from_the_boundary)
+OUTLOOK_CLAIMS: tuple[Callable[[Sequence[TrialResult]], Claim], ...] = (middle_ground, from_the_boundary)
 
 
-def _of_section(tried: Sequence[Tried], section: str) -> Iterator[Tried]:
+def _of_section(tried: Sequence[TrialResult], section: str) -> Iterator[TrialResult]:
     return (one for one in tried if one.outlook.section == section)
 
 
-def _arrival(one: Tried, run: Variant | None) -> Point | None:
+def _arrival(one: TrialResult, run: Variant | None) -> Point | None:
     optimum = one.optimum
     return None if run is None or optimum is None else run.arrival(optimum)
 
 
-def _first(one: Tried, runs: Iterable[Variant], key: Callable[[Point], float]) -> tuple[Variant, Point] | None:
+def _first(one: TrialResult, runs: Iterable[Variant], key: Callable[[Point], float]) -> tuple[Variant, Point] | None:
     """The run that arrived with the least of something, and its arrival; None where none did."""
     arrived = [(run, point) for run in runs if (point := _arrival(one, run)) is not None]
     return min(arrived, key=lambda pair: key(pair[1]), default=None)

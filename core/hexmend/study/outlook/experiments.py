@@ -10,7 +10,7 @@ from typing import Any
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
-from hexmend.run import Run, Stop
+from hexmend.run import Run, StoppingCriteria
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import Row, Watch, run_one
 
@@ -105,7 +105,7 @@ class Variant:
 
 
 @dataclass(frozen=True, eq=False)
-class Tried:
+class TrialResult:
     """What an outlook gave.
 
     Parameters
@@ -148,8 +148,8 @@ class Tried:
 
 
 def try_outlook(
-    outlook: Outlook, stop: Callable[[str], Stop], quick: bool, watch: Watch | None = None
-) -> tuple[Tried, bool]:
+    outlook: Outlook, stop: Callable[[str], StoppingCriteria], quick: bool, watch: Watch | None = None
+) -> tuple[TrialResult, bool]:
     """Run what an outlook asks for.
 
     Parameters
@@ -163,7 +163,7 @@ def try_outlook(
 
     Returns
     -------
-    tried : Tried
+    tried : TrialResult
     go_on : bool
         False where the user ended it.
     """
@@ -175,7 +175,7 @@ def try_outlook(
         variants.append(Variant(values, row, tuple(way.points)))
         if not go_on:
             break
-    return Tried(outlook, summarise(mesh), tuple(variants)), go_on
+    return TrialResult(outlook, summarise(mesh), tuple(variants)), go_on
 
 
 @dataclass

@@ -26,9 +26,9 @@ from hexmend.io import read, write
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.study.bench.default_method import real
-from hexmend.study.bench.section import Section
+from hexmend.study.bench.section import BenchSection
 from hexmend.study.peers.programs import GMSH, TMOP
 
 #: Gallery meshes by name, size and scramble.
@@ -87,7 +87,7 @@ def _hexsmoothing(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray,
 
 
 def _hexmend(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, float]:
-    result = smooth(mesh, "mend", Stop(max_iterations=1000, max_seconds=seconds))
+    result = smooth(mesh, "mend", StoppingCriteria(max_iterations=1000, max_seconds=seconds))
     return result.mesh.points, result.seconds + result.setup_seconds
 
 
@@ -162,4 +162,4 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     return lines + [f"absent: {name} ({why})" for name, why in figures["absent"].items()]
 
 
-PEERS = Section("peers", "Beside other programs, the boundary fixed", _peers, _lines)
+PEERS = BenchSection("peers", "Beside other programs, the boundary fixed", _peers, _lines)

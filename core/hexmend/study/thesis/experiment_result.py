@@ -13,7 +13,7 @@ from hexmend.study.thesis.experiments import INITIAL, Experiment
 
 
 @dataclass(frozen=True, eq=False)
-class Measured:
+class ExperimentResult:
     """An experiment with our figures.
 
     Parameters

@@ -13,7 +13,7 @@ from typing import Any
 
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers import Smoother
 from hexmend.study.outlook.experiments import Outlook, outlooks
 from hexmend.study.thesis.settings import Settings
@@ -73,7 +73,7 @@ class Experiments:
     settings : Settings
         Of the methods in experiments.
     move, tolerance : str, float
-        Of `Stop`.
+        Of `StoppingCriteria`.
     tolerance_of : mapping
         Tolerances of methods for which it is another.
     """
@@ -84,8 +84,8 @@ class Experiments:
     quick_seconds: Mapping[str, float] = field(default_factory=dict)
     outlooks: tuple[Outlook, ...] = ()
     settings: Settings = field(default_factory=Settings)
-    move: str = Stop().move
-    tolerance: float = Stop().tolerance
+    move: str = StoppingCriteria().move
+    tolerance: float = StoppingCriteria().tolerance
     tolerance_of: Mapping[str, float] = field(default_factory=dict)
 
     def smoother(self, experiment: Experiment, name: str) -> Smoother:
@@ -97,16 +97,16 @@ class Experiments:
         """The same with another limit of the time of every run."""
         return replace(self, seconds=dict.fromkeys(self.seconds, seconds), quick_seconds={})
 
-    def stop(self, method: str, quick: bool) -> Stop:
+    def stop(self, method: str, quick: bool) -> StoppingCriteria:
         """The limits of a run; what the thesis tells of a method is its last iterate."""
         tolerance = self.tolerance_of.get(method, self.tolerance)
         return replace(self.outlook_stop(method, quick), move=self.move, tolerance=tolerance)
 
-    def outlook_stop(self, method: str, quick: bool) -> Stop:
+    def outlook_stop(self, method: str, quick: bool) -> StoppingCriteria:
         """The same of an outlook, which converges as runs do by default."""
-        limit = self.iterations.get(method, Stop().max_iterations)
+        limit = self.iterations.get(method, StoppingCriteria().max_iterations)
         seconds = self.quick_seconds.get(method, self.seconds["quick"]) if quick else self.seconds["full"]
-        return Stop(max_iterations=limit, max_seconds=seconds, keep_last=True)
+        return StoppingCriteria(max_iterations=limit, max_seconds=seconds, keep_last=True)
 
 
 def load(source: Path | Traversable | None = None) -> Experiments:
@@ -128,8 +128,8 @@ def load(source: Path | Traversable | None = None) -> Experiments:
         data.get("quick_seconds", {}),
         outlooks(data.get("outlook", ())),
         Settings(data.get("settings", {})),
-        data.get("move", Stop().move),
-        data.get("tolerance", Stop().tolerance),
+        data.get("move", StoppingCriteria().move),
+        data.get("tolerance", StoppingCriteria().tolerance),
         data.get("tolerance_of", {}),
     )
 

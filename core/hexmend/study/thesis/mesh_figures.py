@@ -14,7 +14,7 @@ from typing import Any
 from hexmend.errors import HexmendError
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import INITIAL
 
 
@@ -77,14 +77,14 @@ MESH_FIGURES = (
 
 
 def draw_figures(
-    folder: Path, measured: Sequence[Measured], formats: Sequence[str] = ("png",)
+    folder: Path, measured: Sequence[ExperimentResult], formats: Sequence[str] = ("png",)
 ) -> tuple[list[dict[str, Any]], str]:
     """Draw the figures of what was measured.
 
     Parameters
     ----------
     folder : Path
-    measured : sequence of Measured
+    measured : sequence of ExperimentResult
     formats : sequence of str
         Suffixes without the dot, of one file each.
 
@@ -113,7 +113,7 @@ def draw_figures(
     return drawn, f"Without {names}, of meshes: {problem}" if missing else ""
 
 
-def _state(figure: MeshFigure, measured: Sequence[Measured]) -> tuple[Mesh, Summary] | None:
+def _state(figure: MeshFigure, measured: Sequence[ExperimentResult]) -> tuple[Mesh, Summary] | None:
     """What a figure shows: the mesh of the thesis's size, or what was measured on the largest that there is."""
     found = [one for one in measured if one.experiment.mesh == figure.mesh]
     if figure.shows != "section":

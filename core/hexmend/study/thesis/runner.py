@@ -13,9 +13,9 @@ from hexmend.quality import Summary, summarise
 from hexmend.smoothers import Smoother
 from hexmend.study.claims import CLAIMS
 from hexmend.study.outlook.claims import OUTLOOK_CLAIMS
-from hexmend.study.outlook.experiments import Tried, try_outlook
+from hexmend.study.outlook.experiments import TrialResult, try_outlook
 from hexmend.study.table_row import Row, Watch, run_one
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import INITIAL, Experiment, Experiments
 
 
@@ -25,9 +25,9 @@ class Study:
 
     Parameters
     ----------
-    measured : tuple of Measured
+    measured : tuple of ExperimentResult
         In the order of the tables; the last may lack columns where the study was interrupted.
-    tried : tuple of Tried
+    tried : tuple of TrialResult
         The outlooks of section 5.2.
     quick : bool
         Whether the meshes were the small ones.
@@ -38,8 +38,8 @@ class Study:
     interrupted : bool
     """
 
-    measured: tuple[Measured, ...]
-    tried: tuple[Tried, ...]
+    measured: tuple[ExperimentResult, ...]
+    tried: tuple[TrialResult, ...]
     quick: bool
     seconds: float
     own_seconds: Mapping[str, float]
@@ -81,7 +81,7 @@ def run_experiments(
     *,
     quick: bool = False,
     watch: Watch | None = None,
-    done: Callable[[Measured | Tried], Any] | None = None,
+    done: Callable[[ExperimentResult | TrialResult], Any] | None = None,
 ) -> Study:
     """Run experiments one after another.
 
@@ -99,7 +99,7 @@ def run_experiments(
     """
     laboratory = _Laboratory(thesis, quick, watch)
     measured = []
-    tried: list[Tried] = []
+    tried: list[TrialResult] = []
     try:
         for experiment in thesis.experiments:
             measured.append(laboratory.measure(experiment))
@@ -143,7 +143,7 @@ class _Laboratory:
         self._rows: dict[tuple[object, ...], Row] = {}
         self.interrupted = False
 
-    def measure(self, experiment: Experiment) -> Measured:
+    def measure(self, experiment: Experiment) -> ExperimentResult:
         mesh, initial = self._mesh(experiment)
         rows = {}
         start = mesh
@@ -154,7 +154,7 @@ class _Laboratory:
             if self.interrupted:
                 break
             rows[method] = self._row(experiment, experiment.start, start, method)
-        return Measured(experiment, mesh, initial, rows)
+        return ExperimentResult(experiment, mesh, initial, rows)
 
     def _mesh(self, experiment: Experiment) -> tuple[Mesh, Summary]:
         key = (experiment.mesh, experiment.asked(self._quick))

@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton, QTableView, QWidget
 
 from hexmend.report.comparison import LINES
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend_app.canvas.captions import CaptionRow
 from hexmend_app.features.compare.comparison_table import METHOD
 from tests.app.driving import LEFT, choose, named
@@ -15,7 +15,7 @@ from tests.app.driving import LEFT, choose, named
 COLUMN = {figure.key: at for at, figure in enumerate(LINES, 2)}
 
 
-SHORT, ENDLESS = Stop(max_iterations=4), Stop(max_iterations=100_000, tolerance=0.0)
+SHORT, ENDLESS = StoppingCriteria(max_iterations=4), StoppingCriteria(max_iterations=100_000, tolerance=0.0)
 
 
 def table_of(window):

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QLabel
 
 from hexmend import io
 from hexmend.gallery import make
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend_app.features.compare.comparison_table import VIEW
@@ -58,7 +58,7 @@ def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
 def test_what_is_worse_than_the_initial_mesh_stands_out(comparing, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", make("bridge-sharp", size=864))
     open_and_wait(qtbot, comparing, tmp_path / "sound.vtu")
-    choose(comparing, "laplacian", Stop(keep_last=True))
+    choose(comparing, "laplacian", StoppingCriteria(keep_last=True))
     choose_methods(comparing, "laplacian", "smart-laplacian")
     press(button(comparing, "Run the comparison"))
     qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)

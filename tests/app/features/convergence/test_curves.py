@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.run import Stop, iterate
+from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.curves import Columns, Curve, beginning, thinned
@@ -18,7 +18,7 @@ def recorded(method, iterations=6, parent=None):
     history = History()
     record = history.begin(METHODS[method].title, START)
     record.parent = parent
-    run = iterate(START.mesh, METHODS[method](), Stop(max_iterations=iterations, tolerance=0))
+    run = iterate(START.mesh, METHODS[method](), StoppingCriteria(max_iterations=iterations, tolerance=0))
     history.add(record, run.start)
     for iteration in run:
         history.add(record, iteration)

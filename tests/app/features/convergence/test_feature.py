@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend_app.bench.windows import end_run
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, choose, click, phase, press
@@ -26,7 +26,7 @@ def panel(window, qtbot):
 
 
 def run(window, qtbot, method="local-sd", iterations=8):
-    choose(window, method, Stop(max_iterations=iterations, tolerance=0))
+    choose(window, method, StoppingCriteria(max_iterations=iterations, tolerance=0))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     window.refresh()
@@ -76,7 +76,7 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
     drawn = []
     original = panel.set_curves
     panel.set_curves = lambda curves: (drawn.append(len(curves[0].columns) if curves else 0), original(curves))
-    choose(window, "local-sd", Stop(max_iterations=100_000, tolerance=0))
+    choose(window, "local-sd", StoppingCriteria(max_iterations=100_000, tolerance=0))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     drawn.clear()

@@ -10,7 +10,7 @@ from PIL import Image
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.clip import PlaneClip
@@ -31,7 +31,7 @@ def moved(window, qtbot, tmp_path):
     window.refresh()
     kept = window.canvas.viewport.kept()
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
-        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=5, tolerance=0)))
+        window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=5, tolerance=0)))
     window.refresh()
     np.testing.assert_array_equal(window.canvas.viewport.kept(), kept)
     window.features["save"].save_and_wait(tmp_path / "mesh.vtu")

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QLabel, QPushButton
 
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
@@ -85,14 +85,14 @@ def test_all_is_mended_at_once_and_methods_run_on_the_mended_mesh(window, panel,
     session = window.session
     assert session.document.start.mesh is session.document.now.mesh
     with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
-        session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
+        session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
     session.commands.reset()
     assert session.document.now.mesh.n_nodes == 112
 
 
 def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
     session = window.session
-    session.commands.step(Stage(METHODS["laplacian"](), Stop(max_iterations=30, tolerance=0)), 1)
+    session.commands.step(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=30, tolerance=0)), 1)
     qtbot.waitUntil(lambda: session.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     press(buttons(panel, "Show")[0])
     assert set(range(27, 54)) == set(session.view.look.isolation.hexes)

@@ -9,7 +9,7 @@ from PIL import Image
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QPushButton
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.cli import figure_set
@@ -32,7 +32,7 @@ def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtb
     stepped(window, qtbot, 4)
     end_run(window.session)
     comparison = window.session.comparison
-    comparison.start([METHODS["laplacian"](), METHODS["getme"]()], Stop(max_iterations=3))
+    comparison.start([METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=3))
     qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
     names = [name for name, *_ in shown_in(window.session)]
     assert names == ["initial", "Local steepest descent", "Laplacian", "GETMe, simultaneous"]

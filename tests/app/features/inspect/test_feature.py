@@ -11,9 +11,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit
 
 from hexmend import io
-from hexmend.boundary import Kind
+from hexmend.boundary import NodeClass
 from hexmend.quality import METRICS
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.scene.palette import KEPT
 from hexmend_app.shell.palette import CommandPalette
@@ -90,7 +90,7 @@ def test_the_worst_alone_is_drawn_and_its_neighbours_are_ghosts(window):
 def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
     key(window, Qt.Key.Key_N)
     worst = window.session.selection.hex
-    choose(window, window.session.order.method, Stop(tolerance=1e-2))
+    choose(window, window.session.order.method, StoppingCriteria(tolerance=1e-2))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     window.show_panel("worst")
@@ -175,7 +175,7 @@ def test_what_a_node_of_the_boundary_may_do_is_said(window, qtbot):
     window.show_panel("show")
     window.refresh()
     qtbot.waitUntil(lambda: window.session.classer.of(mesh) is not None, timeout=PATIENCE)
-    node = int(np.flatnonzero(window.session.classer.classes.kinds == Kind.CORNER)[0])
+    node = int(np.flatnonzero(window.session.classer.classes.kinds == NodeClass.CORNER)[0])
     window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
     window.refresh()
     said = [label.text() for label in window.features["inspect"].panel.findChildren(QLabel)]

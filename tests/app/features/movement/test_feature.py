@@ -10,7 +10,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel
 
 from hexmend import gallery, io
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.scene.export.film import pictures
@@ -33,7 +33,7 @@ def panel(window, qtbot):
 @pytest.fixture
 def record(window, qtbot):
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
-        window.session.smoothing.start(METHODS["laplacian"](), Stop(max_iterations=6, tolerance=0))
+        window.session.smoothing.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=6, tolerance=0))
     return window.session.smoothing.record
 
 
@@ -207,7 +207,7 @@ def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
     press(panel.since, "iteration")
     seen = set()
     window.session.document.points_moved.connect(lambda: seen.add(window.canvas.viewport.colouring.title))
-    window.session.smoothing.start(METHODS["local-sd"](), Stop(max_iterations=100_000, tolerance=0))
+    window.session.smoothing.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=100_000, tolerance=0))
     qtbot.waitUntil(lambda: len(seen) > 3, timeout=PATIENCE)
     end_run(window.session)
     assert all(title.startswith("mean edge lengths moved since") for title in seen)

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QPushButton
 
-from hexmend.node_step import Trial, Verdict, explain
+from hexmend.node_step import StepStatus, Trial, explain
 from hexmend.smoothers import METHODS
 from hexmend_app.features.node.panel import NodePanel
 from hexmend_app.features.node.plot import NodePlot, extent
@@ -32,10 +32,10 @@ def row(step, name):
 
 def test_a_move_of_a_rounding_error_is_none():
     step = step_of("local-sd")
-    assert verdict(step) is Verdict.MOVED
+    assert verdict(step) is StepStatus.MOVED
     nudged = dataclasses.replace(step, after=step.before + 1e-17)
-    assert verdict(nudged) is Verdict.THERE
-    assert verdict(dataclasses.replace(nudged, verdict=Verdict.TAKEN_BACK)) is Verdict.TAKEN_BACK
+    assert verdict(nudged) is StepStatus.THERE
+    assert verdict(dataclasses.replace(nudged, verdict=StepStatus.TAKEN_BACK)) is StepStatus.TAKEN_BACK
 
 
 def test_an_eigenvalue_below_zero_is_called_a_saddle():
@@ -55,7 +55,7 @@ def test_what_is_infinite_is_said_and_not_drawn(shown):
     nothing = np.full(3, np.nan)
     step = dataclasses.replace(
         step_of("local-sd"), energy=np.inf, energy_after=np.inf, gradient=nothing, hessian=np.full((3, 3), np.nan),
-        curve=np.empty((0, 2)), trials=(), alpha=0.0, verdict=Verdict.INFINITE,
+        curve=np.empty((0, 2)), trials=(), alpha=0.0, verdict=StepStatus.INFINITE,
     )  # fmt: skip
     assert row(step, "Energy").value.startswith("∞")
     assert not [one for one in rows(step) if one.name == "Eigenvalues"]

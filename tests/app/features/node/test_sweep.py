@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
-from hexmend.node_step import Verdict
+from hexmend.node_step import StepStatus
 from hexmend.smoothers import METHODS
 from hexmend_app.state.run import Phase
 from tests.app.driving import choose_by_keys, click, key, phase, press
@@ -23,7 +23,7 @@ def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot)
     start = window.session.document.now
     press(button(window, "Next node"))
     step = wait_for_step(window, qtbot, "local-sd")
-    assert step.verdict is Verdict.MOVED
+    assert step.verdict is StepStatus.MOVED
     points = window.session.document.now.mesh.points
     np.testing.assert_array_equal(points[step.node], step.after)
     assert (points != start.mesh.points).any(axis=1).sum() == 1

@@ -12,7 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 
 from hexmend import gallery, io
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state import opener
@@ -113,7 +113,7 @@ def test_a_bad_file_is_said_in_the_window_and_the_open_mesh_stays(window, qtbot,
 
 
 def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
-    choose(window, "local-sd", Stop(tolerance=0.0))
+    choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     open_and_wait(qtbot, window, mesh_file)

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QPushButton
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.clip import PlaneClip
@@ -64,7 +64,7 @@ def test_a_picture_brings_back_mesh_look_and_camera(window, qtbot, mesh, tmp_pat
 @pytest.mark.slow
 def test_what_ran_comes_back_as_a_recipe(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
-    stage = Stage(METHODS["laplacian"](), Stop(max_iterations=3))
+    stage = Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         window.session.commands.run(stage)
     window.refresh()

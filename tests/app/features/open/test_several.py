@@ -8,7 +8,7 @@ import pytest
 from hexmend import io
 from hexmend.cli.main import main
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.scene import Panel, Scene, Wiped, write_scene
@@ -64,7 +64,7 @@ def test_a_wipe_comes_back_with_its_edge(window, qtbot, files, tmp_path):
 
 def run(window, qtbot):
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
-        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=3, tolerance=0)))
+        window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0)))
     window.refresh()
 
 

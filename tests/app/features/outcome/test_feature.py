@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 
 from hexmend import gallery, io
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend_app.state.run import Phase
 from tests.app.driving import choose, click, key, open_and_wait, phase
 from tests.app.driving import press as press_button
@@ -19,7 +19,7 @@ from tests.patience import PATIENCE
 
 def run(window, qtbot, method, **stop):
     """Run a method from its button to its end, and bring what explains it to the front."""
-    choose(window, method, Stop(**stop))
+    choose(window, method, StoppingCriteria(**stop))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     window.show_panel("outcome")
@@ -63,7 +63,7 @@ def test_before_a_run_it_says_what_it_is_for(window, qtbot):
 
 def test_a_run_that_ends_is_explained_before_everything_else(window, qtbot):
     assert not window.features["outcome"].panel.isVisible()
-    choose(window, "laplacian", Stop(keep_last=True))
+    choose(window, "laplacian", StoppingCriteria(keep_last=True))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     key(window, Qt.Key.Key_Y)
@@ -81,8 +81,8 @@ def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
     assert left > 0
     press(window, "Choose: Mend")
     assert window.session.order.method == "mend"
-    assert window.session.order.stage.stop == Stop()  # or one iteration would not help either
-    assert window.features["smooth"].panel.stage.stop.values() == Stop().values()
+    assert window.session.order.stage.stop == StoppingCriteria()  # or one iteration would not help either
+    assert window.features["smooth"].panel.stage.stop.values() == StoppingCriteria().values()
     assert window.session.smoothing.phase is Phase.FINISHED
     click(window, "Run")
     qtbot.waitUntil(lambda: window.session.smoothing.busy, timeout=PATIENCE)
@@ -95,7 +95,7 @@ def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
 
 def test_while_a_run_goes_on_it_says_so(window, qtbot):
     window.show_panel("outcome")
-    choose(window, "laplacian", Stop(tolerance=0, max_iterations=1_000_000))
+    choose(window, "laplacian", StoppingCriteria(tolerance=0, max_iterations=1_000_000))
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     assert "A run is under way" in said(window)

@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtWidgets import QLabel
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.features.outcome.feature import FeatureOutcome
 from tests.app.hosting import PlainHost
@@ -24,7 +24,7 @@ def said(host, qtbot):
     feature = FeatureOutcome(host)
     qtbot.addWidget(feature.panel)
     with qtbot.waitSignal(host.session.smoothing.ended, timeout=PATIENCE):
-        host.session.smoothing.start(LocalSteepestDescent(), Stop(tolerance=0, max_iterations=8))
+        host.session.smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=8))
 
     def say():
         feature.refresh()

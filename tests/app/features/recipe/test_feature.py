@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QLabel, QLineEdit, QListWidget, QPushButton
 
-from hexmend.iteration import Stop
+from hexmend.iteration import StoppingCriteria
 from hexmend.run import smooth
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Recipe, Stage
@@ -18,7 +18,7 @@ from hexmend_app.widgets.section import Section
 from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
 from tests.patience import PATIENCE
 
-SHORT = Stop(max_iterations=3, tolerance=0)
+SHORT = StoppingCriteria(max_iterations=3, tolerance=0)
 
 
 @pytest.fixture
@@ -92,9 +92,9 @@ def test_an_empty_recipe_offers_nothing_to_run(window, panel):
 
 
 def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
-    add(window, panel, "getme", stop=Stop(max_iterations=20))
+    add(window, panel, "getme", stop=StoppingCriteria(max_iterations=20))
     add(window, panel, "local-sd", {"p": 4.0})
-    add(window, panel, "mend", {"guard": True}, Stop())
+    add(window, panel, "mend", {"guard": True}, StoppingCriteria())
     assert stages(panel) == [
         "1  GETMe, simultaneous (at most 20 iterations)",
         "2  Local steepest descent (p 4, at most 3 iterations, tolerance 0)",
@@ -114,7 +114,7 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
 
 def test_enter_shows_a_stage_above(window, panel):
     add(window, panel, "local-sd", {"p": 4.0})
-    add(window, panel, "mend", stop=Stop())
+    add(window, panel, "mend", stop=StoppingCriteria())
     click_on(panel, 0)
     QTest.keyClick(panel.findChild(QListWidget), Qt.Key.Key_Return)
     assert window.session.order.stage == Stage(METHODS["local-sd"](p=4.0), SHORT)
@@ -153,8 +153,8 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
 
 @pytest.mark.slow
 def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, qtbot):
-    add(window, panel, "getme", stop=Stop(max_iterations=100_000, tolerance=0))
-    add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
+    add(window, panel, "getme", stop=StoppingCriteria(max_iterations=100_000, tolerance=0))
+    add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
     key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
     window.session.smoothing.pause()
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
@@ -173,8 +173,8 @@ def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, q
 
 @pytest.mark.slow
 def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel, qtbot):
-    add(window, panel, "local-sd", stop=Stop(max_iterations=2, tolerance=0))
-    add(window, panel, "local-sd", stop=Stop(max_iterations=3, tolerance=0))
+    add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
+    add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=3, tolerance=0))
     choose(window, "laplacian")
     window.session.smoothing.break_at(Breakpoints(node=free_node(window), move=0.0))
     press(button(panel, "Run recipe"))

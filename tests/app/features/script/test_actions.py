@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFileDialog
 from hexmend import io
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.features.film.film_dialog import FilmDialog
@@ -18,7 +18,7 @@ from hexmend_app.state.run import Phase
 from tests.app.driving import choose, phase
 from tests.patience import PATIENCE
 
-ENDLESS = Stop(max_iterations=100_000, tolerance=0)
+ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)
 
 #: What needs no line: it neither changes the mesh, nor writes a file of it, nor changes what a scene holds.
 UNTOLD = {
@@ -98,8 +98,8 @@ def others(window, qtbot, tmp_path, monkeypatch):
 
     def short(method):
         idle()
-        choose(window, method, Stop(max_iterations=2, tolerance=0))
-        session.chain.take(Recipe.of(Stage(METHODS["laplacian"](), Stop(max_iterations=2, tolerance=0))))
+        choose(window, method, StoppingCriteria(max_iterations=2, tolerance=0))
+        session.chain.take(Recipe.of(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, tolerance=0))))
 
     return {
         "view_x": lambda: window.action("copy_camera").trigger(),

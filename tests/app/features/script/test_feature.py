@@ -6,7 +6,7 @@ import sys
 import pytest
 from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushButton
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.state.run import Phase
 from tests.app.driving import choose, click, named, phase, press
@@ -34,7 +34,7 @@ def shown(window, panel):
 def test_what_is_done_is_seen_as_it_is_done(window, panel, qtbot):
     assert "import hexmend as hx" in shown(window, panel)
     before = shown(window, panel)
-    choose(window, "local-sd", Stop(max_iterations=2, tolerance=0))
+    choose(window, "local-sd", StoppingCriteria(max_iterations=2, tolerance=0))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     done = before.partition("# What is seen now")[0].rstrip()

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import save_and_wait
@@ -23,7 +23,7 @@ from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
-SHORT = Stop(max_iterations=4, tolerance=0)
+SHORT = StoppingCriteria(max_iterations=4, tolerance=0)
 
 #: Columns that are other figures each time.
 CLOCKS = ("seconds", "setup_seconds", "message")
@@ -156,7 +156,7 @@ def test_a_table_of_methods_and_what_was_taken_of_it(window, qtbot, script, tmp_
 
 def test_a_comparison_that_was_ended_ends_where_it_did(window, qtbot, script, tmp_path):
     comparison = window.session.comparison
-    comparison.start([METHODS["laplacian"](), METHODS["local-sd"](), METHODS["getme"]()], Stop(10**6, 0.0))
+    comparison.start([METHODS["laplacian"](), METHODS["local-sd"](), METHODS["getme"]()], StoppingCriteria(10**6, 0.0))
     qtbot.waitUntil(lambda: comparison.progress.iteration > 2, timeout=PATIENCE)
     comparison.cancel()
     qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)

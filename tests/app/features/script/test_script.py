@@ -11,7 +11,7 @@ from hexmend import io
 from hexmend.doctor import examine
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import save_and_wait
@@ -21,8 +21,8 @@ from hexmend_app.state.scene import Scene
 from hexmend_app.state.session import Session
 from tests.patience import PATIENCE
 
-SHORT = Stop(max_iterations=6, tolerance=0)
-ENDLESS = Stop(max_iterations=100_000, tolerance=0)
+SHORT = StoppingCriteria(max_iterations=6, tolerance=0)
+ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)
 
 
 def stage(method, stop=SHORT, **values):
@@ -92,7 +92,8 @@ def test_a_run_is_one_line(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
     text = same_again(session, tmp_path)
     assert (
-        "mesh_1 = hx.smooth(mesh_0, hx.LocalSteepestDescent(), hx.Stop(max_iterations=6, tolerance=0.0)).mesh" in text
+        "mesh_1 = hx.smooth(mesh_0, hx.LocalSteepestDescent(), hx.StoppingCriteria(max_iterations=6, tolerance=0.0)).mesh"
+        in text
     )
     assert "hx.write(" in text
 
@@ -132,7 +133,7 @@ def test_a_run_that_was_changed_on_the_way_is_changed_again(session, qtbot, tmp_
     paused(qtbot, session, stage("local-sd", ENDLESS), 3)
     session.smoothing.change(stage("laplacian", ENDLESS))
     paused(qtbot, session, None, 2)
-    session.smoothing.change(stage("laplacian", Stop(max_iterations=9, tolerance=0)))
+    session.smoothing.change(stage("laplacian", StoppingCriteria(max_iterations=9, tolerance=0)))
     with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
         session.smoothing.resume()
     text = same_again(session, tmp_path)
@@ -141,7 +142,7 @@ def test_a_run_that_was_changed_on_the_way_is_changed_again(session, qtbot, tmp_
 
 @pytest.mark.slow
 def test_what_ended_by_the_clock_has_a_limit_of_iterations(session, qtbot, tmp_path):
-    timed = Stop(max_iterations=100_000, tolerance=0, max_seconds=0.05)
+    timed = StoppingCriteria(max_iterations=100_000, tolerance=0, max_seconds=0.05)
     run(qtbot, session, Recipe.of(stage("local-sd", timed), stage("laplacian")))
     run(qtbot, session, stage("local-sd", timed))
     assert "max_seconds" not in same_again(session, tmp_path)

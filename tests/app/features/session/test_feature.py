@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session import VERSION
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
@@ -28,7 +28,7 @@ pytestmark = pytest.mark.slow
 
 def run(window, qtbot, method, iterations=4):
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
-        window.session.commands.run(Stage(METHODS[method](), Stop(max_iterations=iterations, tolerance=0)))
+        window.session.commands.run(Stage(METHODS[method](), StoppingCriteria(max_iterations=iterations, tolerance=0)))
     window.refresh()
 
 
@@ -41,11 +41,11 @@ def work(window, qtbot):
     run(window, qtbot, "local-sd", 3)
     session.kept.keep("a kept moment", session.document.now)
     with qtbot.waitSignal(session.comparison.changed, timeout=PATIENCE):
-        session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], Stop(max_iterations=2))
+        session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=2))
     qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
     session.timeline.go(session.history.records[0], 2)
-    session.order.choose(Stage(METHODS["getme"](relaxation=0.6), Stop(max_iterations=77)), "a reason")
-    session.chain.add(Stage(METHODS["laplacian"](), Stop(max_iterations=5)))
+    session.order.choose(Stage(METHODS["getme"](relaxation=0.6), StoppingCriteria(max_iterations=77)), "a reason")
+    session.chain.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=5)))
     session.chain.rename("two of them")
     window.features["smooth"].panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True, node=12, move=0.25))
     session.view.change(

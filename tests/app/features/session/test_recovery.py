@@ -12,7 +12,7 @@ import sys
 import pytest
 from PySide6.QtWidgets import QPushButton
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state import session_data
@@ -27,7 +27,7 @@ _PROGRAM = """
 import hashlib, json, sys
 from pathlib import Path
 from hexmend.run.recipe import Stage
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.shell.program import application
 from hexmend_app.shell.window import Window
@@ -41,7 +41,7 @@ session, feature = window.session, window.features["session"]
 
 def smooth(_):
     session.view.change(peel=1)
-    session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=5)))
+    session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=5)))
 
 def tell():
     now = session.document.now
@@ -86,7 +86,7 @@ def choice(window, word):
 
 def run(window, qtbot):
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
-        window.session.commands.run(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
+        window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
 
 
 def test_what_a_killed_window_had_is_recovered(killed, fresh_window, qtbot, mesh_file, own_state):

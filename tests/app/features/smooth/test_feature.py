@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QMessageBox
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend_app.state import worker
 from hexmend_app.state.run import Phase
 from hexmend_app.state.task import running
@@ -24,7 +24,7 @@ CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftM
 @pytest.fixture
 def endless(window):
     """The window with a method at hand that does not end before it is stopped."""
-    choose(window, "local-sd", Stop(tolerance=0.0))
+    choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
     return window
 
 
@@ -64,7 +64,7 @@ def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
 
 
 def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
-    choose(window, "mend", Stop(tolerance=1e-2))
+    choose(window, "mend", StoppingCriteria(tolerance=1e-2))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         key(window, Qt.Key.Key_F5)
     assert window.session.document.start.summary.inverted > 0
@@ -75,7 +75,7 @@ def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
 @pytest.mark.parametrize("back", [Qt.Key.Key_Z, Qt.Key.Key_R], ids=["undo", "reset"])
 def test_what_is_said_of_a_run_goes_as_its_result_does_and_comes_back_with_it(window, qtbot, back):
     panel, before = window.features["smooth"].panel, counts(window)
-    choose(window, "laplacian", Stop(tolerance=0.0, max_iterations=3))
+    choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     after, said, progress = counts(window), sentence(window), named(panel, QLabel, "Progress").text()
@@ -160,7 +160,7 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
 @pytest.fixture
 def running_window(fresh_window, qtbot):
     """A window of the test's own in which a method runs that does not end."""
-    choose(fresh_window, "local-sd", Stop(tolerance=0.0))
+    choose(fresh_window, "local-sd", StoppingCriteria(tolerance=0.0))
     click(fresh_window, "Run")
     qtbot.waitUntil(phase(fresh_window, Phase.RUNNING), timeout=PATIENCE)
     return fresh_window

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMessageBox
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state import commands
@@ -39,7 +39,7 @@ def asked(window, monkeypatch):
 def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
     session = window.session
     before = session.document.now
-    choose(window, "mend", Stop(max_iterations=2))
+    choose(window, "mend", StoppingCriteria(max_iterations=2))
     for begin in (lambda: click(window, "Run"), lambda: click(window, "Step"), lambda: key(window, Qt.Key.Key_F5)):
         begin()
         assert session.smoothing.phase is Phase.IDLE
@@ -57,7 +57,7 @@ def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
 
 @pytest.mark.slow
 def test_nothing_is_asked_where_memory_suffices(window, qtbot, asked):
-    choose(window, "laplacian", Stop(max_iterations=2))
+    choose(window, "laplacian", StoppingCriteria(max_iterations=2))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     assert not asked
@@ -65,8 +65,8 @@ def test_nothing_is_asked_where_memory_suffices(window, qtbot, asked):
 
 def test_a_recipe_and_a_comparison_ask_too(window, asked):
     session = window.session
-    session.chain.add(Stage(METHODS["laplacian"](), Stop(max_iterations=2)))
-    session.chain.add(Stage(METHODS["mend"](), Stop(max_iterations=2)))
+    session.chain.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
+    session.chain.add(Stage(METHODS["mend"](), StoppingCriteria(max_iterations=2)))
     window.features["recipe"].run()
     assert session.smoothing.phase is Phase.IDLE
     window.features["compare"].panel.run_requested.emit(["laplacian", "mend"])
@@ -75,11 +75,11 @@ def test_a_recipe_and_a_comparison_ask_too(window, asked):
 
 
 def test_a_branch_that_is_not_agreed_leaves_the_run_under_way(window, qtbot, asked):
-    choose(window, "laplacian", Stop(tolerance=0.0))
+    choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     record = window.session.smoothing.record
-    window.session.commands.branch(Stage(METHODS["mend"](), Stop()))
+    window.session.commands.branch(Stage(METHODS["mend"](), StoppingCriteria()))
     assert len(asked) == 1
     assert window.session.smoothing.phase is Phase.PAUSED
     assert window.session.smoothing.record is record

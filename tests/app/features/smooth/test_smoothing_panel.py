@@ -5,7 +5,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QScrollArea
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
@@ -22,7 +22,7 @@ _SIGNALS = (
     "stop_requested",
     "reset_requested",
 )
-_STAGE = Stage(METHODS["getme"](scaling=0.25), Stop(max_iterations=7))
+_STAGE = Stage(METHODS["getme"](scaling=0.25), StoppingCriteria(max_iterations=7))
 
 
 @pytest.fixture
@@ -106,7 +106,7 @@ def test_keys_choose_a_method_and_each_keeps_its_values(panel, order):
 
 
 def test_what_somebody_else_chooses_is_shown(panel, order, heard):
-    order.choose(Stage(METHODS["laplacian"](), Stop(max_iterations=3)))
+    order.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3)))
     assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
     assert panel.stage.stop.values()["max_iterations"] == 3
     assert heard == []

@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit
 
 from hexmend import gallery, io
-from hexmend.boundary import Kind
+from hexmend.boundary import NodeClass
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import structure
@@ -48,25 +48,25 @@ def test_kinds_of_nodes_are_found_when_they_are_wanted_and_follow_the_feature_an
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
     panel = five.features["structure"].panel
     classes = five.session.classer.classes
-    assert texts(panel, "kinds")[0] == f"{classes.count(Kind.CORNER)} corners"
-    assert count(pixels(five), KINDS[Kind.PATCH]) > 100
-    assert classes.count(Kind.CURVE)
+    assert texts(panel, "kinds")[0] == f"{classes.count(NodeClass.CORNER)} corners"
+    assert count(pixels(five), KINDS[NodeClass.PATCH]) > 100
+    assert classes.count(NodeClass.CURVE)
     with qtbot.waitSignal(five.session.classer.found, timeout=PATIENCE):
         choose(five, "mend", feature_angle=180)
     five.refresh()
-    assert five.session.classer.classes.count(Kind.CURVE) == 0
+    assert five.session.classer.classes.count(NodeClass.CURVE) == 0
     assert not any("curves" in text for text in texts(panel, "kinds"))
-    assert count(pixels(five), KINDS[Kind.CURVE]) == 0
+    assert count(pixels(five), KINDS[NodeClass.CURVE]) == 0
 
 
 def test_a_pin_makes_a_node_of_the_boundary_stay(five, qtbot):
     press_key(five, "kinds")
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
-    node = int(np.flatnonzero(five.session.classer.classes.kinds == Kind.PATCH)[0])
+    node = int(np.flatnonzero(five.session.classer.classes.kinds == NodeClass.PATCH)[0])
     five.session.commands.pin(node, True)
     qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == PIN, timeout=PATIENCE)
     five.session.commands.undo()
-    qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == Kind.PATCH, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == NodeClass.PATCH, timeout=PATIENCE)
 
 
 def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):

@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableWidget
 
 from hexmend import io
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from tests.app.driving import LEFT, choose, click, key, named, press
 from tests.patience import PATIENCE
 
@@ -135,7 +135,7 @@ def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot)
 
 
 def test_tagging_after_a_run_leaves_the_iteration_that_is_shown(window, panel, qtbot):
-    choose(window, "laplacian", Stop(tolerance=0.0, max_iterations=3))
+    choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
         click(window, "Run")
     shown = named(window, QLabel, "Iteration shown")

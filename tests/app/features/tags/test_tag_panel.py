@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtWidgets import QComboBox, QLabel
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.features.tags.feature import FeatureTags
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
@@ -79,7 +79,7 @@ def test_the_key_says_why_nothing_is_tagged_while_a_run_is_paused(host, qtbot):
     tag = action(feature, "tag")
     smoothing = host.session.smoothing
     host.session.selection.choose(5)
-    smoothing.start(LocalSteepestDescent(), Stop(tolerance=0), 1)
+    smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0), 1)
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     feature.refresh()
     assert tag.enabled()

@@ -8,14 +8,14 @@ from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QSpinBox, QToolButton
 
-from hexmend.run import Stop
+from hexmend.run import StoppingCriteria
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.state.run import Phase
 from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
 
-ENDLESS = Stop(tolerance=0.0, max_iterations=1_000_000)
+ENDLESS = StoppingCriteria(tolerance=0.0, max_iterations=1_000_000)
 
 
 def named(widget, kind, name):
@@ -142,7 +142,7 @@ def test_buttons_and_playing(window, qtbot):
 def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
     first = stepped(window, qtbot)
     go(window, qtbot, 4)
-    choose(window, "laplacian", Stop(tolerance=0.0, max_iterations=3))
+    choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):  # of the run that is left
         key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
@@ -259,7 +259,7 @@ def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbo
     qtbot.waitUntil(at(window, 12), timeout=PATIENCE)
     assert [row["method"] for row in record.rows[1:]] == ["local-sd"] * 8 + ["laplacian"] * 4
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    choose(window, "laplacian", Stop(tolerance=0.0, max_iterations=15))
+    choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=15))
     with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE) as ended:
         click(window, "Resume")
     assert ended.args[0].iterations == 15

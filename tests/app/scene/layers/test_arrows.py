@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Moment, Movement
+from hexmend.boundary.displacement import Displacement, Moment
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers import arrows as layer
@@ -44,7 +44,7 @@ def drawn(stage):
 
 def move(viewport, points=NOW, figures=FIGURES):
     moved = MESH.with_points(points.copy())
-    viewport.draw(Frame(moved, figures, Movement(MESH, THEN, points, figures), viewport.frame.look))
+    viewport.draw(Frame(moved, figures, Displacement(MESH, THEN, points, figures), viewport.frame.look))
 
 
 def look_at(viewport, look):

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.boundary import Kind
+from hexmend.boundary import NodeClass
 from hexmend.gallery.blocks import extruded
 from hexmend.gallery.pentagon import divided, fan
 from hexmend.mesh.mesh import Mesh
@@ -183,9 +183,9 @@ def test_valences_without_a_colour_of_their_own_share_one():
 def test_nodes_of_the_boundary_have_colours_by_what_they_may_do(draw):
     mesh = grid(3)
     image = draw(mesh, Structure(kinds=True))
-    assert count(image, KINDS[Kind.CORNER]) > 100
-    assert count(image, KINDS[Kind.CURVE]) > count(image, KINDS[Kind.CORNER])
-    assert count(image, KINDS[Kind.PATCH]) > 100
+    assert count(image, KINDS[NodeClass.CORNER]) > 100
+    assert count(image, KINDS[NodeClass.CURVE]) > count(image, KINDS[NodeClass.CORNER])
+    assert count(image, KINDS[NodeClass.PATCH]) > 100
     assert count(image, KINDS[WHISKER]) == count(image, PINNED) == 0
     pinned = np.zeros(mesh.n_nodes, bool)
     pinned[np.flatnonzero((mesh.points[:, 2] == 3) & (mesh.points[:, 0] == 1))] = True
@@ -200,4 +200,4 @@ def test_kinds_that_are_told_are_drawn(draw):
     draw(mesh, Structure(kinds=True))
     draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look, kinds=kinds))
     assert count(draw.pixels(), KINDS[WHISKER]) > 300
-    assert count(draw.pixels(), KINDS[Kind.PATCH]) == 0
+    assert count(draw.pixels(), KINDS[NodeClass.PATCH]) == 0

@@ -6,7 +6,7 @@ import pytest
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io import FORMATS
-from hexmend.io.base.format import Holds
+from hexmend.io.base.format import Capability
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MID_PLACES
@@ -36,34 +36,34 @@ def beside(kind, nodes, more=(), **said):
 
 #: Meshes that each have one thing; the numbers are such as every decimal and binary form holds.
 MESHES = {
-    Holds.NODE_DATA: [
+    Capability.NODE_DATA: [
         grid(2).replace(node_data={"temperature": np.arange(27) / 4}),
         grid(2).replace(node_data={"velocity": np.arange(81.0).reshape(27, 3) / 8}),
     ],
-    Holds.HEX_DATA: [grid(2).replace(hex_data={"pressure": np.arange(8) / 4})],
-    Holds.IDS: [
+    Capability.HEX_DATA: [grid(2).replace(hex_data={"pressure": np.arange(8) / 4})],
+    Capability.IDS: [
         grid(2).replace(node_data={"id": SPACED}, hex_data={"id": SPACED[:8] + 7}),
         grid(2).replace(node_data={"id": SPACED[::-1].copy()}, hex_data={"id": np.roll(SPACED[:8], 3)}),
     ],
-    Holds.NODE_SETS: [grid(2).replace(node_sets={"inlet": np.array([0, 3, 26]), "all": np.arange(27)})],
-    Holds.HEX_SETS: [grid(2).replace(hex_sets={"steel": np.array([1, 4]), "air": np.array([0, 2, 3, 5, 6, 7])})],
-    Holds.SIDE_SETS: [grid(2).replace(side_sets={"wall": np.array([[0, 0], [0, 2], [7, 5]]), "top": np.array([[5, 1]])})],
-    Holds.EMPTY_SETS: [grid(2).replace(hex_sets={"left": np.array([], int)}, node_sets={"right": np.array([], int)})],
-    Holds.CELL_SETS: [beside("quad", grid(2).topology.boundary_faces[:3], sets={"inlet": [0, 2], "wall": [1]})],
-    Holds.PINS: [grid(3).replace(pinned=np.isin(np.arange(64), [21, 22]))],
-    Holds.LOWER_CELLS: [
+    Capability.NODE_SETS: [grid(2).replace(node_sets={"inlet": np.array([0, 3, 26]), "all": np.arange(27)})],
+    Capability.HEX_SETS: [grid(2).replace(hex_sets={"steel": np.array([1, 4]), "air": np.array([0, 2, 3, 5, 6, 7])})],
+    Capability.SIDE_SETS: [grid(2).replace(side_sets={"wall": np.array([[0, 0], [0, 2], [7, 5]]), "top": np.array([[5, 1]])})],
+    Capability.EMPTY_SETS: [grid(2).replace(hex_sets={"left": np.array([], int)}, node_sets={"right": np.array([], int)})],
+    Capability.CELL_SETS: [beside("quad", grid(2).topology.boundary_faces[:3], sets={"inlet": [0, 2], "wall": [1]})],
+    Capability.PINS: [grid(3).replace(pinned=np.isin(np.arange(64), [21, 22]))],
+    Capability.LOWER_CELLS: [
         beside("line", [[0, 1], [1, 2]]),
         beside("quad", grid(2).topology.boundary_faces[:3]),
         beside("triangle", [[0, 1, 3]]),
     ],
-    Holds.VERTICES: [beside("vertex", [[0], [26]])],
-    Holds.OTHER_CELLS: [
+    Capability.VERTICES: [beside("vertex", [[0], [26]])],
+    Capability.OTHER_CELLS: [
         beside("pyramid", [[18, 19, 22, 21, 27]], [[0.5, 0.5, 3]]),
         beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]]),
         beside("wedge", [[18, 19, 27, 21, 22, 28]], [[0, 0, 3], [0, 1, 3]]),
     ],
-    Holds.SECOND_ORDER: [quadratic(20), quadratic(27)],
-    Holds.FIELD_DATA: [grid(2).replace(field_data={"time": np.array([0.25, 8]), "title": ["made", "elsewhere"]})],
+    Capability.SECOND_ORDER: [quadratic(20), quadratic(27)],
+    Capability.FIELD_DATA: [grid(2).replace(field_data={"time": np.array([0.25, 8]), "title": ["made", "elsewhere"]})],
 }  # fmt: skip
 
 
@@ -93,28 +93,28 @@ def same_cells(a, b):
 
 
 COMPARED = {
-    Holds.NODE_DATA: lambda a, b: same_map(a.node_data, b.node_data),
-    Holds.HEX_DATA: lambda a, b: same_map(a.hex_data, b.hex_data),
-    Holds.IDS: lambda a, b: (same_map(a.node_data, b.node_data), same_map(a.hex_data, b.hex_data)),
-    Holds.NODE_SETS: lambda a, b: same_sets(a.node_sets, b.node_sets),
-    Holds.HEX_SETS: lambda a, b: same_sets(a.hex_sets, b.hex_sets),
-    Holds.SIDE_SETS: lambda a, b: same_sets(a.side_sets, b.side_sets),
-    Holds.EMPTY_SETS: lambda a, b: (same_sets(a.hex_sets, b.hex_sets), same_sets(a.node_sets, b.node_sets)),
-    Holds.CELL_SETS: lambda a, b: [same_members(*pair) for pair in zip(a.cells, b.cells, strict=True)],
-    Holds.PINS: lambda a, b: np.testing.assert_array_equal(a.fixed, b.fixed),
-    Holds.LOWER_CELLS: same_cells,
-    Holds.VERTICES: same_cells,
-    Holds.OTHER_CELLS: same_cells,
-    Holds.SECOND_ORDER: lambda a, b: np.testing.assert_array_equal(a.mid_nodes, b.mid_nodes),
-    Holds.FIELD_DATA: lambda a, b: same_map(a.field_data, b.field_data),
+    Capability.NODE_DATA: lambda a, b: same_map(a.node_data, b.node_data),
+    Capability.HEX_DATA: lambda a, b: same_map(a.hex_data, b.hex_data),
+    Capability.IDS: lambda a, b: (same_map(a.node_data, b.node_data), same_map(a.hex_data, b.hex_data)),
+    Capability.NODE_SETS: lambda a, b: same_sets(a.node_sets, b.node_sets),
+    Capability.HEX_SETS: lambda a, b: same_sets(a.hex_sets, b.hex_sets),
+    Capability.SIDE_SETS: lambda a, b: same_sets(a.side_sets, b.side_sets),
+    Capability.EMPTY_SETS: lambda a, b: (same_sets(a.hex_sets, b.hex_sets), same_sets(a.node_sets, b.node_sets)),
+    Capability.CELL_SETS: lambda a, b: [same_members(*pair) for pair in zip(a.cells, b.cells, strict=True)],
+    Capability.PINS: lambda a, b: np.testing.assert_array_equal(a.fixed, b.fixed),
+    Capability.LOWER_CELLS: same_cells,
+    Capability.VERTICES: same_cells,
+    Capability.OTHER_CELLS: same_cells,
+    Capability.SECOND_ORDER: lambda a, b: np.testing.assert_array_equal(a.mid_nodes, b.mid_nodes),
+    Capability.FIELD_DATA: lambda a, b: same_map(a.field_data, b.field_data),
 }
 
 
 def test_every_thing_that_formats_may_hold_is_tried():
-    assert set(MESHES) == set(COMPARED) == set(Holds)
+    assert set(MESHES) == set(COMPARED) == set(Capability)
 
 
-@pytest.mark.parametrize("thing", Holds, ids=lambda one: one.name)
+@pytest.mark.parametrize("thing", Capability, ids=lambda one: one.name)
 @pytest.mark.parametrize(("name", "encoding"), WAYS)
 def test_a_format_holds_what_it_says_and_says_what_it_does_not(name, encoding, thing, tmp_path):
     format = FORMATS[name]
@@ -139,7 +139,7 @@ def test_a_format_holds_what_it_says_and_says_what_it_does_not(name, encoding, t
 @pytest.mark.parametrize(("name", "encoding"), WAYS)
 def test_what_a_format_does_not_hold_does_not_keep_the_mesh_from_being_written(name, encoding, tmp_path):
     format = FORMATS[name]
-    for thing in set(Holds) - format.holds:
+    for thing in set(Capability) - format.holds:
         for mesh in MESHES[thing]:
             path = tmp_path / f"a{format.suffixes[0]}"
             io.write(path, mesh, encoding=encoding)
@@ -152,11 +152,11 @@ def test_what_is_said_of_other_cells_is_held_or_named(name, format):
         return
     faces = grid(2).topology.boundary_faces[:2]
     left = io.left_out(f"a{format.suffixes[0]}", beside("quad", faces, data={"h": [1.0, 2.0]}, sets={"inlet": [0]}))
-    assert ("cell data (h)" in left) == (Holds.HEX_DATA not in format.holds)
-    assert ("sets of cells of lower dimension (inlet)" in left) == (Holds.CELL_SETS not in format.holds)
+    assert ("cell data (h)" in left) == (Capability.HEX_DATA not in format.holds)
+    assert ("sets of cells of lower dimension (inlet)" in left) == (Capability.CELL_SETS not in format.holds)
     tetra = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]], sets={"solid": [0]})
     assert ("element sets (solid)" in io.left_out(f"a{format.suffixes[0]}", tetra)) == (
-        Holds.HEX_SETS not in format.holds
+        Capability.HEX_SETS not in format.holds
     )
 
 
@@ -166,7 +166,7 @@ def test_data_called_fixed_that_say_more_than_pins_are_held_or_named(name, encod
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
     pinned = np.arange(27) == 13 if values.ndim > 1 else np.ones(27, bool)
     mesh = grid(2).replace(node_data={"fixed": values}, pinned=pinned)
-    if Holds.NODE_DATA not in FORMATS[name].holds:
+    if Capability.NODE_DATA not in FORMATS[name].holds:
         assert "point data (fixed)" in io.left_out(path, mesh)
         return
     io.write(path, mesh, encoding=encoding)
@@ -177,7 +177,7 @@ def test_data_called_fixed_that_say_more_than_pins_are_held_or_named(name, encod
 
 @pytest.mark.parametrize(("name", "encoding"), WAYS)
 def test_data_of_one_name_and_other_widths_are_all_kept(name, encoding, tmp_path):
-    if Holds.HEX_DATA not in FORMATS[name].holds:
+    if Capability.HEX_DATA not in FORMATS[name].holds:
         return
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
     mesh = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]], data={"h": np.arange(3.0)[None]})
@@ -191,7 +191,7 @@ def test_data_of_one_name_and_other_widths_are_all_kept(name, encoding, tmp_path
 
 @pytest.mark.parametrize(("name", "encoding"), WAYS)
 def test_nodes_that_other_cells_fix_make_no_set_or_data_called_fixed(name, encoding, tmp_path):
-    if Holds.OTHER_CELLS not in FORMATS[name].holds:
+    if Capability.OTHER_CELLS not in FORMATS[name].holds:
         return
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
     first = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]])
@@ -204,7 +204,7 @@ def test_nodes_that_other_cells_fix_make_no_set_or_data_called_fixed(name, encod
     assert not {"fixed", "required"} & {*back.node_data, *back.node_sets}
     np.testing.assert_array_equal(back.pinned, mesh.pinned)
     mesh = mesh.replace(pinned=mesh.pinned | (np.arange(28) == 13))  # by the user
-    if Holds.PINS not in FORMATS[name].holds:
+    if Capability.PINS not in FORMATS[name].holds:
         assert "fixed nodes" in io.left_out(path, mesh)
         return
     io.write(path, mesh, encoding=encoding)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.io.formats.exodus.netcdf3_writer import Writer
+from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
 from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 
@@ -15,7 +15,7 @@ ENDS = [-(2**31) - 1, -(2**31), 2**31 - 1, 2**31]
 def test_a_number_takes_64_bits_only_where_32_do_not_hold_it(number, tmp_path):
     from scipy.io import netcdf_file
 
-    writer = Writer({})
+    writer = ClassicWriter({})
     writer.add("one", {"n": 2}, np.array([0, number]))
     if -(2**31) <= number < 2**31:
         writer.write(tmp_path / "a.nc")
@@ -43,7 +43,7 @@ def test_ids_at_the_ends_of_32_bits_are_read_again_and_the_file_says_how_wide_th
 def test_every_text_ends_with_a_zero_byte_as_programs_in_c_expect(length, tmp_path):
     from scipy.io import netcdf_file
 
-    writer = Writer({})
+    writer = ClassicWriter({})
     writer.add_text("names", "n", ["a" * length, "b"])
     writer.write(tmp_path / "a.nc")
     with netcdf_file(tmp_path / "a.nc", mmap=False) as file:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.boundary import Skin
+from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.gallery import make
 from hexmend.io.archive.archive import read_archive, write_archive
@@ -87,7 +87,7 @@ def test_meshes_that_shared_arrays_share_them_again(tmp_path):
 
 def test_the_surface_that_a_boundary_slides_on_is_there_again(tmp_path):
     mesh = make("cube", size=27)
-    skin = Skin(mesh.points + 0.01, mesh.topology.boundary_faces, "body.stl")
+    skin = SkinSurface(mesh.points + 0.01, mesh.topology.boundary_faces, "body.stl")
     opened = mesh.sliding_on(skin)
     moved = opened.with_points(opened.points + 5)  # far from it: what a session had, it has again
     write_session(tmp_path / "a.hexmend", [mesh, opened, moved], 1, None)

@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.boundary import Sliding
-from hexmend.optimise.maxmin.deviation import Apart
+from hexmend.boundary import SlidingBoundary
+from hexmend.optimise.maxmin.deviation import DeviationTracker
 from tests.core.boundary.solids import ball, slid
 
 seeds = st.integers(0, 2**32 - 1)
@@ -25,12 +25,12 @@ def wandering(mesh, nodes, seed, steps=4):
 @given(seeds)
 def test_followed_distances_bound_those_that_are_looked_up_anew(seed):
     mesh = slid(ball(3), 0.2, seed)
-    sliding = Sliding(mesh)
-    apart = Apart(sliding, mesh.points)
+    sliding = SlidingBoundary(mesh)
+    apart = DeviationTracker(sliding, mesh.points)
     assert apart.far.max() < 1e-9 * mesh.mean_edge_length
     for step, (points, moved) in enumerate(wandering(mesh, sliding.nodes, seed)):
         apart = apart.moved(points, moved)
-        anew = Apart(sliding, points)
+        anew = DeviationTracker(sliding, points)
         assert (apart.far >= anew.far - 1e-12).all()
         if not step:  # what is closest to a place at first is that place
             went = np.isin(sliding.middles, moved).any(axis=1)
@@ -41,8 +41,8 @@ def test_followed_distances_bound_those_that_are_looked_up_anew(seed):
 @given(seeds, st.floats(0.01, 0.3))
 def test_a_boundary_leaves_its_room_where_something_is_further_than_before(seed, share):
     mesh = slid(ball(3), 0.2, seed)
-    sliding, room = Sliding(mesh), share * mesh.mean_edge_length
-    before = Apart(sliding, mesh.points)
+    sliding, room = SlidingBoundary(mesh), share * mesh.mean_edge_length
+    before = DeviationTracker(sliding, mesh.points)
     assert not before.moved(mesh.points, sliding.nodes).leaves(before, sliding.nodes, room)
     for points, moved in wandering(mesh, sliding.nodes, seed):
         after = before.moved(points, moved)
@@ -61,10 +61,10 @@ def both_ways(sliding, points):
 @given(seeds, st.floats(0.01, 0.1))
 def test_only_what_nodes_could_bring_out_of_the_room_is_bounded(seed, reach):
     mesh = slid(ball(3), 0.1, seed)
-    sliding, room = Sliding(mesh), 0.3 * mesh.mean_edge_length
+    sliding, room = SlidingBoundary(mesh), 0.3 * mesh.mean_edge_length
     bounded = 0
     for points, moved in wandering(mesh, sliding.nodes, seed):
-        apart = Apart(sliding, mesh.points).moved(points, moved)
+        apart = DeviationTracker(sliding, mesh.points).moved(points, moved)
         moves = np.zeros(mesh.n_nodes)
         assert len(apart.bounds(moves, room).above) == 0
         moves[moved] = reach

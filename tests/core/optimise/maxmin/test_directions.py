@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary import Kind, Sliding
+from hexmend.boundary import NodeClass, SlidingBoundary
 from hexmend.optimise.maxmin.corner_values import shortest_edges
 from hexmend.optimise.maxmin.directions import ways_of
 from tests.core.boundary.solids import ball, cylinder, slid
@@ -23,13 +23,13 @@ def test_inside_there_are_both_senses_of_each_axis():
 @pytest.mark.parametrize("mesh", [ball(3), cylinder(16, 3)], ids=["ball", "cylinder"])
 def test_sliding_nodes_go_along_their_patch_or_curve_and_stay_on_it(mesh):
     mesh = slid(mesh, 0.2, 1)
-    sliding, radius = Sliding(mesh), 0.2
+    sliding, radius = SlidingBoundary(mesh), 0.2
     nodes = np.flatnonzero(sliding.mesh.free)
     x, size = mesh.points[nodes], shortest_edges(mesh.points, mesh.hexes)[nodes]
     ways = ways_of(x, size, radius, nodes, sliding.slides(nodes), sliding)
     assert (np.diff(ways.of) >= 0).all()
-    count = {Kind.CURVE: 2, Kind.PATCH: 8}
-    expected = [count.get(Kind(kind), 6) for kind in sliding.kind[nodes]]
+    count = {NodeClass.CURVE: 2, NodeClass.PATCH: 8}
+    expected = [count.get(NodeClass(kind), 6) for kind in sliding.kind[nodes]]
     np.testing.assert_array_equal(np.bincount(ways.of, minlength=nodes.size), expected)
     on = np.flatnonzero(sliding.slides(nodes)[ways.of])
     of = ways.of[on]

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary import Sliding
+from hexmend.boundary import SlidingBoundary
 from hexmend.optimise.maxmin import envelope as envelopes
-from hexmend.optimise.maxmin.deviation import Apart
+from hexmend.optimise.maxmin.deviation import DeviationTracker
 from hexmend.optimise.maxmin.envelope import Envelope
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
@@ -13,7 +13,7 @@ from tests.core.grids import grid
 
 @pytest.fixture
 def sliding():
-    return Sliding(slid(ball(3), 0.2, 1))
+    return SlidingBoundary(slid(ball(3), 0.2, 1))
 
 
 def pushed(sliding, nodes, share):
@@ -79,12 +79,12 @@ def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
 def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, monkeypatch):
     looked = []
 
-    class Counted(Apart):
+    class Counted(DeviationTracker):
         def __init__(self, *given):
             looked.append(1)
             super().__init__(*given)
 
-    monkeypatch.setattr(envelopes, "Apart", Counted)
+    monkeypatch.setattr(envelopes, "DeviationTracker", Counted)
     envelope = Envelope(sliding.mesh.n_nodes, sliding)
     envelope.room = sliding.mesh.mean_edge_length
     before, nodes = sliding.mesh.points, sliding.nodes[:3]

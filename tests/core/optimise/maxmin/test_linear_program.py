@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hexmend.optimise.maxmin.directions import Ways
-from hexmend.optimise.maxmin.linear_program import IDLE, Models, bounds_of, no_bounds, program, solve
+from hexmend.optimise.maxmin.directions import StepDirections
+from hexmend.optimise.maxmin.linear_program import IDLE, LinearConstraints, bounds_of, no_bounds, program, solve
 
 ENDS = np.array([[3, 5, 7, 9]], np.int32)
 
@@ -12,7 +12,7 @@ ENDS = np.array([[3, 5, 7, 9]], np.int32)
 def along_x(*nodes):
     """Each of some nodes may go along x, forth and back."""
     of, aims = np.repeat(np.arange(len(nodes)), 2), np.tile([[1.0, 0, 0], [-1.0, 0, 0]], (len(nodes), 1))
-    return np.array(nodes), Ways(of, aims, aims)
+    return np.array(nodes), StepDirections(of, aims, aims)
 
 
 def slope_of(end, value):
@@ -23,7 +23,7 @@ def slope_of(end, value):
 
 def test_a_corner_rises_as_far_as_its_node_can_go():
     nodes, ways = along_x(5)
-    found = solve(nodes, ways, Models(ENDS, np.zeros(1), slope_of(1, -2.0), np.ones(1)), 0.1)
+    found = solve(nodes, ways, LinearConstraints(ENDS, np.zeros(1), slope_of(1, -2.0), np.ones(1)), 0.1)
     np.testing.assert_allclose(found.far, [0, 0.1], atol=1e-12)
     assert found.gain == pytest.approx(0.2)
     np.testing.assert_allclose(found.multipliers, [1.0])
@@ -31,17 +31,19 @@ def test_a_corner_rises_as_far_as_its_node_can_go():
 
 def test_nodes_that_need_not_move_stay():
     nodes, ways = along_x(5, 7)
-    found = solve(nodes, ways, Models(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1)
+    found = solve(nodes, ways, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1)
     np.testing.assert_allclose(found.far, [0, 0, 0.1, 0], atol=1e-12)
-    cost, _, _, bounds = program(nodes, ways, Models(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1, False)
+    cost, _, _, bounds = program(
+        nodes, ways, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1, False
+    )
     np.testing.assert_allclose(cost, [IDLE / 2] * 4 + [-1])
     np.testing.assert_allclose(bounds, [[0, 0.1]] * 4 + [[0, 2]])
 
 
 def test_two_corners_hold_each_other_where_they_want_opposite_ways():
     nodes, ways = along_x(5)
-    both = Models(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1)).and_those(
-        Models(ENDS, np.zeros(1), slope_of(1, -1.0), np.ones(1))
+    both = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1)).and_those(
+        LinearConstraints(ENDS, np.zeros(1), slope_of(1, -1.0), np.ones(1))
     )
     found = solve(nodes, ways, both, 0.1)
     assert found.gain == pytest.approx(0, abs=1e-12)
@@ -50,7 +52,7 @@ def test_two_corners_hold_each_other_where_they_want_opposite_ways():
 
 def test_a_bound_limits_how_far_a_node_goes_whether_it_is_near_at_first_or_turns_out_to_bind():
     nodes, ways = along_x(5)
-    corner = Models(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1))
+    corner = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1))
     for room, slope in ((0.02, -1.0), (0.2, -4.0)):  # at a radius of 0.1 all that is nearer than 0.03 is taken at once
         found = solve(nodes, ways, corner.and_those(bounds_of(ENDS, np.array([room]), slope_of(1, slope))), 0.1)
         np.testing.assert_allclose(found.far, [room / -slope, 0], atol=1e-9)
@@ -60,7 +62,7 @@ def test_a_bound_limits_how_far_a_node_goes_whether_it_is_near_at_first_or_turns
 
 def test_the_least_falls_only_where_it_may():
     nodes, ways = along_x(5)
-    corner = Models(ENDS, np.zeros(1), slope_of(1, -1.0), np.ones(1))
+    corner = LinearConstraints(ENDS, np.zeros(1), slope_of(1, -1.0), np.ones(1))
     beyond = corner.and_those(bounds_of(ENDS, np.array([-0.05]), slope_of(1, 1.0)))
     assert solve(nodes, ways, beyond, 0.1) is None
     found = solve(nodes, ways, beyond, 0.1, falls=True)

@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
-from hexmend.boundary import Sliding, surface_change
+from hexmend.boundary import SlidingBoundary, surface_change
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise.maxmin.corner_values import gradients, scaled_jacobians, shortest_edges
 from hexmend.optimise.maxmin.linear_program import IDLE
-from hexmend.optimise.maxmin.slp import Limit, Raising
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid, scrambled
 
@@ -18,9 +18,9 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def raised(raising, **limits):
-    """What a `Raising` yields: its steps, and where it ends."""
+    """What a `MaxMinOptimiser` yields: its steps, and where it ends."""
     *steps, limit = raising.steps(**limits)
-    assert isinstance(limit, Limit)
+    assert isinstance(limit, ActiveCorners)
     return steps, limit
 
 
@@ -61,7 +61,7 @@ def with_locked_corner(mesh):
 @given(seeds, st.floats(0.1, 1.2))
 def test_the_least_rises_from_step_to_step_and_fixed_nodes_stay(seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
-    raising = Raising(mesh, mesh.points)
+    raising = MaxMinOptimiser(mesh, mesh.points)
     least = raising.corners.least
     steps, limit = raised(raising)
     for step in steps:
@@ -78,7 +78,7 @@ def test_the_least_rises_from_step_to_step_and_fixed_nodes_stay(seed, amplitude)
 @given(seeds, st.floats(0.1, 0.5))
 def test_a_scrambled_grid_is_raised_to_that_of_cubes(seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
-    raising = Raising(mesh, mesh.points)
+    raising = MaxMinOptimiser(mesh, mesh.points)
     raised(raising)
     assert raising.corners.least > 0.99
 
@@ -87,7 +87,7 @@ def test_a_scrambled_grid_is_raised_to_that_of_cubes(seed, amplitude):
 @given(seeds)
 def test_corners_at_the_end_hold_each_other(seed):
     mesh = one_free_node(seed)
-    raising = Raising(mesh, mesh.points)
+    raising = MaxMinOptimiser(mesh, mesh.points)
     _, limit = raised(raising)
     values = raising.corners.values[limit.hexes, limit.corners]
     assert np.ptp(values) < 1e-3
@@ -102,7 +102,7 @@ def test_corners_at_the_end_hold_each_other(seed):
 
 def test_nothing_is_raised_beyond_its_aim():
     mesh = scrambled(grid(4), 0.4, 2)
-    raising = Raising(mesh, mesh.points)
+    raising = MaxMinOptimiser(mesh, mesh.points)
     steps, _ = raised(raising, aim=0.6)
     assert [step.least >= 0.6 for step in steps] == [False] * (len(steps) - 1) + [True]
     assert raised(raising, aim=0.6)[0] == []
@@ -112,7 +112,7 @@ def test_nothing_is_raised_beyond_its_aim():
 @given(seeds)
 def test_settled_corners_do_not_fall_while_others_rise(seed):
     mesh = one_free_node(seed)
-    raising = Raising(mesh, mesh.points)
+    raising = MaxMinOptimiser(mesh, mesh.points)
     _, first = raised(raising)
     at = first.hexes, first.corners
     held = raising.corners.values[at]
@@ -129,7 +129,7 @@ def test_settled_corners_do_not_fall_while_others_rise(seed):
 
 def test_where_nothing_is_free_nothing_is_done():
     mesh = grid(1)
-    raising = Raising(mesh, mesh.points)
+    raising = MaxMinOptimiser(mesh, mesh.points)
     steps, limit = raised(raising)
     assert steps == []
     assert raising.corners.least == limit.least == np.inf
@@ -139,7 +139,7 @@ def test_where_nothing_is_free_nothing_is_done():
 
 def test_a_corner_that_fixed_nodes_lock_holds_back_no_other():
     mesh = with_locked_corner(scrambled(grid(3), 0.3, 4))
-    raising = Raising(mesh, mesh.points)
+    raising = MaxMinOptimiser(mesh, mesh.points)
     steps, limit = raised(raising)
     assert steps
     assert raising.corners.values[0, 0] < 0 < limit.least
@@ -153,7 +153,7 @@ def test_coinciding_nodes_are_no_end(seed, one, other):
     points, inner = mesh.points.copy(), int(np.flatnonzero(mesh.free)[one])
     ring = mesh.topology.rings[inner]
     points[inner] = points[ring[other % len(ring)]]
-    raising = Raising(mesh.with_points(points), points)
+    raising = MaxMinOptimiser(mesh.with_points(points), points)
     with np.errstate(all="raise"):
         raised(raising)
     assert np.isfinite(raising.points).all()
@@ -166,8 +166,8 @@ def test_coinciding_nodes_are_no_end(seed, one, other):
 def test_the_boundary_slides_in_its_room(seed, solid, share):
     mesh = slid({"ball": ball(3), "cylinder": cylinder(16, 3)}[solid], 0.25, seed)
     room = share * mesh.mean_edge_length
-    sliding = Sliding(mesh, room=room)
-    raising = Raising(sliding.mesh, mesh.points, sliding)
+    sliding = SlidingBoundary(mesh, room=room)
+    raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     before = raising.corners.least
     steps, _ = raised(raising)
     assert (np.diff([before, *(step.least for step in steps)]) > 0).all()

@@ -15,8 +15,8 @@ def steps_of(monkeypatch, **constants):
     for name, value in constants.items():
         monkeypatch.setattr(slp, name, value)
     mesh = scrambled(grid(3), 0.4, 1)
-    *steps, limit = slp.Raising(mesh, mesh.points).steps()
-    assert isinstance(limit, slp.Limit)
+    *steps, limit = slp.MaxMinOptimiser(mesh, mesh.points).steps()
+    assert isinstance(limit, slp.ActiveCorners)
     return steps
 
 
@@ -43,9 +43,9 @@ def test_it_never_has_more_corners_than_the_most(monkeypatch):
 
 def test_what_is_begun_again_begins_with_the_first_radius_and_few_corners():
     mesh = scrambled(grid(3), 0.6, 2)
-    raise_ = slp.Raising(mesh, mesh.points)
-    first = [step.radius for step in raise_.steps(0.4) if isinstance(step, slp.Raised)]
-    again = [step.radius for step in raise_.steps() if isinstance(step, slp.Raised)]
+    raise_ = slp.MaxMinOptimiser(mesh, mesh.points)
+    first = [step.radius for step in raise_.steps(0.4) if isinstance(step, slp.MaxMinStep)]
+    again = [step.radius for step in raise_.steps() if isinstance(step, slp.MaxMinStep)]
     assert first[0] == again[0] == slp.FIRST
     assert max(first[1:]) > slp.FIRST  # it had changed
 
@@ -56,8 +56,8 @@ def test_the_corners_of_a_program_are_those_within_a_band_that_narrows_with_the_
         monkeypatch.setattr(slp, name, value)
     mesh = scrambled(grid(4), 0.2, 3)
     before, counts = mesh.points, []
-    for step in itertools.islice(slp.Raising(mesh, mesh.points).steps(), 30):
-        if isinstance(step, slp.Raised):
+    for step in itertools.islice(slp.MaxMinOptimiser(mesh, mesh.points).steps(), 30):
+        if isinstance(step, slp.MaxMinStep):
             values = scaled_jacobians(before, mesh.hexes)[movable(mesh)]
             assert step.corners == np.count_nonzero(values < values.min() + band)
             counts.append(step.corners)

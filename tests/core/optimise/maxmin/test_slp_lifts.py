@@ -4,10 +4,10 @@ import itertools
 
 import numpy as np
 
-from hexmend.boundary import Sliding, surface_change
+from hexmend.boundary import SlidingBoundary, surface_change
 from hexmend.io import read
 from hexmend.optimise.maxmin import envelope as envelopes
-from hexmend.optimise.maxmin.slp import Limit, Raising
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from tests.core.boundary.solids import ball, slid
 from tests.core.grids import grid
 from tests.core.optimise.maxmin.test_slp import raised
@@ -15,7 +15,7 @@ from tests.core.optimise.maxmin.test_slp import raised
 
 def lifted(sliding, points, wide, times):
     """A boundary that has left its surface where that raises the least, up to so far, and as often as it has to."""
-    raising = Raising(sliding.mesh, points, sliding)
+    raising = MaxMinOptimiser(sliding.mesh, points, sliding)
     raising.envelope.room = wide
     for _ in range(times):
         _, limit = raised(raising, aim=0.5)
@@ -27,7 +27,7 @@ def lifted(sliding, points, wide, times):
 def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
     mesh = slid(ball(3), 0.3, 1)
     edge = mesh.mean_edge_length
-    sliding = Sliding(mesh)
+    sliding = SlidingBoundary(mesh)
     raising = lifted(sliding, mesh.points, edge, 4)
     assert raising.envelope.lifted.any()
     assert sliding.slides(np.flatnonzero(raising.envelope.lifted)).all()
@@ -46,26 +46,26 @@ def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
 
 def test_nothing_is_lifted_off_a_surface_without_room():
     mesh = slid(ball(3), 0.3, 1)
-    sliding = Sliding(mesh, room=0.0)
-    raising = Raising(sliding.mesh, mesh.points, sliding)
+    sliding = SlidingBoundary(mesh, room=0.0)
+    raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     _, limit = raised(raising)
     raising.envelope.room = 0.0
     assert not raising.lift(limit)
     assert not raising.envelope.lifted.any()
-    fixed = Raising(mesh, mesh.points)
+    fixed = MaxMinOptimiser(mesh, mesh.points)
     assert not fixed.lift(raised(fixed)[1])
 
 
 def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
     mesh = read(real_mesh("bunny.vtk"))
     room = 0.4 * mesh.mean_edge_length
-    sliding = Sliding(mesh)
-    raising = Raising(sliding.mesh, mesh.points, sliding)
+    sliding = SlidingBoundary(mesh)
+    raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     raising.envelope.room = 1.5 * mesh.mean_edge_length
     for _ in range(5):
         for step in itertools.islice(raising.steps(0.0), 10):
             limit = step
-        if not isinstance(limit, Limit) or not raising.lift(limit):
+        if not isinstance(limit, ActiveCorners) or not raising.lift(limit):
             break
     assert raising.envelope.furthest(raising.points) > room
     for _ in raising.into(room):
@@ -78,21 +78,21 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
 def test_while_a_boundary_is_brought_into_its_room_its_distances_are_followed(monkeypatch):
     looked = []
 
-    class Counted(envelopes.Apart):
+    class Counted(envelopes.DeviationTracker):
         def __init__(self, *given):
             looked.append(1)
             super().__init__(*given)
 
     mesh = slid(ball(3), 0.3, 1)
-    raising = lifted(Sliding(mesh), mesh.points, mesh.mean_edge_length, 4)
-    monkeypatch.setattr(envelopes, "Apart", Counted)
+    raising = lifted(SlidingBoundary(mesh), mesh.points, mesh.mean_edge_length, 4)
+    monkeypatch.setattr(envelopes, "DeviationTracker", Counted)
     assert len(list(raising.into(0.1 * mesh.mean_edge_length))) > 2
     assert len(looked) <= 1
 
 
 def test_while_a_boundary_is_brought_into_its_room_the_lowest_corners_are_moved_too():
     mesh = slid(ball(3), 0.3, 1)
-    raising = lifted(Sliding(mesh), mesh.points, mesh.mean_edge_length, 4)
+    raising = lifted(SlidingBoundary(mesh), mesh.points, mesh.mean_edge_length, 4)
     steps = list(raising.into(0.1 * mesh.mean_edge_length))
     assert steps
     assert all(step.corners > 0 for step in steps)
@@ -102,8 +102,8 @@ def test_fixed_nodes_are_let_go_where_they_hold_an_inverted_corner_and_nowhere_e
     """A corner of the solid, which has sharp edges, yields only where it would leave a hex without any volume."""
     mesh = grid(2)
     for least, yields in ((-0.1, True), (0.0, True), (0.1, False)):
-        sliding = Sliding(mesh, room=0.5)
-        raising = Raising(sliding.mesh, mesh.points, sliding)
+        sliding = SlidingBoundary(mesh, room=0.5)
+        raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
         raising.envelope.lifted[sliding.nodes] = True  # those of the edges and faces have left already
-        assert raising.lift(Limit(least, np.array([0]), np.array([0]))) == yields
+        assert raising.lift(ActiveCorners(least, np.array([0]), np.array([0]))) == yields
         assert raising.mesh.free[0] == raising.envelope.lifted[0] == yields

@@ -16,7 +16,7 @@ from hexmend.kernels.element_step import element_step, element_steps
 from hexmend.kernels.worst_first import replay, tournament
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
 
@@ -108,7 +108,7 @@ def test_figures_that_come_with_a_step_are_those_of_its_points(name, amplitude):
 def test_simultaneous_ends_by_itself_and_untangles_a_scrambled_grid(weights):
     mesh = scrambled(grid(6), 0.6, 3)
     assert measure(mesh.points, mesh.hexes).n_inverted > 20
-    result = smooth(mesh, METHODS["getme"](weights=weights), Stop(max_iterations=2000, tolerance=0))
+    result = smooth(mesh, METHODS["getme"](weights=weights), StoppingCriteria(max_iterations=2000, tolerance=0))
     assert result.outcome is Outcome.NO_IMPROVEMENT
     assert result.after.inverted == 0
     assert result.after.q_mean > 0.99

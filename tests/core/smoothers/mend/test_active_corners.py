@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hexmend.optimise.maxmin.slp import Limit
+from hexmend.optimise.maxmin.slp import ActiveCorners
 from hexmend.smoothers.mend.maxmin_stage import limits_of, what_limits
 from tests.core.grids import grid
 
@@ -26,7 +26,7 @@ def stand_in(places=(), locked=()):
 
 
 def limit_of(*hexes):
-    return Limit(0.25, np.array(hexes, np.int64), np.arange(len(hexes)))
+    return ActiveCorners(0.25, np.array(hexes, np.int64), np.arange(len(hexes)))
 
 
 def test_nothing_is_said_where_nothing_limits():

@@ -12,7 +12,7 @@ from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.corner_values import scaled_jacobians
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid, scrambled
@@ -51,7 +51,7 @@ def test_it_does_no_harm_wherever_it_is_stopped(name, goal, boundary, amplitude,
     mesh = scrambled(mesh, amplitude * mesh.mean_edge_length, seed)
     if boundary == "slide":
         mesh = slid(mesh, amplitude / 2, seed)
-    result = smooth(mesh, Mend(goal=goal, boundary=boundary), Stop(max_iterations=iterations))
+    result = smooth(mesh, Mend(goal=goal, boundary=boundary), StoppingCriteria(max_iterations=iterations))
     inverted, least, q = figures(mesh)
     inverted_after, least_after, q_after = figures(result.mesh)
     assert inverted_after <= inverted

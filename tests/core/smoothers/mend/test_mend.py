@@ -11,7 +11,7 @@ from hexmend.gallery import make
 from hexmend.iteration import Outcome
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import corner_determinants, measure, summarise
-from hexmend.run import Stop, iterate, smooth
+from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend.smoothers.mend.inversion import locked_corners
 from tests.core.grids import grid, scrambled
@@ -45,7 +45,7 @@ def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scram
     sound = smooth(make(name, size=size), "mend")
     tangled = make(name, size=size, scramble=scramble, seed=7)
     assert measure(tangled.points, tangled.hexes).n_inverted > 20
-    result = smooth(tangled, "mend", Stop(max_iterations=1000))
+    result = smooth(tangled, "mend", StoppingCriteria(max_iterations=1000))
     assert result.outcome is Outcome.CONVERGED
     assert result.after.inverted == 0
     assert result.after.objective == pytest.approx(sound.after.objective, rel=1e-5, abs=1e-9)
@@ -90,7 +90,7 @@ def test_local_sweeps_leave_the_nodes_of_hexes_that_are_left_out(seed):
 )
 def test_wherever_it_is_stopped_the_mesh_is_no_worse(seed, amplitude, iterations, p, guard):
     mesh = scrambled(grid(4), amplitude, seed)
-    result = smooth(mesh, Mend(p=p, guard=guard), Stop(max_iterations=iterations))
+    result = smooth(mesh, Mend(p=p, guard=guard), StoppingCriteria(max_iterations=iterations))
     before, after = (measure(one.points, mesh.hexes) for one in (mesh, result.mesh))
     assert after.n_inverted <= before.n_inverted
     assert result.after.inverted == after.n_inverted
@@ -127,16 +127,18 @@ def test_steps_of_untangling_soften_the_barrier_less_and_less():
 
 def test_higher_p_lifts_the_worst_hex():
     mesh = make("bridge-sharp", size=864)
-    plain, raised = (smooth(mesh, Mend(highest_p=p), Stop(max_iterations=500)) for p in (1.0, 16.0))
+    plain, raised = (smooth(mesh, Mend(highest_p=p), StoppingCriteria(max_iterations=500)) for p in (1.0, 16.0))
     assert raised.outcome is Outcome.CONVERGED
     assert raised.after.q_min > plain.after.q_min + 0.01
     assert raised.after.q_mean < plain.after.q_mean
-    again = smooth(plain.mesh, Mend(highest_p=16.0), Stop(max_iterations=500))  # from the optimum of the lower p
+    again = smooth(
+        plain.mesh, Mend(highest_p=16.0), StoppingCriteria(max_iterations=500)
+    )  # from the optimum of the lower p
     assert again.after.q_min == pytest.approx(raised.after.q_min, rel=1e-3)
 
 
 def test_a_mesh_at_its_optimum_stays_there():
-    best = smooth(make("five-side", size=300), "mend", Stop(tolerance=1e-8)).mesh
+    best = smooth(make("five-side", size=300), "mend", StoppingCriteria(tolerance=1e-8)).mesh
     again = smooth(best, "mend")
     assert again.outcome is Outcome.CONVERGED
     assert again.iterations <= 2

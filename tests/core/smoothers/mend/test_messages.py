@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from hexmend.boundary import Sliding
-from hexmend.optimise.maxmin.slp import Limit, Raising
+from hexmend.boundary import SlidingBoundary
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.quality.regressions import JUDGED
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend import maxmin_stage
@@ -34,11 +34,11 @@ def test_mend_advises_its_other_goal_or_its_guard_only_where_they_help():
 def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
     mesh = slid(ball(3), 0.3, 1)
     room = 0.1 * mesh.mean_edge_length
-    sliding = Sliding(mesh, room=room)
-    other = Raising(sliding.mesh, mesh.points, sliding)
+    sliding = SlidingBoundary(mesh, room=room)
+    other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
-    assert isinstance(limit, Limit)
-    steps = list(lifted(Raising(sliding.mesh, mesh.points, sliding), room, other, limit))
+    assert isinstance(limit, ActiveCorners)
+    steps = list(lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, other, limit))
     assert steps
     assert all(step.more for step in steps)
     assert not steps[-1].detour
@@ -46,11 +46,11 @@ def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
 
 def test_what_is_no_better_off_the_surface_is_given_up():
     mesh = ball(3)
-    sliding = Sliding(mesh, room=1e-9)
-    other = Raising(sliding.mesh, mesh.points, sliding)
+    sliding = SlidingBoundary(mesh, room=1e-9)
+    other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     other.corners.values[:] = 1.0  # as good as can be: nothing is better
-    walk = lifted(Raising(sliding.mesh, mesh.points, sliding), 1e-9, other, limit)
+    walk = lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), 1e-9, other, limit)
     steps = []
     while True:
         try:
@@ -69,13 +69,15 @@ def test_what_is_no_better_off_the_surface_is_given_up():
 def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(monkeypatch):
     mesh = slid(ball(3), 0.3, 1)
     room = 0.01 * mesh.mean_edge_length
-    sliding = Sliding(mesh, room=room)
-    other = Raising(sliding.mesh, mesh.points, sliding)
+    sliding = SlidingBoundary(mesh, room=room)
+    other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     monkeypatch.setattr(maxmin_stage, "AIM", 0.7)
-    made, into = [], Raising.into
-    monkeypatch.setattr(Raising, "into", lambda *given: (made.append(step.points) or step for step in into(*given)))
-    steps = list(lifted(Raising(sliding.mesh, mesh.points, sliding), room, other, limit))
+    made, into = [], MaxMinOptimiser.into
+    monkeypatch.setattr(
+        MaxMinOptimiser, "into", lambda *given: (made.append(step.points) or step for step in into(*given))
+    )
+    steps = list(lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, other, limit))
     assert len(made) > TOGETHER
     shown = [k for k, points in enumerate(made) if any(step.detour and step.points is points for step in steps)]
     assert shown == list(range(0, len(made), TOGETHER))
@@ -84,9 +86,9 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
 def test_what_is_better_off_the_surface_and_back_in_its_room_is_taken(monkeypatch):
     mesh = slid(ball(3), 0.3, 1)
     room = 0.1 * mesh.mean_edge_length
-    sliding = Sliding(mesh, room=room)
-    other, off = (Raising(sliding.mesh, mesh.points, sliding) for _ in range(2))
-    limit = Limit(other.corners.least, np.array([0]), np.array([0]))
+    sliding = SlidingBoundary(mesh, room=room)
+    other, off = (MaxMinOptimiser(sliding.mesh, mesh.points, sliding) for _ in range(2))
+    limit = ActiveCorners(other.corners.least, np.array([0]), np.array([0]))
     monkeypatch.setattr(maxmin_stage, "AIM", 0.3)
     walk = lifted(off, room, other, limit)
     while True:

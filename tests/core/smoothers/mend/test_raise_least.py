@@ -5,14 +5,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hexmend.optimise.maxmin.slp import Limit, Raised
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinStep
 from hexmend.smoothers.mend.maxmin_stage import TOGETHER, raise_least
 
 NOTHING = np.empty(0, np.int64)
 
 
 def limit_at(least, hexes=1):
-    return Limit(least, np.arange(hexes), np.zeros(hexes, np.int64))
+    return ActiveCorners(least, np.arange(hexes), np.zeros(hexes, np.int64))
 
 
 class StandIn:
@@ -26,7 +26,7 @@ class StandIn:
     def steps(self, aim):
         self.asked.append(aim)
         for number in range(self._steps):
-            yield Raised(self.points, float(number), 5, 0.1)
+            yield MaxMinStep(self.points, float(number), 5, 0.1)
         yield next(self._limits)
 
     def settle(self, limit):

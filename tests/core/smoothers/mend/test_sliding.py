@@ -6,11 +6,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.stats import special_ortho_group
 
-from hexmend.boundary import Sliding, surface_change
+from hexmend.boundary import SlidingBoundary, surface_change
 from hexmend.gallery import make
 from hexmend.io import read
 from hexmend.quality import measure
-from hexmend.run import Stop, smooth
+from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid, wavy
 from tests.core.grids import grid
@@ -18,7 +18,7 @@ from tests.core.grids import grid
 pytestmark = pytest.mark.slow
 
 Mend = METHODS["mend"]
-SHORT = Stop(max_iterations=80)
+SHORT = StoppingCriteria(max_iterations=80)
 seeds = st.integers(0, 2**32 - 1)
 goals = st.sampled_from(["shape", "scaled-jacobian"])
 
@@ -63,7 +63,7 @@ def test_flat_solids_keep_surface_and_volume(solid, goal, amplitude, tolerance, 
 def test_the_surface_stays_within_its_tolerance_both_ways(solid, goal, amplitude, tolerance, iterations, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
     method = Mend(goal=goal, boundary="slide", surface_tolerance=tolerance)
-    result = smooth(mesh, method, Stop(max_iterations=iterations))
+    result = smooth(mesh, method, StoppingCriteria(max_iterations=iterations))
     assert surface_change(mesh, result.mesh) == result.surface
     assert result.surface.max <= tolerance * (1 + 1e-4)
 
@@ -72,7 +72,7 @@ def test_the_surface_stays_within_its_tolerance_both_ways(solid, goal, amplitude
 @given(st.sampled_from(sorted(SOLIDS)), goals, st.floats(0, 0.6), seeds)
 def test_without_a_limit_nodes_stay_on_their_curves_and_patches(solid, goal, amplitude, seed):
     mesh = slid(SOLIDS[solid](), amplitude, seed)
-    sliding = Sliding(mesh)
+    sliding = SlidingBoundary(mesh)
     result = smooth(mesh, Mend(goal=goal, boundary="slide", surface_tolerance="unlimited"), SHORT)
     on = result.mesh.points[sliding.nodes]
     away = np.linalg.norm(sliding.put_back(on) - on, axis=1)
@@ -124,9 +124,9 @@ def rough(seed):
 @pytest.mark.parametrize("seed", range(4))
 def test_to_its_end_it_turns_no_quad_over_and_speaks_of_what_it_keeps(seed):
     mesh = rough(seed)
-    result = smooth(mesh, Mend(boundary="slide", goal="scaled-jacobian"), Stop(max_iterations=600))
+    result = smooth(mesh, Mend(boundary="slide", goal="scaled-jacobian"), StoppingCriteria(max_iterations=600))
     assert result.after.inverted <= result.before.inverted
-    assert not Sliding(mesh).turned(mesh.points, result.mesh.points).size
+    assert not SlidingBoundary(mesh).turned(mesh.points, result.mesh.points).size
     assert surface_change(mesh, result.mesh).max <= 0.3 * (1 + 1e-4)
     assert result.limits is None or result.kept == result.iterations
     assert ("hold each other" in result.message) <= (result.kept == result.iterations)

@@ -3,7 +3,7 @@
 from hexmend.gallery import make
 from hexmend.quality import Summary
 from hexmend.study.table_row import Row
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import load
 
 THESIS = load()
@@ -39,4 +39,4 @@ def table(name, rows, thesis_mesh=None, **initial):
         method: Row(method, {}, outcome, "", mesh, after, iterations, seconds)
         for method, (seconds, iterations, outcome, mesh, after) in rows.items()
     }
-    return Measured(experiment, MESH, summary(**{"hexes": 8} | initial), made)
+    return ExperimentResult(experiment, MESH, summary(**{"hexes": 8} | initial), made)

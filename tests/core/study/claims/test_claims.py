@@ -10,7 +10,7 @@ from hexmend.study.claims import CLAIMS, delta, heuristics, local_methods, optim
 from hexmend.study.claims.claim import tally
 from hexmend.study.claims.reading import objective
 from hexmend.study.table_row import Row
-from hexmend.study.thesis.experiment_result import Measured
+from hexmend.study.thesis.experiment_result import ExperimentResult
 from tests.core.study.claims.cases import JUDGED
 from tests.core.study.claims.runs import MESH, THESIS, run, summary, table
 
@@ -51,7 +51,7 @@ def published(experiment):
             iterations, seconds = columns[name]["iterations"], columns[name]["seconds"]
             rows[name] = Row(name, {}, outcome, "", MESH, one, iterations, seconds)
     initial = figures.get("initial", summary(hexes=experiment.hexes))
-    return Measured(experiment, MESH, replace(initial, inverted=experiment.inverted), rows)
+    return ExperimentResult(experiment, MESH, replace(initial, inverted=experiment.inverted), rows)
 
 
 def test_by_the_thesis_s_own_figures_its_claims_hold_but_for_one():

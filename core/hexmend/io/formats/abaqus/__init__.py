@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.mesh.mesh import Mesh
 
 
@@ -39,7 +39,7 @@ def _cannot(mesh: Mesh) -> list[str]:
     return abaqus_write.cannot(mesh)
 
 
-HELD = (Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.SIDE_SETS, Holds.CELL_SETS)
+HELD = (Capability.IDS, Capability.NODE_SETS, Capability.HEX_SETS, Capability.SIDE_SETS, Capability.CELL_SETS)
 
 FORMATS.add(
     "abaqus",
@@ -50,7 +50,9 @@ FORMATS.add(
         ("ascii",),
         read,
         write,
-        holds=frozenset({*HELD, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.VERTICES, Holds.SECOND_ORDER}),
+        holds=frozenset(
+            {*HELD, Capability.LOWER_CELLS, Capability.OTHER_CELLS, Capability.VERTICES, Capability.SECOND_ORDER}
+        ),
         names=frozenset({"abaqus:type", "abaqus:types"}),
         recognised=_recognised,
         cannot=_cannot,

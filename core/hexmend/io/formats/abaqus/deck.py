@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cursor import Source, shown
+from hexmend.io.base.cursor import ByteCursor, shown
 
 _KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)[^\n]*", re.MULTILINE)
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
@@ -56,7 +56,7 @@ class Deck:
         if b"**" in data:
             data = _COMMENT.sub(b"", data)
         self.path, self.data = path, data
-        self._numbers = Source(path, data.replace(b",", b" "))
+        self._numbers = ByteCursor(path, data.replace(b",", b" "))
 
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
         """The error to raise."""

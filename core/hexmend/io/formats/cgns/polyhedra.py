@@ -9,19 +9,19 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.polyhedra import Lists, cells_of
 from hexmend.io.formats.cgns.elements import POLYGONS, POLYHEDRA
-from hexmend.io.formats.cgns.section import Section
+from hexmend.io.formats.cgns.section import CGNSSection
 from hexmend.io.formats.cgns.zone import DAMAGED
 
 #: Kind, nodes from 0 and numbers in the zone of some elements, and their section.
-Part = tuple[tuple[str, np.ndarray, np.ndarray], Section]
+Part = tuple[tuple[str, np.ndarray, np.ndarray], CGNSSection]
 
 
-def polyhedra(sections: Sequence[Section], n_nodes: int, notes: list[str]) -> list[Part]:
+def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -> list[Part]:
     """The cells that are known among polyhedra, and the triangles and quads of the boundary around these.
 
     Parameters
     ----------
-    sections : sequence of Section
+    sections : sequence of CGNSSection
         By their numbers.
     n_nodes : int
     notes : list of str

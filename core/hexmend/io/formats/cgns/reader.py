@@ -10,7 +10,7 @@ from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import HEX_KINDS, Block, Content, joined
 from hexmend.io.formats.cgns.structured import structured
-from hexmend.io.formats.cgns.tree import Node
+from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.unstructured import unstructured
 from hexmend.io.formats.cgns.zone import Zone
 
@@ -25,7 +25,7 @@ JOINED_BY = "hexmend repair --only coincident-nodes joins them where their faces
 def content(path: Path) -> Content:
     """What a CGNS file holds."""
     with hdf5.open_file(path) as file:
-        zones, notes = _zones(path, Node(path, file))
+        zones, notes = _zones(path, CGNSNode(path, file))
     lengths = [len(zone.points) for zone in zones]
     first = np.concatenate([[0], np.cumsum(lengths)])
     points = np.concatenate([zone.points for zone in zones])
@@ -59,7 +59,7 @@ def content(path: Path) -> Content:
     )
 
 
-def _zones(path: Path, root: Node) -> tuple[list[Zone], list[str]]:
+def _zones(path: Path, root: CGNSNode) -> tuple[list[Zone], list[str]]:
     """The zones of three dimensions, and what is said of others."""
     zones, notes, flat = [], [], 0
     bases = root.children("CGNSBase_t")

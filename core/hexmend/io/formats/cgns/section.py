@@ -7,14 +7,14 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.polyhedra import Lists
 from hexmend.io.formats.cgns.elements import MIXED, ORDER, POLYGONS, POLYHEDRA, TYPES
-from hexmend.io.formats.cgns.tree import Node
+from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.zone import DAMAGED
 
 
-class Section:
+class CGNSSection:
     """A section of elements, whose numbers follow one another."""
 
-    def __init__(self, node: Node):
+    def __init__(self, node: CGNSNode):
         self.node, self.name = node, node.name
         kind, span = node.numbers().ravel(), node.named("ElementRange")
         span = span.numbers().ravel() if span is not None else np.empty(0, np.int64)

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block
-from hexmend.io.formats.cgns.tree import Node
+from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.zone import (
     DAMAGED,
     Zone,
@@ -25,7 +25,7 @@ from hexmend.quality import corner_determinants
 FACES_AT = np.array([[0, 1], [2, 3], [4, 5]])
 
 
-def structured(node: Node) -> Zone:
+def structured(node: CGNSNode) -> Zone:
     """Read a structured zone.
 
     Where i, j and k are left-handed, which they may be, its hexes are turned.
@@ -76,7 +76,7 @@ def hexes_between(points: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, bo
     return hexes[:, TURNED_CORNERS] if mirrored else hexes, bool(mirrored)
 
 
-def _add_conditions(zone: Zone, node: Node, count: np.ndarray) -> None:
+def _add_conditions(zone: Zone, node: CGNSNode, count: np.ndarray) -> None:
     """Boundary conditions: sides where they are a face of the zone, else nodes."""
     for name, condition in conditions(node):
         where = location_of(condition)
@@ -132,7 +132,7 @@ def _nodes(spans: list[np.ndarray], count: np.ndarray) -> np.ndarray:
     return (i + count[0] * (j[:, None] + count[1] * k[:, None, None])).ravel()
 
 
-def _interface(node: Node, count: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+def _interface(node: CGNSNode, count: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
     """Nodes of this zone, and the i, j, k of those of the donor: a pair of (n,) and (n, 3)."""
     spans = {one.name: _rows(one, 2) - 1 for one in node.children("IndexRange_t")}
     if "PointRange" not in spans or "PointRangeDonor" not in spans:
@@ -152,14 +152,14 @@ def _interface(node: Node, count: np.ndarray) -> tuple[np.ndarray, np.ndarray] |
     return own, donor + spans["PointRangeDonor"][0]
 
 
-def _rows(node: Node, rows: int | None) -> np.ndarray:
+def _rows(node: CGNSNode, rows: int | None) -> np.ndarray:
     values = node.numbers()
     if values.ndim != 2 or values.shape[1] != 3 or (rows is not None and len(values) != rows):
         raise FileError(node.path, f"{node.name} has the shape {values.shape}: expected rows of i, j, k", DAMAGED)
     return values
 
 
-def _check(node: Node, rows: np.ndarray, count: np.ndarray) -> None:
+def _check(node: CGNSNode, rows: np.ndarray, count: np.ndarray) -> None:
     """Raise `FileError` where an index from 0 is outside the zone."""
     if rows.size and ((rows < 0) | (rows >= count)).any():
         raise FileError(

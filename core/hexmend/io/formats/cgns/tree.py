@@ -13,7 +13,7 @@ from hexmend.io.base import hdf5
 _FAILURES = (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeError)
 
 
-class Node:
+class CGNSNode:
     """A node of the tree.
 
     Parameters
@@ -44,11 +44,11 @@ class Node:
             )
         return group.file[_text(hdf5.values_of(self.path, group[" path"]).tobytes())]
 
-    def children(self, *labels: str) -> list[Node]:
+    def children(self, *labels: str) -> list[CGNSNode]:
         """Nodes below this one that have one of some labels, by name."""
         try:
             return [
-                Node(self.path, self._group[name], name)
+                CGNSNode(self.path, self._group[name], name)
                 for name in self._group
                 if not name.startswith(" ") and _text(self._group[name].attrs.get("label", b"")) in labels
             ]
@@ -57,14 +57,14 @@ class Node:
         except _FAILURES as error:
             raise hdf5.damaged(self.path, error) from None
 
-    def child(self, label: str) -> Node | None:
+    def child(self, label: str) -> CGNSNode | None:
         """The first node below this one that has a label."""
         return next(iter(self.children(label)), None)
 
-    def named(self, name: str) -> Node | None:
+    def named(self, name: str) -> CGNSNode | None:
         """The node below this one that has a name, whatever its label."""
         try:
-            return Node(self.path, self._group[name], name) if name in self._group else None
+            return CGNSNode(self.path, self._group[name], name) if name in self._group else None
         except _FAILURES as error:
             raise hdf5.damaged(self.path, error) from None
 

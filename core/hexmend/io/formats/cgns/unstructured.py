@@ -8,8 +8,8 @@ from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, Block
 from hexmend.io.formats.cgns.elements import FACE_OF
 from hexmend.io.formats.cgns.polyhedra import polyhedra
-from hexmend.io.formats.cgns.section import Section
-from hexmend.io.formats.cgns.tree import Node
+from hexmend.io.formats.cgns.section import CGNSSection
+from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.zone import (
     DAMAGED,
     Zone,
@@ -24,11 +24,11 @@ from hexmend.io.formats.cgns.zone import (
 from hexmend.mesh.cells import CELL_KINDS
 
 
-def unstructured(node: Node) -> Zone:
+def unstructured(node: CGNSNode) -> Zone:
     """Read an unstructured zone."""
     n_nodes, n_cells = sizes(node, 1)[:2, 0].tolist()
     zone = Zone(node.name, family(node), coordinates(node, (n_nodes,)))
-    sections = sorted((Section(one) for one in node.children("Elements_t")), key=lambda one: one.first)
+    sections = sorted((CGNSSection(one) for one in node.children("Elements_t")), key=lambda one: one.first)
     parts = [(part, section) for section in sections for part in section.parts(zone.notes)]
     parts += polyhedra(sections, n_nodes, zone.notes)
     hexes = np.concatenate([numbers for (kind, _, numbers), _ in parts if kind in HEX_KINDS] or [np.empty(0, np.int64)])
@@ -58,7 +58,7 @@ def unstructured(node: Node) -> Zone:
     return zone
 
 
-def _sides(section: Section, which: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+def _sides(section: CGNSSection, which: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     """Hexes and faces of some faces of a section; `hexes` are the numbers of the hexes in the zone."""
     parents = section.parents[which].reshape(-1, 2)
     order = np.argsort(hexes, kind="stable")
@@ -70,7 +70,12 @@ def _sides(section: Section, which: np.ndarray, hexes: np.ndarray) -> np.ndarray
 
 
 def _add_condition(
-    zone: Zone, name: str, condition: Node, sections: list[Section], numbers_of: list[np.ndarray], hexes: np.ndarray
+    zone: Zone,
+    name: str,
+    condition: CGNSNode,
+    sections: list[CGNSSection],
+    numbers_of: list[np.ndarray],
+    hexes: np.ndarray,
 ) -> None:
     """A boundary condition: a set of nodes, of elements, or of sides."""
     members = [
@@ -105,7 +110,7 @@ def _add_condition(
             add(zone.side_sets, name, _sides(section, which, hexes))
 
 
-def _add_interface(zone: Zone, node: Node) -> None:
+def _add_interface(zone: Zone, node: CGNSNode) -> None:
     kind = node.child("GridConnectivityType_t")
     own, donor = node.named("PointList"), node.named("PointListDonor")
     if kind is None or kind.text() != "Abutting1to1" or own is None or donor is None or location_of(node) != "Vertex":

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block
-from hexmend.io.formats.cgns.tree import Node
+from hexmend.io.formats.cgns.tree import CGNSNode
 
 DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
@@ -55,7 +55,7 @@ class Zone:
         return nodes if whole else None
 
 
-def sizes(node: Node, rows: int) -> np.ndarray:
+def sizes(node: CGNSNode, rows: int) -> np.ndarray:
     """Numbers of vertices, cells and boundary vertices of a zone, (3, rows)."""
     values = node.numbers()
     if values.shape != (3, rows) or values.min() < 0:
@@ -63,13 +63,13 @@ def sizes(node: Node, rows: int) -> np.ndarray:
     return values
 
 
-def family(node: Node) -> str:
+def family(node: CGNSNode) -> str:
     """The family that a zone or boundary condition belongs to; empty where none is named."""
     found = node.child("FamilyName_t")
     return found.text() if found is not None else ""
 
 
-def coordinates(node: Node, shape: tuple[int, ...]) -> np.ndarray:
+def coordinates(node: CGNSNode, shape: tuple[int, ...]) -> np.ndarray:
     """The points of a zone, whose arrays have a shape (last index of CGNS first) without their rind, (n, 3)."""
     grids = node.children("GridCoordinates_t")
     grid = next((one for one in grids if one.name == "GridCoordinates"), grids[0] if grids else None)
@@ -90,7 +90,7 @@ def coordinates(node: Node, shape: tuple[int, ...]) -> np.ndarray:
     return points
 
 
-def results(node: Node, location: str, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+def results(node: CGNSNode, location: str, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
     """Arrays of the last solution at "Vertex" or "CellCenter", flat."""
     found: dict[str, np.ndarray] = {}
     for solution in node.children("FlowSolution_t", "DiscreteData_t"):
@@ -100,7 +100,7 @@ def results(node: Node, location: str, shape: tuple[int, ...]) -> dict[str, np.n
     return found
 
 
-def inside(node: Node, shape: tuple[int, ...], rind: np.ndarray) -> np.ndarray:
+def inside(node: CGNSNode, shape: tuple[int, ...], rind: np.ndarray) -> np.ndarray:
     """An array without the layers around it that rind (axes, 2), last index of CGNS first, tells of."""
     values = node.value()
     whole = tuple(int(length + layers.sum()) for length, layers in zip(shape, rind, strict=True))
@@ -111,7 +111,7 @@ def inside(node: Node, shape: tuple[int, ...], rind: np.ndarray) -> np.ndarray:
     return values[tuple(slice(int(low), int(low) + length) for (low, _), length in zip(rind, shape, strict=True))]
 
 
-def rind_of(node: Node, axes: int) -> np.ndarray:
+def rind_of(node: CGNSNode, axes: int) -> np.ndarray:
     """How many layers lie before and after the arrays of a node, (axes, 2), last index of CGNS first."""
     found = node.child("Rind_t")
     values = found.numbers().ravel() if found is not None else np.zeros(2 * axes, np.int64)
@@ -120,13 +120,13 @@ def rind_of(node: Node, axes: int) -> np.ndarray:
     return values.reshape(axes, 2)[::-1]
 
 
-def location_of(node: Node) -> str:
+def location_of(node: CGNSNode) -> str:
     """Where data or members of a node are: "Vertex" unless it says otherwise."""
     found = node.child("GridLocation_t")
     return found.text() if found is not None else "Vertex"
 
 
-def conditions(node: Node) -> list[tuple[str, Node]]:
+def conditions(node: CGNSNode) -> list[tuple[str, CGNSNode]]:
     """Boundary conditions of a zone and their names: those of their families where they have any."""
     return [
         (family(condition) or condition.name, condition)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.io.formats.exodus import netcdf3
 from hexmend.io.formats.exodus.ids import IDS
 from hexmend.io.formats.exodus.records import INFORMATION, QA
@@ -56,8 +56,9 @@ FORMATS.add(
         write,
         frozenset(
             {
-                Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.SIDE_SETS,
-                Holds.PINS, Holds.CELL_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER,
+                Capability.NODE_DATA, Capability.HEX_DATA, Capability.IDS, Capability.NODE_SETS, Capability.HEX_SETS,
+                Capability.SIDE_SETS, Capability.PINS, Capability.CELL_SETS, Capability.LOWER_CELLS,
+                Capability.OTHER_CELLS, Capability.SECOND_ORDER,
             }
         ),
         names=frozenset({IDS, QA, INFORMATION}),

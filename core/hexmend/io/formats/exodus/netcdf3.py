@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cursor import Source
+from hexmend.io.base.cursor import ByteCursor
 
 #: Types of values by their numbers; 2 is text.
 TYPES = {
@@ -78,7 +78,7 @@ class Classic:
         self.path = path
         self._length = os.path.getsize(path)
         with open(path, "rb") as file:
-            head = _Head(Source(path, file.read(_HEAD), text=False))
+            head = _Head(ByteCursor(path, file.read(_HEAD), text=False))
         records = head.count()
         dimensions = head.dimensions()
         self.attributes = head.attributes()
@@ -120,7 +120,7 @@ class Classic:
 class _Head:
     """The head of a file, taken part by part."""
 
-    def __init__(self, source: Source):
+    def __init__(self, source: ByteCursor):
         self.source = source
         version = source.take(4, "the head")[3]
         self.width = 8 if version == 5 else 4  # bytes of a count

@@ -19,7 +19,7 @@ _NUMBERS = {"S": 2, "i4": 4, "i8": 10, "f4": 5, "f8": 6}
 _TEXT = 33
 
 
-class Writer:
+class ClassicWriter:
     """A NetCDF file in the making: what is in it is told first, then it is written at once.
 
     The only records are those of the unlimited dimension "time_step"; there is one, or none.

@@ -13,7 +13,7 @@ from hexmend.io.base.fixed_marks import FIXED
 from hexmend.io.formats.exodus.elements import FACE_OF_SIDE, ORDER, PINS, family_of
 from hexmend.io.formats.exodus.ids import kept
 from hexmend.io.formats.exodus.records import not_kept, records_of
-from hexmend.io.formats.exodus.store import Store, opened
+from hexmend.io.formats.exodus.store import ExodusStore, opened
 from hexmend.io.formats.exodus.values import DAMAGED, Values, with_columns
 from hexmend.mesh.cells import CELL_KINDS
 
@@ -27,7 +27,7 @@ def content(path: Path) -> Content:
 class _Reader:
     """One file, and what is found in it on the way."""
 
-    def __init__(self, path: Path, store: Store):
+    def __init__(self, path: Path, store: ExodusStore):
         self.path, self.store = path, store
         self.notes: list[str] = []
         self.unread: dict[str, int] = {}  # how many cells of which type and block are left out

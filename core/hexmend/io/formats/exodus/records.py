@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from hexmend.io.formats.exodus.netcdf3_writer import Writer
-from hexmend.io.formats.exodus.store import Store
+from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
+from hexmend.io.formats.exodus.store import ExodusStore
 
 #: Field data with the QA records, four texts each (program, version, date, time), and with the information records.
 QA, INFORMATION = "exodus:qa", "exodus:information"
@@ -29,7 +29,7 @@ _NOT_KEPT = {
 }
 
 
-def records_of(store: Store) -> dict[str, list[str]]:
+def records_of(store: ExodusStore) -> dict[str, list[str]]:
     """Field data of the QA and the information records of a file; nothing where it has none."""
     found = {}
     for name, variable, axes in ((QA, "qa_records", 3), (INFORMATION, "info_records", 2)):
@@ -40,7 +40,7 @@ def records_of(store: Store) -> dict[str, list[str]]:
     return found
 
 
-def add_records(file: Writer, field_data: Mapping[str, object]) -> None:
+def add_records(file: ClassicWriter, field_data: Mapping[str, object]) -> None:
     """Write the records that `records_of` found, or none where the field data of their names are something else."""
     qa, lines = _texts(field_data.get(QA)), _texts(field_data.get(INFORMATION))
     if qa and len(qa) % 4 == 0:
@@ -50,7 +50,7 @@ def add_records(file: Writer, field_data: Mapping[str, object]) -> None:
         file.add("info_records", {"num_info": len(lines), "len_line": _LINE}, _letters(lines, _LINE))
 
 
-def not_kept(store: Store) -> list[str]:
+def not_kept(store: ExodusStore) -> list[str]:
     """A note on what the file holds and Hexmend does not keep; none where there is nothing."""
     left = [words for dimension, words in _NOT_KEPT.items() if store.dimensions.get(dimension)]
     if any(_has_factors(store, f"{sort}{k}") for sort in ("ns", "ss") for k in range(1, _sets(store, sort) + 1)):
@@ -58,12 +58,12 @@ def not_kept(store: Store) -> list[str]:
     return [f"What Hexmend does not keep is left out: {', '.join(left)}."] if left else []
 
 
-def _sets(store: Store, sort: str) -> int:
+def _sets(store: ExodusStore, sort: str) -> int:
     """The number of node or side sets, each of which has a variable at least."""
     return min(len(store), store.dimensions.get({"ns": "num_node_sets", "ss": "num_side_sets"}[sort], 0))
 
 
-def _has_factors(store: Store, which: str) -> bool:
+def _has_factors(store: ExodusStore, which: str) -> bool:
     name = f"dist_fact_{which}"
     values = store.array(name) if name in store else np.ones(1)
     return values.dtype.kind in "iuf" and bool((values != 1).any())

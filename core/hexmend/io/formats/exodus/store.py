@@ -16,7 +16,7 @@ from hexmend.io.base import hdf5
 from hexmend.io.formats.exodus.netcdf3 import Classic
 
 
-class Store(Protocol):
+class ExodusStore(Protocol):
     """Dimensions and variables by name."""
 
     dimensions: dict[str, int]
@@ -35,7 +35,7 @@ class Store(Protocol):
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[Store]:
+def opened(path: Path) -> Iterator[ExodusStore]:
     """The store that a file is."""
     with open(path, "rb") as file:
         classic = file.read(3) == b"CDF"

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.formats.exodus.store import Store
+from hexmend.io.formats.exodus.store import ExodusStore
 
 DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 _COMPONENT = re.compile(r"(.+)_(x|1)$", re.IGNORECASE)
@@ -21,12 +21,12 @@ class Values:
     Parameters
     ----------
     path : Path
-    store : Store
+    store : ExodusStore
     last : int
         The time step that is read, from 0.
     """
 
-    def __init__(self, path: Path, store: Store, last: int):
+    def __init__(self, path: Path, store: ExodusStore, last: int):
         self.path, self.store, self.last = path, store, last
 
     def array(self, name: str, *shape: int) -> np.ndarray:

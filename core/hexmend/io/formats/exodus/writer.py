@@ -16,7 +16,7 @@ from hexmend.io.base.unique_names import distinct, renamed
 from hexmend.io.formats.exodus.columns import column_titles, columns, form, whole_numbers
 from hexmend.io.formats.exodus.elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.formats.exodus.ids import IDS, ids_of
-from hexmend.io.formats.exodus.netcdf3_writer import Writer
+from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
 from hexmend.io.formats.exodus.records import add_records
 from hexmend.mesh.mesh import Mesh
 
@@ -38,7 +38,7 @@ def write(path: Path, mesh: Mesh) -> None:
     often = Counter(name for part in parts for name in part.sets if name)
     blocks = [piece for part in parts for piece in _pieces(part, {name for name in often if often[name] == 1})]
     ids = [np.asarray(values) for values in (mesh.node_data.get(ID), *(part.data.get(ID) for part in parts))]
-    file = Writer(
+    file = ClassicWriter(
         {
             "api_version": np.float32(8.03),
             "version": np.float32(8.03),
@@ -101,14 +101,14 @@ def _pieces(block: Block, unique: set[str]) -> Iterator[_Piece]:
             yield _Piece(block.kind, block.nodes[first:last], data, name=name)
 
 
-def _add_points(file: Writer, mesh: Mesh) -> None:
+def _add_points(file: ClassicWriter, mesh: Mesh) -> None:
     for axis, name in enumerate("xyz"):
         file.add("coord" + name, {"num_nodes": mesh.n_nodes}, mesh.points[:, axis])
     file.dimensions["num_dim"] = 3
     file.add_text("coor_names", "num_dim", ["x", "y", "z"])
 
 
-def _add_blocks(file: Writer, mesh: Mesh, blocks: list[_Piece]) -> None:
+def _add_blocks(file: ClassicWriter, mesh: Mesh, blocks: list[_Piece]) -> None:
     file.dimensions["num_elem"] = sum(len(block) for block in blocks)
     _add_list(file, mesh, "eb", "num_el_blk", [block.name for block in blocks])
     for k, block in enumerate(blocks, 1):
@@ -119,7 +119,7 @@ def _add_blocks(file: Writer, mesh: Mesh, blocks: list[_Piece]) -> None:
         file.add(f"connect{k}", shape, nodes + 1, elem_type=TYPES[block.kind])
 
 
-def _add_ids(file: Writer, mesh: Mesh, parts: list[Block]) -> None:
+def _add_ids(file: ClassicWriter, mesh: Mesh, parts: list[Block]) -> None:
     if whole_numbers(mesh.node_data.get(ID)):
         file.add("node_num_map", {"num_nodes": mesh.n_nodes}, mesh.node_data[ID])
     if any(whole_numbers(part.data.get(ID)) for part in parts):
@@ -132,7 +132,7 @@ def _add_ids(file: Writer, mesh: Mesh, parts: list[Block]) -> None:
         file.add("elem_num_map", {"num_elem": sum(len(part) for part in parts)}, np.concatenate(rows))
 
 
-def _add_node_sets(file: Writer, mesh: Mesh) -> None:
+def _add_node_sets(file: ClassicWriter, mesh: Mesh) -> None:
     pins, sets = "", {name: np.asarray(members) for name, members in mesh.node_sets.items() if len(members)}
     fixed = np.zeros(mesh.n_nodes, bool)
     for name, members in sets.items():
@@ -148,7 +148,7 @@ def _add_node_sets(file: Writer, mesh: Mesh) -> None:
         file.add(f"node_ns{k}", {f"num_nod_ns{k}": len(members)}, members + 1)
 
 
-def _add_element_sets(file: Writer, mesh: Mesh, parts: list[Block], blocks: list[_Piece]) -> None:
+def _add_element_sets(file: ClassicWriter, mesh: Mesh, parts: list[Block], blocks: list[_Piece]) -> None:
     sets: dict[str, list[np.ndarray]] = {}
     named, first = {block.name for block in blocks if block.name}, 0
     for part in parts:
@@ -162,7 +162,7 @@ def _add_element_sets(file: Writer, mesh: Mesh, parts: list[Block], blocks: list
         file.add(f"elem_els{k}", {f"num_ele_els{k}": len(members)}, members + 1)
 
 
-def _add_side_sets(file: Writer, mesh: Mesh, numbers: np.ndarray) -> None:
+def _add_side_sets(file: ClassicWriter, mesh: Mesh, numbers: np.ndarray) -> None:
     sets = {name: np.asarray(rows) for name, rows in mesh.side_sets.items() if len(rows)}
     _add_list(file, mesh, "ss", "num_side_sets", list(sets))
     for k, rows in enumerate(sets.values(), 1):
@@ -171,7 +171,7 @@ def _add_side_sets(file: Writer, mesh: Mesh, numbers: np.ndarray) -> None:
         file.add(f"side_ss{k}", shape, SIDE_OF_FACE[rows[:, 1]])
 
 
-def _add_results(file: Writer, nodes: Mapping[str, np.ndarray], cells: list[Mapping[str, np.ndarray]]) -> None:
+def _add_results(file: ClassicWriter, nodes: Mapping[str, np.ndarray], cells: list[Mapping[str, np.ndarray]]) -> None:
     """Data of nodes and cells, as results of one time step."""
     if nodes:
         file.add_text("name_nod_var", "num_nod_var", list(nodes))
@@ -189,7 +189,7 @@ def _add_results(file: Writer, nodes: Mapping[str, np.ndarray], cells: list[Mapp
                     file.add(f"vals_elem_var{v}eb{k}", shape, those[name])
 
 
-def _add_list(file: Writer, mesh: Mesh, start: str, dimension: str, names: list[str]) -> None:
+def _add_list(file: ClassicWriter, mesh: Mesh, start: str, dimension: str, names: list[str]) -> None:
     """Ids, states and names of the blocks or sets of one sort."""
     if names:
         shape = {dimension: len(names)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.mesh.mesh import Mesh
 
 
@@ -33,7 +33,14 @@ def _recognised(head: bytes) -> bool:
     return b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD")
 
 
-HELD = (Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.HEX_SETS, Holds.PINS, Holds.LOWER_CELLS)
+HELD = (
+    Capability.NODE_DATA,
+    Capability.HEX_DATA,
+    Capability.IDS,
+    Capability.HEX_SETS,
+    Capability.PINS,
+    Capability.LOWER_CELLS,
+)
 
 FORMATS.add(
     "gmsh",
@@ -44,7 +51,9 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset({*HELD, Holds.VERTICES, Holds.CELL_SETS, Holds.OTHER_CELLS, Holds.SECOND_ORDER}),
+        holds=frozenset(
+            {*HELD, Capability.VERTICES, Capability.CELL_SETS, Capability.OTHER_CELLS, Capability.SECOND_ORDER}
+        ),
         names=frozenset({"gmsh:physical"}),
         recognised=_recognised,
         cannot=cannot,

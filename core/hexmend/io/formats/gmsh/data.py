@@ -6,7 +6,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.io.base.cursor import Source
+from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.decimals import blocks as parts_of
 from hexmend.io.base.decimals import lines
 from hexmend.io.formats.gmsh.content import Data, Read
@@ -17,7 +17,7 @@ DATA = {"$NodeData": "nodes", "$ElementData": "elements"}
 _WIDTHS, _WIDEST = (1, 3, 9), 1000
 
 
-def read_data(source: Source, order: str, key: str, result: Read) -> None:
+def read_data(source: ByteCursor, order: str, key: str, result: Read) -> None:
     """A section of data: a name, times, the step, and how many values a row and how many rows there are."""
     titles = [source.line() for _ in range(_count(source, key))]
     for _ in range(_count(source, key)):
@@ -42,14 +42,14 @@ def read_data(source: Source, order: str, key: str, result: Read) -> None:
     result.data.append(Data(key == "$NodeData", name, tags, values[:, 0] if width == 1 else values))
 
 
-def _count(source: Source, key: str) -> int:
+def _count(source: ByteCursor, key: str) -> int:
     count = source.whole(source.line(), f"a number of {key}")
     if count > 1000:
         raise source.error(f"{key} announces {count} words: expected a few")
     return count
 
 
-class Writer:
+class DataWriter:
     """Numbers as text, a row a line, or binary."""
 
     def __init__(self, file: BinaryIO, binary: bool):
@@ -91,7 +91,7 @@ def written_width(values: np.ndarray) -> int | None:
     return next((one for one in _WIDTHS if 1 <= width <= one), None) if values.dtype.kind in "biuf" else None
 
 
-def write_data(out: Writer, key: str, name: str, tags: list[np.ndarray], data: list[np.ndarray]) -> None:
+def write_data(out: DataWriter, key: str, name: str, tags: list[np.ndarray], data: list[np.ndarray]) -> None:
     """A section of data, in rows of 1, 3 or 9 values, of which some are 0 where there are fewer.
 
     What is no number, or has more than nine values a row, is not written.

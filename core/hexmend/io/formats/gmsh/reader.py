@@ -6,7 +6,7 @@ import struct
 from pathlib import Path
 
 from hexmend.errors import FileError
-from hexmend.io.base.cursor import Source, shown
+from hexmend.io.base.cursor import ByteCursor, shown
 from hexmend.io.formats.gmsh.content import Read, to_mesh
 from hexmend.io.formats.gmsh.data import DATA, read_data
 from hexmend.io.formats.gmsh.version_1 import read_elements as elements_1
@@ -36,7 +36,7 @@ def read(path: Path) -> Mesh:
     with open(path, "rb") as file:
         if not file.read(4096).lstrip().startswith(b"$"):  # said before all of a large file is read
             raise FileError(path, "does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
-    source = Source(path, path.read_bytes())
+    source = ByteCursor(path, path.read_bytes())
     version, order, result, left = 0, "", Read(), {}
     while not source.ended:
         key = source.line()
@@ -63,7 +63,7 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, result)
 
 
-def _head(source: Source) -> tuple[int, str]:
+def _head(source: ByteCursor) -> tuple[int, str]:
     """2 or 4, and the order of a binary file's bytes, "" for one in decimals."""
     words = source.line().split()
     if len(words) != 3:
@@ -87,7 +87,7 @@ def _head(source: Source) -> tuple[int, str]:
     return int(version[0]), order
 
 
-def _names(source: Source, result: Read) -> None:
+def _names(source: ByteCursor, result: Read) -> None:
     count = source.whole(source.line(), "the number of physical names")
     while (line := source.line()) != "$EndPhysicalNames":
         if not line:
@@ -97,7 +97,7 @@ def _names(source: Source, result: Read) -> None:
         raise source.error(f"$PhysicalNames holds {len(result.names)} names: expected {count}")
 
 
-def _skip(source: Source, key: str) -> None:
+def _skip(source: ByteCursor, key: str) -> None:
     end = f"$End{key[1:]}".encode()
     at = source.data.find(end, source.pos)
     if at < 0:

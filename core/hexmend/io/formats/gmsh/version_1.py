@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.io.base.cursor import Source
+from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.formats.gmsh.content import Elements, Read, width_of
 from hexmend.io.formats.gmsh.version_2 import nodes_of_rows
 
 
-def read_nodes(source: Source, order: str, result: Read) -> None:
+def read_nodes(source: ByteCursor, order: str, result: Read) -> None:
     """$NOD: a count, then the tag and the coordinates of each node."""
     nodes_of_rows(source, "$NOD", b"$ENDNOD", result)
 
 
-def read_elements(source: Source, order: str, result: Read) -> None:
+def read_elements(source: ByteCursor, order: str, result: Read) -> None:
     """$ELM: a count, then of each element its tag, type, physical group, entity, number of nodes, and nodes."""
     values = source.decimals_until("$ELM", b"$ENDELM", np.int64)
     count = int(values[0]) if values.size else 0

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.io.base.cursor import Source
+from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.formats.gmsh.content import Elements, Read, width_of
 
 
-def read_nodes(source: Source, order: str, result: Read) -> None:
+def read_nodes(source: ByteCursor, order: str, result: Read) -> None:
     """$Nodes: a count, then the tag and the coordinates of each node."""
     if order:
         count = source.whole(source.line(), "the number of nodes")
@@ -19,7 +19,7 @@ def read_nodes(source: Source, order: str, result: Read) -> None:
     nodes_of_rows(source, "$Nodes", b"$EndNodes", result)
 
 
-def nodes_of_rows(source: Source, name: str, end: bytes, result: Read) -> None:
+def nodes_of_rows(source: ByteCursor, name: str, end: bytes, result: Read) -> None:
     """Nodes in decimals: a count, then the tag and the coordinates of each."""
     values = source.decimals_until(name, end, np.float64)
     count = int(values[0]) if values.size and np.isfinite(values[0]) else 0
@@ -29,7 +29,7 @@ def nodes_of_rows(source: Source, name: str, end: bytes, result: Read) -> None:
     result.tags, result.points = whole_tags(source, rows[:, 0]), np.ascontiguousarray(rows[:, 1:])
 
 
-def read_elements(source: Source, order: str, result: Read) -> None:
+def read_elements(source: ByteCursor, order: str, result: Read) -> None:
     """$Elements: a count, then of each element its tag, type, number of groups, groups and nodes.
 
     In binary type, how many follow and number of groups stand before the elements that share them.
@@ -60,7 +60,7 @@ def read_elements(source: Source, order: str, result: Read) -> None:
         result.elements.append(Elements(kind, values[rows], nodes, *_group_and_partition(numbers)))
 
 
-def _binary(source: Source, order: str) -> list[Elements]:
+def _binary(source: ByteCursor, order: str) -> list[Elements]:
     count = source.whole(source.line(), "the number of elements")
     found, seen = [], 0
     while seen < count:
@@ -86,7 +86,7 @@ def _group_and_partition(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray | 
     return group, np.where(numbers[:, 2] > 0, numbers[:, 3], 0) if numbers.shape[1] > 3 else None
 
 
-def whole_tags(source: Source, values: np.ndarray) -> np.ndarray:
+def whole_tags(source: ByteCursor, values: np.ndarray) -> np.ndarray:
     """Tags of nodes that stand among coordinates, (n,) int64."""
     tags = np.where(np.isfinite(values) & (np.abs(values) < 2.0**53), values, -0.5)
     if (tags != np.floor(tags)).any() or (tags < 1).any():
@@ -95,6 +95,6 @@ def whole_tags(source: Source, values: np.ndarray) -> np.ndarray:
     return tags.astype(np.int64)
 
 
-def _expect(source: Source, end: str) -> None:
+def _expect(source: ByteCursor, end: str) -> None:
     if source.line() != end:
         raise source.error(f"a section ends without {end} before {source.here}")

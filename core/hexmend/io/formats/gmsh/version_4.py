@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.io.base.cursor import Source
+from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.formats.gmsh.content import Elements, Read, width_of
 from hexmend.io.formats.gmsh.version_2 import whole_tags
 
@@ -14,7 +14,7 @@ class _Numbers:
 
     Parameters
     ----------
-    source : Source
+    source : ByteCursor
     order : str
         The order of bytes; "" for decimals, of which all up to the section's end are taken at once.
     name : str
@@ -22,7 +22,7 @@ class _Numbers:
         Of decimals.
     """
 
-    def __init__(self, source: Source, order: str, name: str, dtype: type):
+    def __init__(self, source: ByteCursor, order: str, name: str, dtype: type):
         self.source, self.order, self.name, self.at = source, order, name, 0
         self.values = None if order else source.decimals_until(f"${name}", f"$End{name}".encode(), dtype)
 
@@ -50,7 +50,7 @@ class _Numbers:
             raise self.source.error(f"${self.name} ends without $End{self.name} before {self.source.here}")
 
 
-def read_entities(source: Source, order: str, result: Read) -> None:
+def read_entities(source: ByteCursor, order: str, result: Read) -> None:
     """$Entities: points, curves, surfaces and volumes with their physical groups."""
     numbers = _Numbers(source, order, "Entities", np.float64)
     for dimension, count in enumerate(numbers.naturals(4)):
@@ -60,7 +60,7 @@ def read_entities(source: Source, order: str, result: Read) -> None:
     numbers.close()
 
 
-def read_partitioned(source: Source, order: str, result: Read) -> None:
+def read_partitioned(source: ByteCursor, order: str, result: Read) -> None:
     """$PartitionedEntities: the parts of entities that processors have, with their physical groups or their parent's.
 
     Before them stand the number of partitions, and entities of ghost elements, which are in no other section.
@@ -89,7 +89,7 @@ def _groups(numbers: _Numbers, dimension: int) -> list[int]:
     return groups
 
 
-def read_nodes(source: Source, order: str, result: Read) -> None:
+def read_nodes(source: ByteCursor, order: str, result: Read) -> None:
     """$Nodes: for each entity its nodes' tags, then their coordinates."""
     numbers = _Numbers(source, order, "Nodes", np.float64)
     blocks, count = numbers.naturals(4)[:2]
@@ -107,7 +107,7 @@ def read_nodes(source: Source, order: str, result: Read) -> None:
         raise source.error(f"$Nodes holds {len(result.tags)} nodes: expected {count}")
 
 
-def read_elements(source: Source, order: str, result: Read) -> None:
+def read_elements(source: ByteCursor, order: str, result: Read) -> None:
     """$Elements: for each entity and type the elements' tags and nodes."""
     numbers = _Numbers(source, order, "Elements", np.int64)
     blocks, count = numbers.naturals(4)[:2]

@@ -14,7 +14,7 @@ from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.numbering import combinations, element_numbers, ids_lost, node_numbers, runs
 from hexmend.io.base.unique_names import distinct, renamed
 from hexmend.io.formats.gmsh.content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
-from hexmend.io.formats.gmsh.data import Writer, data_title, width_of_row, write_data, written_width
+from hexmend.io.formats.gmsh.data import DataWriter, data_title, width_of_row, write_data, written_width
 from hexmend.mesh.mesh import Mesh
 
 
@@ -24,7 +24,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     tags = node_numbers(dict(content.node_data), len(content.points))
     entities, groups, of_block = _entities(content.blocks, mesh.field_data.get(PHYSICAL))
     with open(path, "wb") as file:
-        out = Writer(file, encoding == "binary")
+        out = DataWriter(file, encoding == "binary")
         file.write(b"$MeshFormat\n4.1 %d 8\n" % out.binary)
         if out.binary:
             file.write(np.array([1], "<i4").tobytes() + b"\n")
@@ -135,7 +135,7 @@ def _write_names(file: BinaryIO, groups: Mapping[tuple[int, int], str]) -> None:
     file.write(b"$EndPhysicalNames\n")
 
 
-def _write_entities(out: Writer, entities: Mapping[tuple[int, int], list[int]], points: np.ndarray) -> None:
+def _write_entities(out: DataWriter, entities: Mapping[tuple[int, int], list[int]], points: np.ndarray) -> None:
     low, high = points.min(axis=0), points.max(axis=0)
     out.file.write(b"$Entities\n")
     out.whole(([sum(dimension == d for dimension, _ in entities) for d in range(4)], "u8"))
@@ -153,7 +153,7 @@ def _write_entities(out: Writer, entities: Mapping[tuple[int, int], list[int]], 
     out.end(b"Entities")
 
 
-def _write_nodes(out: Writer, points: np.ndarray, tags: np.ndarray, volume: int) -> None:
+def _write_nodes(out: DataWriter, points: np.ndarray, tags: np.ndarray, volume: int) -> None:
     out.file.write(b"$Nodes\n")
     out.whole(([1, len(points), tags.min(), tags.max()], "u8"))
     out.whole(([3, volume, 0], "i4"), ([len(points)], "u8"))
@@ -163,7 +163,7 @@ def _write_nodes(out: Writer, points: np.ndarray, tags: np.ndarray, volume: int)
 
 
 def _write_elements(
-    out: Writer, blocks: tuple[Block, ...], of_block: list[np.ndarray], numbers: list[np.ndarray], tags: np.ndarray
+    out: DataWriter, blocks: tuple[Block, ...], of_block: list[np.ndarray], numbers: list[np.ndarray], tags: np.ndarray
 ) -> None:
     together = [runs(entity) for entity in of_block]
     every = np.concatenate(numbers)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.io.formats.med.writer import cannot, write
 from hexmend.mesh.mesh import Mesh
 
@@ -21,7 +21,14 @@ def _recognised(head: bytes) -> bool:
     return head.startswith(hdf5.MAGIC) and (b"ENS_MAA" in head or b"INFOS_GENERALES" in head)
 
 
-HELD = (Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.LOWER_CELLS, Holds.OTHER_CELLS, Holds.SECOND_ORDER)
+HELD = (
+    Capability.IDS,
+    Capability.NODE_SETS,
+    Capability.HEX_SETS,
+    Capability.LOWER_CELLS,
+    Capability.OTHER_CELLS,
+    Capability.SECOND_ORDER,
+)
 
 FORMATS.add(
     "med",
@@ -32,7 +39,16 @@ FORMATS.add(
         ("binary",),
         read,
         write,
-        holds=frozenset({*HELD, Holds.CELL_SETS, Holds.VERTICES, Holds.NODE_DATA, Holds.HEX_DATA, Holds.PINS}),
+        holds=frozenset(
+            {
+                *HELD,
+                Capability.CELL_SETS,
+                Capability.VERTICES,
+                Capability.NODE_DATA,
+                Capability.HEX_DATA,
+                Capability.PINS,
+            }
+        ),
         recognised=_recognised,
         cannot=cannot,
     ),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import Source, shown
+from hexmend.io.base.cursor import ByteCursor, shown
 from hexmend.io.base.decimals import blocks, lines
 from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.formats.medit.content import HELD, NAMES_HELD, SECTIONS, cannot, from_mesh, to_mesh
@@ -17,7 +17,7 @@ _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexae
 
 def read(path: Path) -> Mesh:
     """Read a Medit file; coordinates are taken in double precision whatever its version says."""
-    source = Source(path, _without_comments(path.read_bytes()))
+    source = ByteCursor(path, _without_comments(path.read_bytes()))
     if source.word() != "MeshVersionFormatted":
         raise source.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
     source.whole(source.word(), "the version")
@@ -50,7 +50,7 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, points, refs, sections)
 
 
-def _whole(source: Source, numbers: np.ndarray) -> np.ndarray:
+def _whole(source: ByteCursor, numbers: np.ndarray) -> np.ndarray:
     """References of vertices, (n,) int64."""
     with np.errstate(invalid="ignore"):
         wrong = np.flatnonzero(~((numbers == np.rint(numbers)) & (np.abs(numbers) < 2.0**53)))
@@ -60,7 +60,7 @@ def _whole(source: Source, numbers: np.ndarray) -> np.ndarray:
     return numbers.astype(np.int64)
 
 
-def _skip(source: Source) -> None:
+def _skip(source: ByteCursor) -> None:
     """Go to the next word that begins with a letter."""
     while not source.ended:
         mark = source.pos

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cursor import Source
+from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.formats.medit.content import HELD, NAMES_HELD, SECTIONS, cannot, from_mesh, to_mesh
 from hexmend.mesh.mesh import Mesh
@@ -19,7 +19,7 @@ _BY_CODE = {section.code: section for section in SECTIONS.values()}
 
 def read(path: Path) -> Mesh:
     """Read a binary Medit file of either byte order."""
-    source = Source(path, path.read_bytes(), text=False)
+    source = ByteCursor(path, path.read_bytes(), text=False)
     head = source.take(4, "the head")
     order = {b"\x01\x00\x00\x00": "<", b"\x00\x00\x00\x01": ">"}.get(head)
     if order is None:

@@ -12,13 +12,13 @@ from hexmend.io.base.content import Block, Content, hex_blocks
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import needs_marks
-from hexmend.io.base.format import Holds
+from hexmend.io.base.format import Capability
 from hexmend.io.base.lower_order import middles_lost, reduced
 from hexmend.mesh.mesh import Mesh
 
 
 @dataclass(frozen=True)
-class Section:
+class MeditSection:
     """A section of the format: its keyword, its number in binary files, whole numbers a row, and what they are.
 
     `corners` is the number of nodes of a cell, followed by its reference; 0 for lists of numbers.
@@ -34,19 +34,19 @@ class Section:
 SECTIONS = {
     section.name: section
     for section in (
-        Section("Edges", 5, 3, 2),
-        Section("Triangles", 6, 4, 3),
-        Section("Quadrilaterals", 7, 5, 4),
-        Section("Tetrahedra", 8, 5, 4),
-        Section("Prisms", 9, 7, 6),
-        Section("Hexahedra", 10, 9, 8),
-        Section("Pyramids", 49, 6, 5),
-        Section("Corners", 13, 1),
-        Section("Ridges", 14, 1),
-        Section("RequiredVertices", 15, 1),
-        Section("RequiredEdges", 16, 1),
-        Section("RequiredTriangles", 17, 1),
-        Section("RequiredQuadrilaterals", 18, 1),
+        MeditSection("Edges", 5, 3, 2),
+        MeditSection("Triangles", 6, 4, 3),
+        MeditSection("Quadrilaterals", 7, 5, 4),
+        MeditSection("Tetrahedra", 8, 5, 4),
+        MeditSection("Prisms", 9, 7, 6),
+        MeditSection("Hexahedra", 10, 9, 8),
+        MeditSection("Pyramids", 49, 6, 5),
+        MeditSection("Corners", 13, 1),
+        MeditSection("Ridges", 14, 1),
+        MeditSection("RequiredVertices", 15, 1),
+        MeditSection("RequiredEdges", 16, 1),
+        MeditSection("RequiredTriangles", 17, 1),
+        MeditSection("RequiredQuadrilaterals", 18, 1),
     )
 }
 REF = "medit:ref"
@@ -63,7 +63,7 @@ _FLAGS = (
     ("RequiredQuadrilaterals", "quad", "medit:required"),
 )
 #: What the format holds, and which names of data and sets.
-HELD = frozenset({Holds.PINS, Holds.LOWER_CELLS, Holds.OTHER_CELLS})
+HELD = frozenset({Capability.PINS, Capability.LOWER_CELLS, Capability.OTHER_CELLS})
 NAMES_HELD = frozenset({REF, "corners", "required", *(flag for _, _, flag in _FLAGS)})
 _NODE_SETS = {"Corners": "corners", "RequiredVertices": "required"}
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block, from_mesh
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.io.base.lower_order import middles_lost, reduced
 from hexmend.io.base.numbering import element_numbers, ids_lost, node_numbers
 from hexmend.mesh.mesh import Mesh
@@ -150,7 +150,7 @@ FORMATS.add(
         ("ascii",),
         read,
         write,
-        holds=frozenset({Holds.IDS, Holds.OTHER_CELLS}),
+        holds=frozenset({Capability.IDS, Capability.OTHER_CELLS}),
         names=_Properties(),
         recognised=_recognised,
         exact=False,  # a column has room for 12 to 14 digits

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import Source, shown, text_of
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.cursor import ByteCursor, shown, text_of
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.io.base.polyhedra import Lists, cells_of
 from hexmend.io.formats.ovm.writer import cannot, write
 from hexmend.io.formats.vtk.grid import NUMBERS, WIDTHS, Grid, to_mesh
@@ -30,7 +30,7 @@ _WHOLES = ("int", "unsigned int", "uint", "long", "unsigned long", "ulong", "sho
 
 def read(path: Path) -> Mesh:
     """Read a mesh of polyhedra; properties of its vertices and cells are data of nodes and hexes."""
-    source = Source(path, text_of(path))
+    source = ByteCursor(path, text_of(path))
     if source.line().upper() != "OVM ASCII":
         raise source.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
     points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)
@@ -95,7 +95,7 @@ def _grid(
     )
 
 
-def _rows(source: Source, name: str, limit: int) -> Lists:
+def _rows(source: ByteCursor, name: str, limit: int) -> Lists:
     """Rows that each begin with how many numbers follow, which are from 0 to limit - 1."""
     count = _count(source, name)
     letter = _LETTER.search(source.data, source.pos)
@@ -114,7 +114,7 @@ def _rows(source: Source, name: str, limit: int) -> Lists:
 
 
 def _property(
-    source: Source, head: re.Match[str], kept: dict[str, tuple[dict[str, np.ndarray], int]], notes: list[str]
+    source: ByteCursor, head: re.Match[str], kept: dict[str, tuple[dict[str, np.ndarray], int]], notes: list[str]
 ) -> None:
     """Values of a property; those that are no numbers, or of edges and faces, are passed over."""
     entity, type, name = head[1], head[2], head[3]
@@ -134,11 +134,11 @@ def _property(
             return
 
 
-def _count(source: Source, name: str) -> int:
+def _count(source: ByteCursor, name: str) -> int:
     return source.whole(source.line(), f"the number of {name}")
 
 
-def _check(source: Source, name: str, values: np.ndarray, limit: int) -> None:
+def _check(source: ByteCursor, name: str, values: np.ndarray, limit: int) -> None:
     if values.size and (values.min() < 0 or values.max() >= limit):
         wrong = int(values[(values < 0) | (values >= limit)].flat[0])
         raise source.error(f"{name} name {wrong}: expected numbers from 0 to {limit - 1}")
@@ -148,7 +148,15 @@ def _recognised(head: bytes) -> bool:
     return head[:9].upper() == b"OVM ASCII"
 
 
-HELD = (Holds.NODE_DATA, Holds.HEX_DATA, Holds.IDS, Holds.NODE_SETS, Holds.HEX_SETS, Holds.PINS, Holds.OTHER_CELLS)
+HELD = (
+    Capability.NODE_DATA,
+    Capability.HEX_DATA,
+    Capability.IDS,
+    Capability.NODE_SETS,
+    Capability.HEX_SETS,
+    Capability.PINS,
+    Capability.OTHER_CELLS,
+)
 
 FORMATS.add(
     "ovm",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.io.base.cursor import Source, shown
+from hexmend.io.base.cursor import ByteCursor, shown
 
 TYPES = {
     "bit": "u1", "char": "i1", "signed_char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2",
@@ -22,7 +22,7 @@ def unquoted(word: str) -> str:
     return unquote(word)
 
 
-def array(source: Source, section: str, rows: int, width: int, kind: str) -> np.ndarray:
+def array(source: ByteCursor, section: str, rows: int, width: int, kind: str) -> np.ndarray:
     """Numbers of a VTK type, in the machine's byte order."""
     code = TYPES.get(kind.lower())
     if code is None:
@@ -45,14 +45,14 @@ def array(source: Source, section: str, rows: int, width: int, kind: str) -> np.
     return source.binary(section, rows, width, f">{code}").astype(code)
 
 
-def whole_numbers(source: Source, section: str, rows: int, kind: str) -> np.ndarray:
+def whole_numbers(source: ByteCursor, section: str, rows: int, kind: str) -> np.ndarray:
     """The same in one column, of a type of whole numbers; (rows,)."""
     if TYPES.get(kind.lower(), "i8")[0] == "f":
         raise source.error(f"{section} has the type {kind}: expected whole numbers")
     return array(source, section, rows, 1, kind)[:, 0]
 
 
-def strings_of(source: Source, count: int) -> list[str]:
+def strings_of(source: ByteCursor, count: int) -> list[str]:
     """Strings: a line for each, or its length and it."""
     if count > len(source.data) - source.pos:
         raise source.error(f"{count} strings are announced before {source.here}: the file ends before")

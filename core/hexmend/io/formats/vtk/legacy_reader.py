@@ -10,8 +10,8 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.capabilities import no_numbers
-from hexmend.io.base.cursor import Source, shown
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.cursor import ByteCursor, shown
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, array, strings_of, unquoted, whole_numbers
 from hexmend.io.formats.vtk.legacy_writer import write
@@ -46,7 +46,7 @@ class _Reader:
                     "Is it a VTK file? Check its suffix.",
                 )
             file.seek(0)
-            self.source = Source(path, file.read())
+            self.source = ByteCursor(path, file.read())
         self.found: dict[str, np.ndarray] = {}
         self.data: dict[str, dict[str, np.ndarray]] = {"POINT_DATA": {}, "CELL_DATA": {}}
         self.fields: dict[str, np.ndarray | list[str]] = {}
@@ -252,7 +252,7 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset(Holds) - {Holds.SIDE_SETS, Holds.EMPTY_SETS},
+        holds=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
         cannot=no_numbers,
         recognised=lambda head: head[:40].lower().lstrip().startswith(b"# vtk datafile"),
     ),

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.capabilities import no_numbers
-from hexmend.io.base.format import FORMATS, Format, Holds
+from hexmend.io.base.format import FORMATS, Capability, Format
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import joined
 from hexmend.io.formats.vtk.vtu_writer import write
 from hexmend.io.formats.vtk.xml_arrays import strings_of, values_of
-from hexmend.io.formats.vtk.xml_document import Document, Element, title
+from hexmend.io.formats.vtk.xml_document import Document, XMLElement, title
 from hexmend.mesh.mesh import Mesh
 
 _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']UnstructuredGrid[\"']")
@@ -44,7 +44,7 @@ def grids_of(path: Path) -> list[Grid]:
     return [replace(grids[0], field_data=fields, notes=notes), *grids[1:]]
 
 
-def _charge(document: Document, piece: Element) -> None:
+def _charge(document: Document, piece: XMLElement) -> None:
     """Announce the arrays of a piece whose lengths its head tells."""
     for section, rows in (("Points", "NumberOfPoints"), ("PointData", "NumberOfPoints"), ("CellData", "NumberOfCells")):
         for array in piece.first(section).arrays():
@@ -58,7 +58,7 @@ def _charge(document: Document, piece: Element) -> None:
             )
 
 
-def _grid(document: Document, piece: Element, left: dict[str, None]) -> Grid:
+def _grid(document: Document, piece: XMLElement, left: dict[str, None]) -> Grid:
     points, cells = document.count(piece, "NumberOfPoints"), document.count(piece, "NumberOfCells")
     found = piece.first("Points").arrays()
     if points and not found:
@@ -87,7 +87,7 @@ def _grid(document: Document, piece: Element, left: dict[str, None]) -> Grid:
     )
 
 
-def _whole(document: Document, array: Element, count: int) -> np.ndarray:
+def _whole(document: Document, array: XMLElement, count: int) -> np.ndarray:
     """Whole numbers, (count,) int64."""
     values = values_of(document, array, count)
     if values.dtype.kind == "f" or (values.dtype == np.uint64 and values.size and values.max() > np.iinfo(int).max):
@@ -98,7 +98,7 @@ def _whole(document: Document, array: Element, count: int) -> np.ndarray:
     return values.astype(np.int64, copy=False)
 
 
-def _data(document: Document, section: Element, rows: int, left: dict[str, None]) -> dict[str, np.ndarray]:
+def _data(document: Document, section: XMLElement, rows: int, left: dict[str, None]) -> dict[str, np.ndarray]:
     answer: dict[str, np.ndarray] = {}
     for array in section.arrays():
         name, width = array.get("Name"), _width(document, array)
@@ -111,7 +111,7 @@ def _data(document: Document, section: Element, rows: int, left: dict[str, None]
     return answer
 
 
-def _field(document: Document, array: Element) -> np.ndarray | list[str]:
+def _field(document: Document, array: XMLElement) -> np.ndarray | list[str]:
     if array.get("type") == "String":
         return strings_of(document, array)
     width = _width(document, array)
@@ -123,7 +123,7 @@ def _field(document: Document, array: Element) -> np.ndarray | list[str]:
     return values if width == 1 else values.reshape(-1, width)
 
 
-def _width(document: Document, array: Element) -> int:
+def _width(document: Document, array: XMLElement) -> int:
     return max(1, document.count(array, "NumberOfComponents"))  # VTK's writers leave 1 away, and old ones say 0
 
 
@@ -136,7 +136,7 @@ FORMATS.add(
         ("binary", "ascii"),
         read,
         write,
-        holds=frozenset(Holds) - {Holds.SIDE_SETS, Holds.EMPTY_SETS},
+        holds=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
         cannot=no_numbers,
         recognised=lambda head: _ROOT.search(head) is not None,
     ),

@@ -13,7 +13,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.decimals import lines
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
-from hexmend.io.formats.vtk.xml_document import TYPES, Document, Element
+from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement
 from hexmend.mesh.mesh import Mesh
 
 _BLOCK = 1 << 20
@@ -131,13 +131,13 @@ def _compare(path: Path, sums: list[tuple[str, int]]) -> None:
         )
 
 
-def _as_written(document: Document, array: Element, values_of: Callable[..., np.ndarray]) -> np.ndarray:
+def _as_written(document: Document, array: XMLElement, values_of: Callable[..., np.ndarray]) -> np.ndarray:
     values = values_of(document, array)
     dtype = np.uint8 if array.get("type") == "String" else document.dtype(array)
     return np.ascontiguousarray(values.astype(dtype, copy=False)).view(np.uint8)
 
 
-def _arrays(element: Element) -> Iterator[Element]:
+def _arrays(element: XMLElement) -> Iterator[XMLElement]:
     """All arrays, in the order of the file."""
     for child in element.children:
         if child.name in ("DataArray", "Array"):

@@ -14,20 +14,20 @@ from collections.abc import Callable
 import numpy as np
 
 from hexmend.io.base.cursor import clipped, count_words
-from hexmend.io.formats.vtk.xml_document import TYPES, Document, Element, title
+from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, title
 
 #: How compressors are named.
 COMPRESSORS = {"vtkZLibDataCompressor": "zlib", "vtkLZ4DataCompressor": "LZ4", "vtkLZMADataCompressor": "LZMA"}
 _LZMA_MEMORY = 1 << 28
 
 
-def values_of(document: Document, array: Element, count: int | None = None) -> np.ndarray:
+def values_of(document: Document, array: XMLElement, count: int | None = None) -> np.ndarray:
     """The numbers of an array.
 
     Parameters
     ----------
     document : Document
-    array : Element
+    array : XMLElement
     count : int, optional
         How many there must be; None where only the array knows it. It must have been told to `Document.allowance`;
         without it that is done here.
@@ -56,7 +56,7 @@ def values_of(document: Document, array: Element, count: int | None = None) -> n
     return values.astype(dtype.newbyteorder("="), copy=False)
 
 
-def strings_of(document: Document, array: Element) -> list[str]:
+def strings_of(document: Document, array: XMLElement) -> list[str]:
     """The strings of an array of them, each of which ends with a zero."""
     data = values_of(document, array).astype(np.uint8).tobytes()
     if not data:
@@ -64,7 +64,7 @@ def strings_of(document: Document, array: Element) -> list[str]:
     return [part.decode("utf-8", errors="replace") for part in data.removesuffix(b"\0").split(b"\0")]
 
 
-def _decimals(document: Document, array: Element, dtype: np.dtype, count: int | None) -> np.ndarray:
+def _decimals(document: Document, array: XMLElement, dtype: np.dtype, count: int | None) -> np.ndarray:
     text = document.text(array)
     if array.get("type") == "String":
         dtype = np.dtype("i2")  # codes, some of them less than 0
@@ -88,7 +88,7 @@ def _decimals(document: Document, array: Element, dtype: np.dtype, count: int | 
     return values.astype(dtype.newbyteorder("="), copy=False)
 
 
-def _bytes(document: Document, array: Element, size: int | None) -> bytes | np.ndarray:
+def _bytes(document: Document, array: XMLElement, size: int | None) -> bytes | np.ndarray:
     """The bytes of an array, unpacked; `size` as `values_of` says."""
     where = array.get("format")
     stream: _Stored | _Encoded
@@ -151,7 +151,7 @@ class _Encoded:
         return len(binascii.a2b_base64(self.text(0, self.after(size)))) == size
 
 
-def _plain(document: Document, array: Element, stream: _Stored | _Encoded, size: int | None) -> bytes:
+def _plain(document: Document, array: XMLElement, stream: _Stored | _Encoded, size: int | None) -> bytes:
     head = _header(document)
     length = _numbers(document, array, stream, 1)[0]
     _check_size(document, array, length, size)
@@ -161,7 +161,7 @@ def _plain(document: Document, array: Element, stream: _Stored | _Encoded, size:
 
 
 def _unpacked(
-    document: Document, array: Element, stream: _Stored | _Encoded, size: int | None, kind: str
+    document: Document, array: XMLElement, stream: _Stored | _Encoded, size: int | None, kind: str
 ) -> np.ndarray:
     blocks = _numbers(document, array, stream, 1)[0]
     if blocks == 0:
@@ -190,13 +190,13 @@ def _unpacked(
     return answer
 
 
-def _numbers(document: Document, array: Element, stream: _Stored | _Encoded, count: int) -> list[int]:
+def _numbers(document: Document, array: XMLElement, stream: _Stored | _Encoded, count: int) -> list[int]:
     """Numbers of an array's head."""
     head = _header(document)
     return np.frombuffer(_taken(document, array, stream, 0, count * head.itemsize), head).tolist()
 
 
-def _taken(document: Document, array: Element, stream: _Stored | _Encoded, at: int, size: int) -> bytes:
+def _taken(document: Document, array: XMLElement, stream: _Stored | _Encoded, at: int, size: int) -> bytes:
     data = stream.read(at, size) if size <= stream.left else b""
     if len(data) != size:
         raise document.error(f"{title(array)} goes on behind the end of the data")
@@ -218,7 +218,7 @@ def _unpacker(kind: str) -> Callable[[bytes, int], bytes]:
     return lambda data, size: block.decompress(data, uncompressed_size=size)
 
 
-def _check_size(document: Document, array: Element, length: int, size: int | None) -> None:
+def _check_size(document: Document, array: XMLElement, length: int, size: int | None) -> None:
     if size is None:
         document.allowance.charge(length, title(array))
     elif length != size:

@@ -30,36 +30,36 @@ _LARGEST = 1 << 28
 
 
 @dataclass(eq=False)
-class Element:
+class XMLElement:
     """An element of the head.
 
     Parameters
     ----------
     name : str
     attributes : dict of str to str
-    children : list of Element
+    children : list of XMLElement
     spans : list of (begin, end)
         Bytes of the file in which its text lies, each from the tag that goes before it.
     """
 
     name: str
     attributes: dict[str, str]
-    children: list[Element] = field(default_factory=list)
+    children: list[XMLElement] = field(default_factory=list)
     spans: list[tuple[int, int]] = field(default_factory=list)
 
     def get(self, key: str, default: str = "") -> str:
         """An attribute."""
         return self.attributes.get(key, default)
 
-    def all(self, name: str) -> Iterator[Element]:
+    def all(self, name: str) -> Iterator[XMLElement]:
         """Children of a name."""
         return (child for child in self.children if child.name == name)
 
-    def first(self, name: str) -> Element:
+    def first(self, name: str) -> XMLElement:
         """The first child of a name, or an empty element where there is none."""
-        return next(self.all(name), Element(name, {}))
+        return next(self.all(name), XMLElement(name, {}))
 
-    def arrays(self) -> list[Element]:
+    def arrays(self) -> list[XMLElement]:
         """Children that are arrays."""
         return [child for child in self.children if child.name in ("DataArray", "Array")]
 
@@ -108,14 +108,14 @@ class Document:
         """The error to raise."""
         return FileError(self.path, problem, remedy)
 
-    def count(self, element: Element, key: str) -> int:
+    def count(self, element: XMLElement, key: str) -> int:
         """A count among the attributes of an element."""
         word = element.get(key, "0").strip()
         if not (word.isascii() and word.isdigit() and len(word) < 19):
             raise self.error(f"{key} of {element.name} is {word[:20]!r}: expected a natural number")
         return int(word)
 
-    def dtype(self, array: Element) -> np.dtype:
+    def dtype(self, array: XMLElement) -> np.dtype:
         """The type of an array's numbers as they lie in the file."""
         kind = array.get("type")
         if kind not in TYPES:
@@ -127,7 +127,7 @@ class Document:
         """The byte order, as NumPy says it."""
         return ">" if self.root.get("byte_order", "LittleEndian") == "BigEndian" else "<"
 
-    def text(self, element: Element) -> bytes:
+    def text(self, element: XMLElement) -> bytes:
         """The text of an element, without that of its children."""
         parts = []
         for begin, end in element.spans:
@@ -153,12 +153,12 @@ class Document:
         encoding = self.root.first("AppendedData").get("encoding", "base64")
         return self._appended + mark + 1, encoding
 
-    def _head(self, kind: str) -> Element:
+    def _head(self, kind: str) -> XMLElement:
         """The elements, up to the appended data."""
         from xml.parsers import expat
 
         parser = expat.ParserCreate(self._encoding)
-        top, count = Element("", {}), 0
+        top, count = XMLElement("", {}), 0
         stack = [top]
 
         def begin(name: str, attributes: dict[str, str]) -> None:
@@ -170,7 +170,7 @@ class Document:
                 self._check(name, attributes, kind)
             else:
                 stack[-1].spans[-1] = (stack[-1].spans[-1][0], at)
-            stack.append(Element(name, attributes, spans=[(at, at)]))
+            stack.append(XMLElement(name, attributes, spans=[(at, at)]))
             stack[-2].children.append(stack[-1])
             if name == "AppendedData":
                 self._appended = at
@@ -209,7 +209,7 @@ class Document:
             raise self.error(f"is a VTKFile of the type {found!r}: expected {kind}", f"Convert it to {kind}.")
 
 
-def title(array: Element) -> str:
+def title(array: XMLElement) -> str:
     """An array for a message."""
     name = array.get("Name", "without name")
     return f"the array {''.join(c if c.isprintable() else '?' for c in name)[:60]!r}"
